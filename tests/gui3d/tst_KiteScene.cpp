@@ -18,7 +18,7 @@ class tst_KiteScene : public QObject
     Q_OBJECT
 private Q_SLOTS:
     void aPathBecomesItsJoinedLines();
-    void anUnknownKiteDrawsNothingOfIt();
+    void unknownKiteStateDrawsNothing();
     void forcesKeepTheirScaleUntilALargerOneComes();
     void theModelOfTheKiteIsReadWhole();
 };
@@ -35,7 +35,7 @@ void tst_KiteScene::aPathBecomesItsJoinedLines()
     QCOMPARE(scene.content().lines.lines(), 2);
 }
 
-void tst_KiteScene::anUnknownKiteDrawsNothingOfIt()
+void tst_KiteScene::unknownKiteStateDrawsNothing()
 {
     QPlcScene3D scene;
     scene.heading = 0.0f;

@@ -28,13 +28,13 @@ class tst_NoOpenGl : public QObject
     Q_OBJECT
 private Q_SLOTS:
     void initTestCase();
-    void theReasonIsTold();
+    void probeReportsTheReason();
     void theWindWindowIsShownWithTheReason();
     void theReasonStaysInThePanel();
-    void settingsComeBackByteByByte();
+    void settingsAreRestoredByteForByte();
     void keysChooseCameras();
     void aWheelIsOneStepForUndo();
-    void theEditorChangesAtOnce();
+    void editorAppliesChangesImmediately();
     void everyActionHasAKeyAndAText();
 };
 
@@ -46,7 +46,7 @@ void tst_NoOpenGl::initTestCase()
     QVERIFY(QPlcWidget::factory(QStringLiteral("3D view")));
 }
 
-void tst_NoOpenGl::theReasonIsTold()
+void tst_NoOpenGl::probeReportsTheReason()
 {
     const QString reason = OpenGlProbe::probe().error;
     QVERIFY2(reason.contains(expectedReason()), qPrintable(reason));
@@ -80,7 +80,7 @@ void tst_NoOpenGl::theReasonStaysInThePanel()
     }
 }
 
-void tst_NoOpenGl::settingsComeBackByteByByte()
+void tst_NoOpenGl::settingsAreRestoredByteForByte()
 {
     KiteView view;
     QCOMPARE(view.settings(), QJsonObject());
@@ -126,7 +126,7 @@ void tst_NoOpenGl::aWheelIsOneStepForUndo()
     QCOMPARE(edits.count(), 1);
 }
 
-void tst_NoOpenGl::theEditorChangesAtOnce()
+void tst_NoOpenGl::editorAppliesChangesImmediately()
 {
     KiteView view;
     QSignalSpy edits(&view, &QPlcWidget::settingsEdited);

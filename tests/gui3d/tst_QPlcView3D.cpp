@@ -32,10 +32,10 @@ class tst_QPlcView3D : public QObject
     Q_OBJECT
 private Q_SLOTS:
     void initTestCase();
-    void theKiteIsSeenWhereItFlies_data();
-    void theKiteIsSeenWhereItFlies();
-    void picturesComeWhileItIsSeenAndNotMoreThanThirtyASecond();
-    void aBodyIsSeenWhereItsSignalsSay();
+    void kiteIsDrawnAtItsPosition_data();
+    void kiteIsDrawnAtItsPosition();
+    void visibleViewDrawsAtMostThirtyPicturesPerSecond();
+    void bodyIsDrawnAtThePoseOfItsSignals();
     void entitiesOfAUserAreSeen();
     void theSceneKeepsItsNodes();
     void aFrozenWindowNeedsNoPictures();
@@ -43,10 +43,10 @@ private Q_SLOTS:
     void aMouseWithShiftCtrlAndAltMovesTheCamera_data();
     void aMouseWithShiftCtrlAndAltMovesTheCamera();
     void anotherThemeHasAnotherBackground();
-    void aModelThatCannotBeReadIsNamedAndTheKiteFlies();
-    void severalViewsComeAndGo();
-    void aPanelWithoutAPlantSaysSo();
-    void aPictureCostsTheWindowLittle();
+    void unreadableModelFallsBackToTheBuiltInModel();
+    void severalViewsCanBeCreatedAndDestroyed();
+    void panelReportsAMissingPlant();
+    void medianDrawingTimeStaysBelowItsLimit();
 
 private:
     View3DPicture *pictureOf(QPlcView3D *view) { return view->findChild<View3DPicture *>(); }
@@ -92,14 +92,14 @@ void tst_QPlcView3D::keep(const QImage &image, const char *name)
                            .arg(folder, QString::fromLatin1(name).replace(QLatin1Char(' '), QLatin1Char('_')))));
 }
 
-void tst_QPlcView3D::theKiteIsSeenWhereItFlies_data()
+void tst_QPlcView3D::kiteIsDrawnAtItsPosition_data()
 {
     QTest::addColumn<int>("preset");
     for (int i = 0; i < OrbitCamera::presets; ++i)
         QTest::newRow(qPrintable(OrbitCamera::presetText(OrbitCamera::Preset(i)))) << i;
 }
 
-void tst_QPlcView3D::theKiteIsSeenWhereItFlies()
+void tst_QPlcView3D::kiteIsDrawnAtItsPosition()
 {
     QFETCH(int, preset);
     OrbitCamera camera;
@@ -125,7 +125,7 @@ void tst_QPlcView3D::theKiteIsSeenWhereItFlies()
         QVERIFY(countPixels(image, QRect(0, 0, 640, 430), isOrangeOrBlue) - here < here / 4);
 }
 
-void tst_QPlcView3D::picturesComeWhileItIsSeenAndNotMoreThanThirtyASecond()
+void tst_QPlcView3D::visibleViewDrawsAtMostThirtyPicturesPerSecond()
 {
     ShownView shown({}, false);
     QElapsedTimer time;
@@ -146,7 +146,7 @@ void tst_QPlcView3D::picturesComeWhileItIsSeenAndNotMoreThanThirtyASecond()
 }
 
 /// The panel of the library, which knows no kite: a magenta plate, flat at first, then on its edge.
-void tst_QPlcView3D::aBodyIsSeenWhereItsSignalsSay()
+void tst_QPlcView3D::bodyIsDrawnAtThePoseOfItsSignals()
 {
     QTemporaryDir folder;
     QFile model(folder.filePath(QStringLiteral("plate.obj")));
@@ -323,7 +323,7 @@ void tst_QPlcView3D::anotherThemeHasAnotherBackground()
     }
 }
 
-void tst_QPlcView3D::aModelThatCannotBeReadIsNamedAndTheKiteFlies()
+void tst_QPlcView3D::unreadableModelFallsBackToTheBuiltInModel()
 {
     ShownView shown({{"model", "/nowhere/a.obj"}, {"camera", "chase"}, {"vectors", false}, {"axes", false}});
     const QImage image = shown.view.grab().toImage();
@@ -331,7 +331,7 @@ void tst_QPlcView3D::aModelThatCannotBeReadIsNamedAndTheKiteFlies()
     QCOMPARE(shown.view.settings().value(QStringLiteral("model")).toString(), QStringLiteral("/nowhere/a.obj"));
 }
 
-void tst_QPlcView3D::severalViewsComeAndGo()
+void tst_QPlcView3D::severalViewsCanBeCreatedAndDestroyed()
 {
     FlyingPlant plant;
     QVERIFY(plant.fly());
@@ -351,7 +351,7 @@ void tst_QPlcView3D::severalViewsComeAndGo()
     QVERIFY(plant.context.plants()->at(0)->isConnected());
 }
 
-void tst_QPlcView3D::aPanelWithoutAPlantSaysSo()
+void tst_QPlcView3D::panelReportsAMissingPlant()
 {
     WindowContext context;
     KiteView view;
@@ -366,7 +366,7 @@ void tst_QPlcView3D::aPanelWithoutAPlantSaysSo()
 }
 
 /// Also the measurement of docs/control-center-figures.md: prints what pictures cost.
-void tst_QPlcView3D::aPictureCostsTheWindowLittle()
+void tst_QPlcView3D::medianDrawingTimeStaysBelowItsLimit()
 {
     ShownView shown({{"trail", 60}}, false);
     shown.drawn.clear();

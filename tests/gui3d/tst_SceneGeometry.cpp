@@ -47,42 +47,42 @@ class tst_SceneGeometry : public QObject
 {
     Q_OBJECT
 private Q_SLOTS:
-    void everyPresetSeesTheKiteAndAllButTheChaseTheWinch_data();
-    void everyPresetSeesTheKiteAndAllButTheChaseTheWinch();
-    void whatIsDownwindIsSeenFromTheGroundStationInTheMiddle();
-    void fromAboveDownwindIsUp();
+    void everyPresetShowsTheKiteAndAllExceptChaseShowTheWinch_data();
+    void everyPresetShowsTheKiteAndAllExceptChaseShowTheWinch();
+    void groundStationCameraCentersTheDownwindDirection();
+    void topCameraShowsDownwindUpwards();
     void theChaseCameraStandsBehindAndOutside();
     void upIsAcrossTheLineOfSight();
     void draggingTurnsAndHasLimits();
     void draggingSidewaysMovesThePictureWithTheMouse();
     void zoomHasLimits();
     void theSceneGrowsInStepsAndDoesNotFlicker();
-    void whatIsBehindTheEyeIsNotProjected();
+    void pointsBehindTheCameraAreNotProjected();
     void aLineIsFourVerticesWithItsSides();
     void indicesMakeTwoTrianglesOfEachLine();
-    void anArrowWithoutLengthIsNothing();
-    void withoutABodyThereIsOnlyTheGround();
-    void aSmallKiteIsDrawnLargerAndANearOneIsNot();
+    void zeroLengthArrowIsNotDrawn();
+    void sceneWithoutBodyDrawsOnlyTheGround();
+    void distantKiteIsEnlargedAndNearKiteIsNot();
     void aModelIsReadWithItsColorsNormalsAndLines();
     void aBrokenModelIsRefusedWithLineAndReason_data();
     void aBrokenModelIsRefusedWithLineAndReason();
     void aMissingModelIsNamed();
     void entitiesAreMarksLinesAndArrowsAtSignals();
-    void entitiesThatAreNonsenseAreLeftOutAndMissingSignalsNamed();
-    void settingsComeBackWithoutWhatIsDefault();
-    void settingsThatAreNonsenseAreDefaults();
+    void invalidEntitiesAreIgnoredAndMissingSignalsAreNamed();
+    void settingsAreRestoredAndDefaultsAreNotWritten();
+    void invalidSettingsGetTheirDefaults();
     void picturesComeAtMostThirtyTimesASecondAndLessWhenTheyCostMuch();
     void lengthsOfTheScaleAreRound();
 };
 
-void tst_SceneGeometry::everyPresetSeesTheKiteAndAllButTheChaseTheWinch_data()
+void tst_SceneGeometry::everyPresetShowsTheKiteAndAllExceptChaseShowTheWinch_data()
 {
     QTest::addColumn<int>("preset");
     for (int i = 0; i < OrbitCamera::presets; ++i)
         QTest::newRow(qPrintable(OrbitCamera::presetText(OrbitCamera::Preset(i)))) << i;
 }
 
-void tst_SceneGeometry::everyPresetSeesTheKiteAndAllButTheChaseTheWinch()
+void tst_SceneGeometry::everyPresetShowsTheKiteAndAllExceptChaseShowTheWinch()
 {
     QFETCH(int, preset);
     const OrbitCamera::Scene scene = sceneWithKite();
@@ -95,7 +95,7 @@ void tst_SceneGeometry::everyPresetSeesTheKiteAndAllButTheChaseTheWinch()
     QCOMPARE(OrbitCamera::presetOf(OrbitCamera::presetText(OrbitCamera::Preset(preset))), OrbitCamera::Preset(preset));
 }
 
-void tst_SceneGeometry::whatIsDownwindIsSeenFromTheGroundStationInTheMiddle()
+void tst_SceneGeometry::groundStationCameraCentersTheDownwindDirection()
 {
     const CameraPose pose = camera(OrbitCamera::GroundStation).pose(sceneWithKite());
     const QPointF downwind = *projected(pose, positionOf({30, 20, 90}), screen);
@@ -106,7 +106,7 @@ void tst_SceneGeometry::whatIsDownwindIsSeenFromTheGroundStationInTheMiddle()
     QVERIFY(higher.y() < downwind.y() - 20);
 }
 
-void tst_SceneGeometry::fromAboveDownwindIsUp()
+void tst_SceneGeometry::topCameraShowsDownwindUpwards()
 {
     const CameraPose pose = camera(OrbitCamera::Top).pose(sceneWithKite());
     const QPointF winch = *projected(pose, {}, screen);
@@ -185,7 +185,7 @@ void tst_SceneGeometry::theSceneGrowsInStepsAndDoesNotFlicker()
     QCOMPARE(roundSceneSize(NAN, 200), 200.0f);
 }
 
-void tst_SceneGeometry::whatIsBehindTheEyeIsNotProjected()
+void tst_SceneGeometry::pointsBehindTheCameraAreNotProjected()
 {
     const CameraPose pose = OrbitCamera().pose(sceneWithKite());
     QVERIFY(!projected(pose, pose.eye - (pose.target - pose.eye), screen));
@@ -220,7 +220,7 @@ void tst_SceneGeometry::indicesMakeTwoTrianglesOfEachLine()
     QVERIFY(LineBatch::indexBytes(0).isEmpty());
 }
 
-void tst_SceneGeometry::anArrowWithoutLengthIsNothing()
+void tst_SceneGeometry::zeroLengthArrowIsNotDrawn()
 {
     LineBatch batch;
     batch.addArrow({1, 1, 1}, {1, 1, 1}, Qt::red, 1, 1);
@@ -231,7 +231,7 @@ void tst_SceneGeometry::anArrowWithoutLengthIsNothing()
         QVERIFY(std::isfinite(vertex.position[0]) && vertex.position[2] <= 5.0f);
 }
 
-void tst_SceneGeometry::withoutABodyThereIsOnlyTheGround()
+void tst_SceneGeometry::sceneWithoutBodyDrawsOnlyTheGround()
 {
     QPlcScene3D scene;
     scene.theme = Theme::byName(Theme::Light);
@@ -255,7 +255,7 @@ void tst_SceneGeometry::withoutABodyThereIsOnlyTheGround()
     QVERIFY(drawn() > 10);
 }
 
-void tst_SceneGeometry::aSmallKiteIsDrawnLargerAndANearOneIsNot()
+void tst_SceneGeometry::distantKiteIsEnlargedAndNearKiteIsNot()
 {
     const OrbitCamera::Scene scene = sceneWithKite();
     QVERIFY(visibleBodyScale(camera(OrbitCamera::Side).pose(scene), scene.body, 1.0f) > 2.0f);
@@ -346,7 +346,7 @@ void tst_SceneGeometry::entitiesAreMarksLinesAndArrowsAtSignals()
     QCOMPARE(scene.content().labels[0].place, QVector3D(1, 2, 3));
 }
 
-void tst_SceneGeometry::entitiesThatAreNonsenseAreLeftOutAndMissingSignalsNamed()
+void tst_SceneGeometry::invalidEntitiesAreIgnoredAndMissingSignalsAreNamed()
 {
     const QJsonArray json{1,
                           "kite",
@@ -367,7 +367,7 @@ void tst_SceneGeometry::entitiesThatAreNonsenseAreLeftOutAndMissingSignalsNamed(
              settings);  // kept, also what nobody understands
 }
 
-void tst_SceneGeometry::settingsComeBackWithoutWhatIsDefault()
+void tst_SceneGeometry::settingsAreRestoredAndDefaultsAreNotWritten()
 {
     QCOMPARE(View3DSettings().toJson(), QJsonObject());
     const QJsonObject json{
@@ -382,7 +382,7 @@ void tst_SceneGeometry::settingsComeBackWithoutWhatIsDefault()
     QVERIFY(settings.isShown(QStringLiteral("ground")));
 }
 
-void tst_SceneGeometry::settingsThatAreNonsenseAreDefaults()
+void tst_SceneGeometry::invalidSettingsGetTheirDefaults()
 {
     QJsonObject rest;
     const QJsonObject json{{"camera", 7}, {"view", "far"}, {"bodyScale", 1e9}, {"ground", "yes"}, {"new", 1}};

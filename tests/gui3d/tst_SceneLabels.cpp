@@ -13,8 +13,8 @@ class tst_SceneLabels : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void theNameOfAnAxisThatPointsAtTheViewerIsNotSeen_data();
-    void theNameOfAnAxisThatPointsAtTheViewerIsNotSeen();
+    void axisNameIsHiddenWhenTheAxisPointsAtTheViewer_data();
+    void axisNameIsHiddenWhenTheAxisPointsAtTheViewer();
     void labelsDoNotLieOnEachOther();
 };
 
@@ -29,7 +29,7 @@ std::vector<QRectF> boxesOf(const std::vector<SceneLabel> &labels, const CameraP
 
 }  // namespace
 
-void tst_SceneLabels::theNameOfAnAxisThatPointsAtTheViewerIsNotSeen_data()
+void tst_SceneLabels::axisNameIsHiddenWhenTheAxisPointsAtTheViewer_data()
 {
     QTest::addColumn<QVector3D>("eye");
     QTest::addColumn<QVector3D>("up");
@@ -40,7 +40,7 @@ void tst_SceneLabels::theNameOfAnAxisThatPointsAtTheViewerIsNotSeen_data()
     QTest::newRow("from a corner") << QVector3D(200, -200, 100) << QVector3D(-0.24f, 0.24f, 0.94f) << "";
 }
 
-void tst_SceneLabels::theNameOfAnAxisThatPointsAtTheViewerIsNotSeen()
+void tst_SceneLabels::axisNameIsHiddenWhenTheAxisPointsAtTheViewer()
 {
     QFETCH(QVector3D, eye);
     QFETCH(QVector3D, up);

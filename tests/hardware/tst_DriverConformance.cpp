@@ -121,25 +121,25 @@ class tst_DriverConformance : public QObject
 
 private Q_SLOTS:
     void initTestCase();
-    void everyKindIsHere();
+    void everyDriverKindIsTested();
     void valuesArriveFresh_data() { addRows(); }
     void valuesArriveFresh();
     void aSilentDeviceHasNoFreshValues_data() { addRows(&TestDevice::isEverSilent); }
     void aSilentDeviceHasNoFreshValues();
     void aMissingDeviceIsNamedWithARemedy_data() { addRows(&TestDevice::isPluggable); }
     void aMissingDeviceIsNamedWithARemedy();
-    void aDeviceThatIsUnpluggedIsNoticedAndComesBack_data() { addRows(&TestDevice::isPluggable); }
-    void aDeviceThatIsUnpluggedIsNoticedAndComesBack();
+    void unpluggedDeviceIsDetectedAndReconnects_data() { addRows(&TestDevice::isPluggable); }
+    void unpluggedDeviceIsDetectedAndReconnects();
     void aMissingDeviceIsOpenedAgainAndAgain_data() { addRows(&TestDevice::isPluggable); }
     void aMissingDeviceIsOpenedAgainAndAgain();
-    void outputsAreLeftAloneUntilTheirValueIsKnown_data() { addRows(&TestDevice::hasOutputs); }
-    void outputsAreLeftAloneUntilTheirValueIsKnown();
+    void outputsStayUnchangedUntilTheirValueIsKnown_data() { addRows(&TestDevice::hasOutputs); }
+    void outputsStayUnchangedUntilTheirValueIsKnown();
     void outputsAreSafeBeforeTheFirstCycle_data() { addRows(&TestDevice::hasOutputs); }
     void outputsAreSafeBeforeTheFirstCycle();
     void outputsAreSafeAgainAtTheEnd_data() { addRows(&TestDevice::hasOutputs); }
     void outputsAreSafeAgainAtTheEnd();
-    void outputsOfADeviceThatComesBackAreThoseOfNow_data() { addRows(&TestDevice::hasOutputsAndIsPluggable); }
-    void outputsOfADeviceThatComesBackAreThoseOfNow();
+    void reconnectedDeviceGetsCurrentOutputs_data() { addRows(&TestDevice::hasOutputsAndIsPluggable); }
+    void reconnectedDeviceGetsCurrentOutputs();
 
 private:
     /// A row for each device that is fit for it.
@@ -174,7 +174,7 @@ void tst_DriverConformance::initTestCase()
     addSpiDevices(&m_devices);
 }
 
-void tst_DriverConformance::everyKindIsHere()
+void tst_DriverConformance::everyDriverKindIsTested()
 {
     QStringList kinds;
     for (const auto &make : m_devices)
@@ -224,7 +224,7 @@ void tst_DriverConformance::aMissingDeviceIsNamedWithARemedy()
     QVERIFY2(error.contains(QLatin1String("; ")), qPrintable(error));  // what, and behind that the remedy
 }
 
-void tst_DriverConformance::aDeviceThatIsUnpluggedIsNoticedAndComesBack()
+void tst_DriverConformance::unpluggedDeviceIsDetectedAndReconnects()
 {
     Rig rig(deviceOfRow());
     QVERIFY(rig.device->plugIn());
@@ -263,7 +263,7 @@ void tst_DriverConformance::aMissingDeviceIsOpenedAgainAndAgain()
     rig.bench.runner().stop();
 }
 
-void tst_DriverConformance::outputsAreLeftAloneUntilTheirValueIsKnown()
+void tst_DriverConformance::outputsStayUnchangedUntilTheirValueIsKnown()
 {
     Rig rig(deviceOfRow());
     QVERIFY(rig.device->plugIn());
@@ -306,7 +306,7 @@ void tst_DriverConformance::outputsAreSafeAgainAtTheEnd()
 }
 
 // A value from before it was lost must not come first.
-void tst_DriverConformance::outputsOfADeviceThatComesBackAreThoseOfNow()
+void tst_DriverConformance::reconnectedDeviceGetsCurrentOutputs()
 {
     Rig rig(deviceOfRow());
     QVERIFY(rig.device->plugIn());

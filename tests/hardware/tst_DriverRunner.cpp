@@ -65,36 +65,36 @@ private Q_SLOTS:
     void aValueIsFreshForItsTimeout_data() { addPaces(); }
     void aValueIsFreshForItsTimeout();
     void theTimeoutIsThreeIntervalsUnlessGiven();
-    void withoutASafeValueTheDeviceIsLeftAlone_data() { addPaces(); }
-    void withoutASafeValueTheDeviceIsLeftAlone();
-    void aDeviceIsGivenWhatIsKnownWhenItOpens();
+    void outputWithoutSafeValueIsNotWritten_data() { addPaces(); }
+    void outputWithoutSafeValueIsNotWritten();
+    void openedDeviceGetsKnownValues();
     void aDeviceThatFailsHasNoValues_data() { addPaces(); }
     void aDeviceThatFailsHasNoValues();
     void aDeviceThatIsMissingIsOpenedAgainAndAgain_data() { addPaces(); }
     void aDeviceThatIsMissingIsOpenedAgainAndAgain();
     void aDeviceThatOpensAndDoesNotAnswerIsMissing_data() { addPaces(); }
     void aDeviceThatOpensAndDoesNotAnswerIsMissing();
-    void anErrorIsToldOnceAndItsEndToo();
-    void stopGivesTheLastValuesAndCloses_data() { addPaces(); }
-    void stopGivesTheLastValuesAndCloses();
-    void valuesOfTheCycleAreGivenAgainAfterItHasLeft_data() { addPaces(); }
-    void valuesOfTheCycleAreGivenAgainAfterItHasLeft();
+    void errorAndItsEndAreReportedOnce();
+    void stopWritesTheLastValuesAndCloses_data() { addPaces(); }
+    void stopWritesTheLastValuesAndCloses();
+    void lastCycleValuesAreWrittenAgainAfterTheCyclesEnd_data() { addPaces(); }
+    void lastCycleValuesAreWrittenAgainAfterTheCyclesEnd();
     void valuesAreFreshWithoutCycles_data() { addPaces(); }
     void valuesAreFreshWithoutCycles();
-    void aDeviceThatIsLostWithoutCyclesIsTold_data() { addPaces(); }
-    void aDeviceThatIsLostWithoutCyclesIsTold();
-    void theCycleTakesTheDeviceAgain();
-    void cycleAndThreadNeverMeetInTheDriver();
-    void aDeviceThatOpensInTheMeantimeGetsTheValuesOfNow_data() { addPaces(); }
-    void aDeviceThatOpensInTheMeantimeGetsTheValuesOfNow();
-    void codeThatThrowsIsADeviceThatFails_data();
-    void codeThatThrowsIsADeviceThatFails();
-    void codeThatThrowsInACycleIsADeviceThatIsLost_data();
-    void codeThatThrowsInACycleIsADeviceThatIsLost();
-    void codeThatThrowsAtTheEndIsTold();
+    void deviceLossWithoutCyclesIsReported_data() { addPaces(); }
+    void deviceLossWithoutCyclesIsReported();
+    void newCycleUsesTheDeviceAgain();
+    void cycleAndThreadNeverCallTheDriverTogether();
+    void deviceOpenedDuringCyclesGetsCurrentValues_data() { addPaces(); }
+    void deviceOpenedDuringCyclesGetsCurrentValues();
+    void exceptionCountsAsDeviceFailure_data();
+    void exceptionCountsAsDeviceFailure();
+    void exceptionInACycleCountsAsDeviceLoss_data();
+    void exceptionInACycleCountsAsDeviceLoss();
+    void exceptionOnCloseIsReported();
     void everyDriverTellsWhetherItIsOnline();
-    void anUnknownChannelIsNamedWithThoseThatThereAre();
-    void theErrorOfACycleNamesWhatAndWhyAndTheRemedy();
+    void unknownChannelErrorListsKnownChannels();
+    void cycleErrorNamesActionReasonAndRemedy();
 };
 
 void tst_DriverRunner::valuesFlowBothWays()
@@ -143,7 +143,7 @@ void tst_DriverRunner::theTimeoutIsThreeIntervalsUnlessGiven()
              QString("bench.ini:4:12: 'interval' is not a key of this driver"));
 }
 
-void tst_DriverRunner::withoutASafeValueTheDeviceIsLeftAlone()
+void tst_DriverRunner::outputWithoutSafeValueIsNotWritten()
 {
     QFETCH(int, pace);
     Bench bench(pace);
@@ -158,7 +158,7 @@ void tst_DriverRunner::withoutASafeValueTheDeviceIsLeftAlone()
     QCOMPARE(bench.device->brake.load(), 1.0);
 }
 
-void tst_DriverRunner::aDeviceIsGivenWhatIsKnownWhenItOpens()
+void tst_DriverRunner::openedDeviceGetsKnownValues()
 {
     Bench bench(QPlcDriver::EveryCycle);
     bench.wireWrite("torque");
@@ -232,7 +232,7 @@ void tst_DriverRunner::aDeviceThatOpensAndDoesNotAnswerIsMissing()
     QCOMPARE(bench.device->closed.load(), bench.device->opened.load());
 }
 
-void tst_DriverRunner::anErrorIsToldOnceAndItsEndToo()
+void tst_DriverRunner::errorAndItsEndAreReportedOnce()
 {
     Reports reports;
     Bench bench(QPlcDriver::OwnPace, "device = bench0\ninterval = 1 ms\n");
@@ -251,7 +251,7 @@ void tst_DriverRunner::anErrorIsToldOnceAndItsEndToo()
     bench.runner().stop();
 }
 
-void tst_DriverRunner::stopGivesTheLastValuesAndCloses()
+void tst_DriverRunner::stopWritesTheLastValuesAndCloses()
 {
     QFETCH(int, pace);
     Reports reports;
@@ -266,7 +266,7 @@ void tst_DriverRunner::stopGivesTheLastValuesAndCloses()
     QCOMPARE(bench.device->closed.load(), 1);
 }
 
-void tst_DriverRunner::valuesOfTheCycleAreGivenAgainAfterItHasLeft()
+void tst_DriverRunner::lastCycleValuesAreWrittenAgainAfterTheCyclesEnd()
 {
     QFETCH(int, pace);
     Bench bench(pace);
@@ -309,7 +309,7 @@ void tst_DriverRunner::valuesAreFreshWithoutCycles()
     bench.runner().stop();
 }
 
-void tst_DriverRunner::aDeviceThatIsLostWithoutCyclesIsTold()
+void tst_DriverRunner::deviceLossWithoutCyclesIsReported()
 {
     QFETCH(int, pace);
     Reports reports;
@@ -326,7 +326,7 @@ void tst_DriverRunner::aDeviceThatIsLostWithoutCyclesIsTold()
     bench.runner().stop();
 }
 
-void tst_DriverRunner::theCycleTakesTheDeviceAgain()
+void tst_DriverRunner::newCycleUsesTheDeviceAgain()
 {
     Bench bench(QPlcDriver::EveryCycle);
     bench.wireWrite("torque");
@@ -346,7 +346,7 @@ void tst_DriverRunner::theCycleTakesTheDeviceAgain()
     bench.runner().stop();
 }
 
-void tst_DriverRunner::cycleAndThreadNeverMeetInTheDriver()
+void tst_DriverRunner::cycleAndThreadNeverCallTheDriverTogether()
 {
     Bench bench(QPlcDriver::EveryCycle);
     bench.wireRead("speed");
@@ -373,7 +373,7 @@ void tst_DriverRunner::cycleAndThreadNeverMeetInTheDriver()
     QVERIFY(!bench.device->hasMet);
 }
 
-void tst_DriverRunner::aDeviceThatOpensInTheMeantimeGetsTheValuesOfNow()
+void tst_DriverRunner::deviceOpenedDuringCyclesGetsCurrentValues()
 {
     QFETCH(int, pace);
     Bench bench(pace, pace == QPlcDriver::OwnPace ? "device = bench0\ninterval = 1 h\n" : "device = bench0\n");
@@ -391,7 +391,7 @@ void tst_DriverRunner::aDeviceThatOpensInTheMeantimeGetsTheValuesOfNow()
     bench.runner().stop();
 }
 
-void tst_DriverRunner::codeThatThrowsIsADeviceThatFails_data()
+void tst_DriverRunner::exceptionCountsAsDeviceFailure_data()
 {
     QTest::addColumn<int>("pace");
     QTest::addColumn<QByteArray>("function");
@@ -401,7 +401,7 @@ void tst_DriverRunner::codeThatThrowsIsADeviceThatFails_data()
     }
 }
 
-void tst_DriverRunner::codeThatThrowsIsADeviceThatFails()
+void tst_DriverRunner::exceptionCountsAsDeviceFailure()
 {
     QFETCH(int, pace);
     QFETCH(QByteArray, function);
@@ -417,14 +417,14 @@ void tst_DriverRunner::codeThatThrowsIsADeviceThatFails()
     bench.runner().stop();
 }
 
-void tst_DriverRunner::codeThatThrowsInACycleIsADeviceThatIsLost_data()
+void tst_DriverRunner::exceptionInACycleCountsAsDeviceLoss_data()
 {
     QTest::addColumn<QByteArray>("function");
     QTest::newRow("write") << QByteArray("write");
     QTest::newRow("read") << QByteArray("read");
 }
 
-void tst_DriverRunner::codeThatThrowsInACycleIsADeviceThatIsLost()
+void tst_DriverRunner::exceptionInACycleCountsAsDeviceLoss()
 {
     QFETCH(QByteArray, function);
     Bench bench(QPlcDriver::EveryCycle);
@@ -440,7 +440,7 @@ void tst_DriverRunner::codeThatThrowsInACycleIsADeviceThatIsLost()
     QCOMPARE(bench.runner().failures(), quint64(1));
 }
 
-void tst_DriverRunner::codeThatThrowsAtTheEndIsTold()
+void tst_DriverRunner::exceptionOnCloseIsReported()
 {
     Reports reports;
     Bench bench(QPlcDriver::OwnPace);
@@ -474,14 +474,14 @@ void tst_DriverRunner::everyDriverTellsWhetherItIsOnline()
     QCOMPARE(bench.value("@failures"), 1.0);
 }
 
-void tst_DriverRunner::anUnknownChannelIsNamedWithThoseThatThereAre()
+void tst_DriverRunner::unknownChannelErrorListsKnownChannels()
 {
     Bench bench(QPlcDriver::EveryCycle);
     QCOMPARE(bench.wireRead("sped"), QString("driver 'bench' has no channel 'sped' to read; did you mean 'speed'?"));
     QCOMPARE(bench.wireRead("torque"), QString("driver 'bench' has no channel 'torque' to read; known are: speed"));
 }
 
-void tst_DriverRunner::theErrorOfACycleNamesWhatAndWhyAndTheRemedy()
+void tst_DriverRunner::cycleErrorNamesActionReasonAndRemedy()
 {
     for (const QPlcDriver::Pace pace : Paces) {
         Bench bench(pace);

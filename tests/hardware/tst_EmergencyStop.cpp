@@ -80,8 +80,8 @@ private Q_SLOTS:
     void aButtonWithoutAValueStopsThePlantToo();
     void theWiringOfTheGpioPageStopsThePlantAndSetsTheBrake_data();
     void theWiringOfTheGpioPageStopsThePlantAndSetsTheBrake();
-    void everyWiringThatWePublishTakesATornWireForAPressedButton_data();
-    void everyWiringThatWePublishTakesATornWireForAPressedButton();
+    void publishedWiringsTreatTornWireAsPressedButton_data();
+    void publishedWiringsTreatTornWireAsPressedButton();
 
 private:
     WinchBench m_bench;
@@ -177,7 +177,7 @@ void tst_EmergencyStop::theWiringOfTheGpioPageStopsThePlantAndSetsTheBrake()
 }
 
 /// Every line of a stop button in what people read and copy.
-void tst_EmergencyStop::everyWiringThatWePublishTakesATornWireForAPressedButton_data()
+void tst_EmergencyStop::publishedWiringsTreatTornWireAsPressedButton_data()
 {
     static const QRegularExpression button(QStringLiteral("^[ /]*input\\.(\\w*[sS]top\\w*) = ([^;\n]*)"),
                                            QRegularExpression::MultilineOption);
@@ -197,7 +197,7 @@ void tst_EmergencyStop::everyWiringThatWePublishTakesATornWireForAPressedButton_
     }
 }
 
-void tst_EmergencyStop::everyWiringThatWePublishTakesATornWireForAPressedButton()
+void tst_EmergencyStop::publishedWiringsTreatTornWireAsPressedButton()
 {
     QFETCH(QString, name);
     QFETCH(QString, words);

@@ -35,13 +35,13 @@ private Q_SLOTS:
     void termsAreNamesWithFactorAndOffset();
     void aWholeFileIsUnderstood_data();
     void aWholeFileIsUnderstood();
-    void whatIsWrongIsNamedWithItsPlace_data();
-    void whatIsWrongIsNamedWithItsPlace();
+    void errorsAreReportedWithTheirPosition_data();
+    void errorsAreReportedWithTheirPosition();
     void aMissingFileIsNamed();
-    void aNodeThatWasRefusedHasNoWires();
-    void settingsTakeWhatTheyAreAskedFor();
-    void settingsNameWhatCannotBeMeant_data();
-    void settingsNameWhatCannotBeMeant();
+    void refusedConfigurationLeavesNoWires();
+    void settingsReturnTheRequestedType();
+    void invalidSettingsAreReported_data();
+    void invalidSettingsAreReported();
 };
 
 void tst_HardwareConfiguration::termsAreNamesWithFactorAndOffset_data()
@@ -131,7 +131,7 @@ void tst_HardwareConfiguration::aWholeFileIsUnderstood()
     QCOMPARE(node.wires().size(), 2);
 }
 
-void tst_HardwareConfiguration::whatIsWrongIsNamedWithItsPlace_data()
+void tst_HardwareConfiguration::errorsAreReportedWithTheirPosition_data()
 {
     QTest::addColumn<QByteArray>("text");
     QTest::addColumn<QString>("error");
@@ -193,7 +193,7 @@ void tst_HardwareConfiguration::whatIsWrongIsNamedWithItsPlace_data()
         << "winch.ini: no channel gives a value to a[0], a[1]; add it to a section 'read'";
 }
 
-void tst_HardwareConfiguration::whatIsWrongIsNamedWithItsPlace()
+void tst_HardwareConfiguration::errorsAreReportedWithTheirPosition()
 {
     QFETCH(QByteArray, text);
     QFETCH(QString, error);
@@ -215,7 +215,7 @@ void tst_HardwareConfiguration::aMissingFileIsNamed()
             .section('\n', 0, 0));
 }
 
-void tst_HardwareConfiguration::aNodeThatWasRefusedHasNoWires()
+void tst_HardwareConfiguration::refusedConfigurationLeavesNoWires()
 {
     QPlcHardwareNode node;
     QVERIFY(!node.configure("[drive]\ndriver = bench\ndevice = b\n[drive.read]\nspeed = speed\nother = nonsense\n",
@@ -224,7 +224,7 @@ void tst_HardwareConfiguration::aNodeThatWasRefusedHasNoWires()
     QVERIFY(node.drivers().isEmpty());
 }
 
-void tst_HardwareConfiguration::settingsTakeWhatTheyAreAskedFor()
+void tst_HardwareConfiguration::settingsReturnTheRequestedType()
 {
     HardwareConfiguration configuration("[d]\ndriver = x\ntext = a b\nreal = 2.5\nwhole = -3\nhex = 0x7F\nyes = on\nno "
                                         "= 0\ntime = 2.5 ms\nword = b\nwords = a, b ,c\n"
@@ -252,7 +252,7 @@ void tst_HardwareConfiguration::settingsTakeWhatTheyAreAskedFor()
     QCOMPARE(configuration.errors().size(), 2);  // the lines
 }
 
-void tst_HardwareConfiguration::settingsNameWhatCannotBeMeant_data()
+void tst_HardwareConfiguration::invalidSettingsAreReported_data()
 {
     QTest::addColumn<QByteArray>("line");
     QTest::addColumn<QString>("error");
@@ -267,7 +267,7 @@ void tst_HardwareConfiguration::settingsNameWhatCannotBeMeant_data()
     QTest::newRow("word") << QByteArray("word = c") << "word = 'c' is not one of 'a', 'b'";
 }
 
-void tst_HardwareConfiguration::settingsNameWhatCannotBeMeant()
+void tst_HardwareConfiguration::invalidSettingsAreReported()
 {
     QFETCH(QByteArray, line);
     QFETCH(QString, error);

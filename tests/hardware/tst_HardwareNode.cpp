@@ -9,35 +9,35 @@ class tst_HardwareNode : public QObject
 
 private Q_SLOTS:
     void init() { m_bench.init(); }
-    void signalsAndDevicesAreTied_data() { addKinds(); }
-    void signalsAndDevicesAreTied();
+    void signalsAreConnectedToDevices_data() { addKinds(); }
+    void signalsAreConnectedToDevices();
     void theDeviceIsSafeBeforeAndAfterAPhase_data() { addKinds(); }
     void theDeviceIsSafeBeforeAndAfterAPhase();
-    void aDeviceThatTakesNothingAtTheEndIsSafeAsSoonAsItDoes_data() { addKinds(); }
-    void aDeviceThatTakesNothingAtTheEndIsSafeAsSoonAsItDoes();
+    void safeValuesAreWrittenWhenTheDeviceRecovers_data() { addKinds(); }
+    void safeValuesAreWrittenWhenTheDeviceRecovers();
     void theDeviceIsSafeWhenTheMasterIsLost_data() { addKinds(); }
     void theDeviceIsSafeWhenTheMasterIsLost();
     void theDeviceIsSafeWhenTheLinkIsCut();
-    void theWatchdogCanBeAnotherOneOrNone();
+    void watchdogCanBeChangedOrDisabled();
     void theWatchdogIsNoShorterThanFourPeriods();
     void theDeviceOfAListenerIsSafeWhenThePlantStopsSafely_data() { addKinds(); }
     void theDeviceOfAListenerIsSafeWhenThePlantStopsSafely();
-    void theConfigurationKnowsBetterThanTheTable();
-    void aLostDeviceIsHeldThenSafeAndComesBack();
-    void valuesThatDoNotFitTheSignalAreNone();
+    void configuredSafeValueOverridesTheTable();
+    void lostDeviceIsHeldThenSafeAndReconnects();
+    void valuesOutOfSignalRangeAreNotAccepted();
     void elementsOfAnArrayComeFromDifferentChannels();
-    void aSignalMayGoToSeveralChannelsAndANumberToOne();
+    void signalsAndConstantsCanDriveChannels();
     void devicesAreNotClosedWhileCyclesRun_data() { addKinds(); }
     void devicesAreNotClosedWhileCyclesRun();
     void aSignalThatIsNotInTheTableIsNamed();
-    void aCycleTakesNoMemoryAndNoLock_data() { addKinds(); }
-    void aCycleTakesNoMemoryAndNoLock();
+    void cycleAllocatesNothingAndLocksNothing_data() { addKinds(); }
+    void cycleAllocatesNothingAndLocksNothing();
 
 private:
     WinchBench m_bench;
 };
 
-void tst_HardwareNode::signalsAndDevicesAreTied()
+void tst_HardwareNode::signalsAreConnectedToDevices()
 {
     QFETCH(QString, kind);
     QFETCH(int, pace);
@@ -90,7 +90,7 @@ void tst_HardwareNode::theDeviceIsSafeBeforeAndAfterAPhase()
     node.disconnectFromMaster();
 }
 
-void tst_HardwareNode::aDeviceThatTakesNothingAtTheEndIsSafeAsSoonAsItDoes()
+void tst_HardwareNode::safeValuesAreWrittenWhenTheDeviceRecovers()
 {
     QFETCH(QString, kind);
     QFETCH(int, pace);
@@ -155,7 +155,7 @@ void tst_HardwareNode::theDeviceIsSafeWhenTheLinkIsCut()
     node.disconnectFromMaster();
 }
 
-void tst_HardwareNode::theWatchdogCanBeAnotherOneOrNone()
+void tst_HardwareNode::watchdogCanBeChangedOrDisabled()
 {
     QPlcHardwareNode node;
     QCOMPARE(node.watchdog(), std::chrono::nanoseconds(500'000'000));
@@ -208,7 +208,7 @@ void tst_HardwareNode::theDeviceOfAListenerIsSafeWhenThePlantStopsSafely()
     node.disconnectFromMaster();
 }
 
-void tst_HardwareNode::theConfigurationKnowsBetterThanTheTable()
+void tst_HardwareNode::configuredSafeValueOverridesTheTable()
 {
     TestMaster master(QPlcClock::realTime(), winchTable());
     {
@@ -230,7 +230,7 @@ void tst_HardwareNode::theConfigurationKnowsBetterThanTheTable()
     QCOMPARE(m_bench.device->closed.load(), 1);
 }
 
-void tst_HardwareNode::aLostDeviceIsHeldThenSafeAndComesBack()
+void tst_HardwareNode::lostDeviceIsHeldThenSafeAndReconnects()
 {
     TestMaster master(QPlcClock::realTime(), winchTable());
     QPlcHardwareNode node;
@@ -260,7 +260,7 @@ void tst_HardwareNode::aLostDeviceIsHeldThenSafeAndComesBack()
     QCOMPARE(master.state(), QPlcMasterNode::RealTime);
 }
 
-void tst_HardwareNode::valuesThatDoNotFitTheSignalAreNone()
+void tst_HardwareNode::valuesOutOfSignalRangeAreNotAccepted()
 {
     TestMaster master(QPlcClock::realTime(), winchTable());
     QPlcHardwareNode node("Winch");
@@ -290,7 +290,7 @@ void tst_HardwareNode::elementsOfAnArrayComeFromDifferentChannels()
     QTRY_COMPARE(master.signalValue("pair").toString(), QString("8, 6"));
 }
 
-void tst_HardwareNode::aSignalMayGoToSeveralChannelsAndANumberToOne()
+void tst_HardwareNode::signalsAndConstantsCanDriveChannels()
 {
     TestMaster master(QPlcClock::realTime(), winchTable());
     QPlcHardwareNode node("Winch");
@@ -358,7 +358,7 @@ void tst_HardwareNode::aSignalThatIsNotInTheTableIsNamed()
              qPrintable(text));
 }
 
-void tst_HardwareNode::aCycleTakesNoMemoryAndNoLock()
+void tst_HardwareNode::cycleAllocatesNothingAndLocksNothing()
 {
     QFETCH(QString, kind);
     QFETCH(int, pace);

@@ -12,10 +12,10 @@ class tst_qtplc_hardware : public QObject
 
 private Q_SLOTS:
     void helpNamesItsOptions();
-    void itHasAWatchdogUnlessToldOtherwise_data();
-    void itHasAWatchdogUnlessToldOtherwise();
-    void whatCannotBeMeantEndsItWithTwo_data();
-    void whatCannotBeMeantEndsItWithTwo();
+    void watchdogIsActiveUnlessDisabled_data();
+    void watchdogIsActiveUnlessDisabled();
+    void invalidConfigurationEndsWithExitCodeTwo_data();
+    void invalidConfigurationEndsWithExitCodeTwo();
 
 private:
     struct Run
@@ -47,7 +47,7 @@ void tst_qtplc_hardware::helpNamesItsOptions()
     QCOMPARE(run({"--drivers"}).code, 0);
 }
 
-void tst_qtplc_hardware::itHasAWatchdogUnlessToldOtherwise_data()
+void tst_qtplc_hardware::watchdogIsActiveUnlessDisabled_data()
 {
     QTest::addColumn<QStringList>("options");
     QTest::addColumn<bool>("barks");
@@ -56,7 +56,7 @@ void tst_qtplc_hardware::itHasAWatchdogUnlessToldOtherwise_data()
 }
 
 /// Its link is cut; the control connection stays.
-void tst_qtplc_hardware::itHasAWatchdogUnlessToldOtherwise()
+void tst_qtplc_hardware::watchdogIsActiveUnlessDisabled()
 {
     QFETCH(QStringList, options);
     QFETCH(bool, barks);
@@ -84,7 +84,7 @@ void tst_qtplc_hardware::itHasAWatchdogUnlessToldOtherwise()
     QCOMPARE(board.readAll().contains("safe state"), barks);
 }
 
-void tst_qtplc_hardware::whatCannotBeMeantEndsItWithTwo_data()
+void tst_qtplc_hardware::invalidConfigurationEndsWithExitCodeTwo_data()
 {
     QTest::addColumn<QByteArray>("text");
     QTest::addColumn<QString>("error");
@@ -93,7 +93,7 @@ void tst_qtplc_hardware::whatCannotBeMeantEndsItWithTwo_data()
     QTest::newRow("missing") << QByteArray() << "cannot be read: No such file or directory";
 }
 
-void tst_qtplc_hardware::whatCannotBeMeantEndsItWithTwo()
+void tst_qtplc_hardware::invalidConfigurationEndsWithExitCodeTwo()
 {
     QFETCH(QByteArray, text);
     QFETCH(QString, error);

@@ -16,26 +16,26 @@ class tst_AccessRights : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void eachRoleMaySendWhatItIsMeantTo_data();
-    void eachRoleMaySendWhatItIsMeantTo();
-    void aMasterKeepsToTheTable_data();
-    void aMasterKeepsToTheTable();
-    void everybodyWhoIsKnownMayStop_data();
-    void everybodyWhoIsKnownMayStop();
+    void eachRoleMaySendItsMessages_data();
+    void eachRoleMaySendItsMessages();
+    void masterDeniesMessagesThatARoleMayNotSend_data();
+    void masterDeniesMessagesThatARoleMayNotSend();
+    void everyKnownIdentityMayStop_data();
+    void everyKnownIdentityMayStop();
     void aSecuredPlantStartsInTwoSteps();
-    void armingIsLeftOutByAnExplicitWishOnly();
-    void withoutSecurityEverybodyMayEverything();
+    void armingIsSkippedOnlyWhenSwitchedOff();
+    void masterWithoutSecurityAllowsEveryMessage();
     void aNodeHasTheNameOfItsIdentity();
     void anObserverListensOnly();
-    void nobodyHasTheNameOfAnother_data();
-    void nobodyHasTheNameOfAnother();
+    void nodeCannotUseNameOfAnotherIdentity_data();
+    void nodeCannotUseNameOfAnotherIdentity();
     void aConnectionForFramesMayOnlyAttach_data();
     void aConnectionForFramesMayOnlyAttach();
-    void oneIdentityHasThirtyTwoConnections();
-    void signalsAreWrittenByThoseWhoMay();
-    void commandsAreWrittenDown();
+    void identityIsLimitedToThirtyTwoConnections();
+    void signalsAreWrittenOnlyWithAccessRights();
+    void commandsAreLogged();
     void commandsNameTheirSignals();
-    void peopleAreShownAsWhatTheyHaveProven();
+    void peopleAreShownByTheirProvenIdentity();
     void shownNamesCannotBeMistaken();
     void rolesHaveNames();
     void keysFilesHaveClearErrors_data();
@@ -105,12 +105,12 @@ void tst_AccessRights::everyRoleAndKind()
     }
 }
 
-void tst_AccessRights::eachRoleMaySendWhatItIsMeantTo_data()
+void tst_AccessRights::eachRoleMaySendItsMessages_data()
 {
     everyRoleAndKind();
 }
 
-void tst_AccessRights::eachRoleMaySendWhatItIsMeantTo()
+void tst_AccessRights::eachRoleMaySendItsMessages()
 {
     QFETCH(int, role);
     QFETCH(int, kind);
@@ -122,14 +122,14 @@ void tst_AccessRights::eachRoleMaySendWhatItIsMeantTo()
         QCOMPARE(qplc::refusalOf(peerOf(Role(role)), QPlcMessage(message)), QString());  // it means nothing
 }
 
-void tst_AccessRights::aMasterKeepsToTheTable_data()
+void tst_AccessRights::masterDeniesMessagesThatARoleMayNotSend_data()
 {
     everyRoleAndKind();
 }
 
 /// A client without any fields: what it may not do is denied, whatever else would be wrong; what it
 /// may is answered with something else.
-void tst_AccessRights::aMasterKeepsToTheTable()
+void tst_AccessRights::masterDeniesMessagesThatARoleMayNotSend()
 {
     QFETCH(int, role);
     QFETCH(int, kind);
@@ -153,14 +153,14 @@ void tst_AccessRights::aMasterKeepsToTheTable()
     QCOMPARE(tool.ask(QPlcMessage::GetState).kind(), QPlcMessage::State);  // the connection stays
 }
 
-void tst_AccessRights::everybodyWhoIsKnownMayStop_data()
+void tst_AccessRights::everyKnownIdentityMayStop_data()
 {
     QTest::addColumn<int>("role");
     for (Role role : qplc::allRoles)
         QTest::newRow(qPrintable(qplc::roleName(role))) << int(role);
 }
 
-void tst_AccessRights::everybodyWhoIsKnownMayStop()
+void tst_AccessRights::everyKnownIdentityMayStop()
 {
     QFETCH(int, role);
     TestMaster master(QPlcClock::realTime());
@@ -201,7 +201,7 @@ void tst_AccessRights::aSecuredPlantStartsInTwoSteps()
     QCOMPARE(carl.ask(QPlcMessage::Stop).kind(), QPlcMessage::Done);
 }
 
-void tst_AccessRights::armingIsLeftOutByAnExplicitWishOnly()
+void tst_AccessRights::armingIsSkippedOnlyWhenSwitchedOff()
 {
     TestMaster master(QPlcClock::realTime());
     master.setSecurity(QPlcSecurity::preSharedKeys(m_files.masterKeys()));
@@ -216,7 +216,7 @@ void tst_AccessRights::armingIsLeftOutByAnExplicitWishOnly()
     master.stop();
 }
 
-void tst_AccessRights::withoutSecurityEverybodyMayEverything()
+void tst_AccessRights::masterWithoutSecurityAllowsEveryMessage()
 {
     const QMetaEnum kinds = QMetaEnum::fromType<QPlcMessage::Kind>();
     for (int i = 0; i < kinds.keyCount(); ++i)
@@ -258,7 +258,7 @@ void tst_AccessRights::anObserverListensOnly()
     QVERIFY(refusal().contains("may not write signal 'sum'"));
 }
 
-void tst_AccessRights::nobodyHasTheNameOfAnother_data()
+void tst_AccessRights::nodeCannotUseNameOfAnotherIdentity_data()
 {
     QTest::addColumn<QString>("identity");
     QTest::addColumn<QString>("digit");
@@ -271,7 +271,7 @@ void tst_AccessRights::nobodyHasTheNameOfAnother_data()
 }
 
 /// Not only of one in the file of keys: the access file knows identities, too.
-void tst_AccessRights::nobodyHasTheNameOfAnother()
+void tst_AccessRights::nodeCannotUseNameOfAnotherIdentity()
 {
     QFETCH(QString, identity);
     QFETCH(QString, digit);
@@ -321,7 +321,7 @@ void tst_AccessRights::aConnectionForFramesMayOnlyAttach()
         QCOMPARE(refusal, QString("Denied: %1 on a connection without TLS").arg(message.kindName()));
 }
 
-void tst_AccessRights::oneIdentityHasThirtyTwoConnections()
+void tst_AccessRights::identityIsLimitedToThirtyTwoConnections()
 {
     LogCapture log;
     TestMaster master;
@@ -345,7 +345,7 @@ void tst_AccessRights::oneIdentityHasThirtyTwoConnections()
     QTRY_VERIFY_WITH_TIMEOUT(SecuredTool(m_files.bert()).greetAt(master.serverPort()), 10000);
 }
 
-void tst_AccessRights::signalsAreWrittenByThoseWhoMay()
+void tst_AccessRights::signalsAreWrittenOnlyWithAccessRights()
 {
     LogCapture log;
     QPlcSecurity security = QPlcSecurity::preSharedKeys(m_files.masterKeys());
@@ -378,7 +378,7 @@ void tst_AccessRights::signalsAreWrittenByThoseWhoMay()
     QVERIFY(!log.matching("identity 'Counter' with role Node may not write signal 'sum'").isEmpty());
 }
 
-void tst_AccessRights::commandsAreWrittenDown()
+void tst_AccessRights::commandsAreLogged()
 {
     LogCapture log;
     TestMaster master;
@@ -420,7 +420,7 @@ void tst_AccessRights::commandsNameTheirSignals()
 }
 
 /// Whatever they call themselves: in leases, reasons and events.
-void tst_AccessRights::peopleAreShownAsWhatTheyHaveProven()
+void tst_AccessRights::peopleAreShownByTheirProvenIdentity()
 {
     TestMaster master(QPlcClock::realTime());
     master.setSecurity(QPlcSecurity::preSharedKeys(m_files.masterKeys()));

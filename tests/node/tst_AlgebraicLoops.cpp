@@ -14,15 +14,15 @@ class tst_AlgebraicLoops : public QObject
 
 private Q_SLOTS:
     void init() { QPlcSignalIndexTable::setCurrent({}); }
-    void signalsOfTheMasterAreNeverOld();
-    void scheduleIsToldOnRequest();
+    void masterSignalsAreReadWithoutDelay();
+    void masterReturnsTheScheduleOnRequest();
     void aLoopIsRefusedWithItsPath();
-    void aRefusedNodeDisturbsNobody();
+    void refusedNodeChangesNoOtherNode();
     void joiningNodesMoveTheOthersBetweenStages();
     void aTwoPhaseNodeThatJoinsBeginsWithItsInitialOutputs();
 };
 
-void tst_AlgebraicLoops::signalsOfTheMasterAreNeverOld()
+void tst_AlgebraicLoops::masterSignalsAreReadWithoutDelay()
 {
     TestMaster master;
     QVERIFY(master.setTimeSignal("time"));
@@ -49,7 +49,7 @@ void tst_AlgebraicLoops::signalsOfTheMasterAreNeverOld()
     QVERIFY(TestMaster().schedule().stages.isEmpty());
 }
 
-void tst_AlgebraicLoops::scheduleIsToldOnRequest()
+void tst_AlgebraicLoops::masterReturnsTheScheduleOnRequest()
 {
     TestMaster master;
     QVERIFY(master.listen());
@@ -103,7 +103,7 @@ void tst_AlgebraicLoops::aLoopIsRefusedWithItsPath()
     QVERIFY(master.addLocalNode(&slow));
 }
 
-void tst_AlgebraicLoops::aRefusedNodeDisturbsNobody()
+void tst_AlgebraicLoops::refusedNodeChangesNoOtherNode()
 {
     TestMaster master;
     QVERIFY(master.listen());

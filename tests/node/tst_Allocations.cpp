@@ -17,13 +17,13 @@ class tst_Allocations : public QObject
 
 private Q_SLOTS:
     void initTestCase();
-    void aMillionCyclesInProcess();
-    void cyclesOverTheNetwork_data();
-    void cyclesOverTheNetwork();
-    void leasesThatComeAndGo();
-    void stagesAndTwoPhaseNodes_data();
-    void stagesAndTwoPhaseNodes();
-    void buffersAndIoNodes();
+    void localCyclesAllocateNothing();
+    void networkCyclesAllocateNothing_data();
+    void networkCyclesAllocateNothing();
+    void leasesDuringCyclesAllocateNothing();
+    void stagesAndTwoPhaseNodesAllocateNothing_data();
+    void stagesAndTwoPhaseNodesAllocateNothing();
+    void buffersAndIoNodesAllocateNothing();
     void peersComeAndGo();
 };
 
@@ -133,7 +133,7 @@ void tst_Allocations::initTestCase()
     QVERIFY(costs.locks >= 1);
 }
 
-void tst_Allocations::aMillionCyclesInProcess()
+void tst_Allocations::localCyclesAllocateNothing()
 {
     TestMaster master(QPlcClock::lockstep(), everyType());
     QVERIFY(master.setTimeSignal("time"));
@@ -142,14 +142,14 @@ void tst_Allocations::aMillionCyclesInProcess()
     checkCosts(master, 1'000'000);
 }
 
-void tst_Allocations::cyclesOverTheNetwork_data()
+void tst_Allocations::networkCyclesAllocateNothing_data()
 {
     QTest::addColumn<QString>("kind");
     QTest::newRow("udp") << "udp";
     QTest::newRow("tcp") << "tcp";
 }
 
-void tst_Allocations::cyclesOverTheNetwork()
+void tst_Allocations::networkCyclesAllocateNothing()
 {
     QFETCH(QString, kind);
     class Marker : public QPlcCompactSlaveNode  // marks the cycle thread of the master
@@ -172,7 +172,7 @@ void tst_Allocations::cyclesOverTheNetwork()
     QPlcSignalIndexTable::setCurrent({});
 }
 
-void tst_Allocations::leasesThatComeAndGo()
+void tst_Allocations::leasesDuringCyclesAllocateNothing()
 {
     TestMaster master(QPlcClock::realTime(), everyType());
     Everything node;
@@ -201,13 +201,13 @@ void tst_Allocations::leasesThatComeAndGo()
     QCOMPARE(spent.locks, std::uint64_t(0));
 }
 
-void tst_Allocations::stagesAndTwoPhaseNodes_data()
+void tst_Allocations::stagesAndTwoPhaseNodesAllocateNothing_data()
 {
-    cyclesOverTheNetwork_data();
+    networkCyclesAllocateNothing_data();
     QTest::newRow("inprocess") << "inprocess";
 }
 
-void tst_Allocations::stagesAndTwoPhaseNodes()
+void tst_Allocations::stagesAndTwoPhaseNodesAllocateNothing()
 {
     QFETCH(QString, kind);
     class Model : public QPlcCompactSlaveNode
@@ -242,7 +242,7 @@ void tst_Allocations::stagesAndTwoPhaseNodes()
     QPlcSignalIndexTable::setCurrent({});
 }
 
-void tst_Allocations::buffersAndIoNodes()
+void tst_Allocations::buffersAndIoNodesAllocateNothing()
 {
     QPlcSignalIndexTable::setCurrent(everyType());
     TestMaster master(QPlcClock::lockstep(), everyType());

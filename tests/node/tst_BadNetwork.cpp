@@ -21,16 +21,16 @@ class tst_BadNetwork : public QObject
 private Q_SLOTS:
     void init() { QPlcSignalIndexTable::setCurrent({}); }
     void wrongPlansAreRefused();
-    void everybodyIsToldOfFaults();
-    void withoutAPlanNobodySaysAnything();
+    void faultPlansAreReportedToAllParticipants();
+    void nothingIsReportedWithoutAFaultPlan();
     void lockstepGivesTheSameBitsOnABadNetwork_data();
     void lockstepGivesTheSameBitsOnABadNetwork();
-    void tenPercentLossMissesWhatChanceSays();
-    void aPlantGoesOnWithTenPercentLoss();
+    void tenPercentLossMissesTheExpectedShareOfCycles();
+    void plantKeepsRunningWithTenPercentLoss();
     void copiesAndMixedOrderAreNeverAppliedTwiceOrBackwards();
-    void aCutLinkComesBack_data();
-    void aCutLinkComesBack();
-    void aHalfOpenLinkIsNoticedByTheWatchdogAndDelaysNobody();
+    void cyclesResumeAfterALinkOutage_data();
+    void cyclesResumeAfterALinkOutage();
+    void watchdogDetectsHalfOpenLinkWithoutDelayingOthers();
     void aFloodOfStrangersChangesNoResult();
     void aFloodOfBadFramesOfANodeChangesNoResult();
     void cyclesRunOnOver32Bits();
@@ -108,7 +108,7 @@ void tst_BadNetwork::wrongPlansAreRefused()
     QVERIFY(echo.faultPlan().isEmpty());
 }
 
-void tst_BadNetwork::everybodyIsToldOfFaults()
+void tst_BadNetwork::faultPlansAreReportedToAllParticipants()
 {
     const LogCapture log;
     TestMaster master;
@@ -136,7 +136,7 @@ void tst_BadNetwork::everybodyIsToldOfFaults()
     QVERIFY2(events.contains("the master injects faults on purpose: delay=1ms,seed=3"), qPrintable(events));
 }
 
-void tst_BadNetwork::withoutAPlanNobodySaysAnything()
+void tst_BadNetwork::nothingIsReportedWithoutAFaultPlan()
 {
     TestMaster master;
     EchoNode echo;
@@ -195,7 +195,7 @@ void tst_BadNetwork::lockstepGivesTheSameBitsOnABadNetwork()
         QVERIFY(master.nodes().at(0).resent > 0);  // else this test has shown nothing
 }
 
-void tst_BadNetwork::tenPercentLossMissesWhatChanceSays()
+void tst_BadNetwork::tenPercentLossMissesTheExpectedShareOfCycles()
 {
     constexpr int cycles = 10'000;
     const double theory = 1.0 - (1.0 - Loss) * (1.0 - Loss);
@@ -208,7 +208,7 @@ void tst_BadNetwork::tenPercentLossMissesWhatChanceSays()
 }
 
 /// The losses are those that the seed says, cycle by cycle.
-void tst_BadNetwork::aPlantGoesOnWithTenPercentLoss()
+void tst_BadNetwork::plantKeepsRunningWithTenPercentLoss()
 {
     QPlcSimulator::run(1, [](QPlcSimulator &simulator) {
         constexpr int cycles = 10'000;
@@ -245,7 +245,7 @@ void tst_BadNetwork::copiesAndMixedOrderAreNeverAppliedTwiceOrBackwards()
     });
 }
 
-void tst_BadNetwork::aCutLinkComesBack_data()
+void tst_BadNetwork::cyclesResumeAfterALinkOutage_data()
 {
     QTest::addColumn<QString>("plan");
     QTest::addColumn<bool>("barks");
@@ -255,7 +255,7 @@ void tst_BadNetwork::aCutLinkComesBack_data()
     QTest::newRow("500 ms, nothing leaves") << "cut-sent=200ms+500ms" << false;
 }
 
-void tst_BadNetwork::aCutLinkComesBack()
+void tst_BadNetwork::cyclesResumeAfterALinkOutage()
 {
     QFETCH(QString, plan);
     QFETCH(bool, barks);
@@ -280,7 +280,7 @@ void tst_BadNetwork::aCutLinkComesBack()
 }
 
 /// The control connection never tells: only the cycles do.
-void tst_BadNetwork::aHalfOpenLinkIsNoticedByTheWatchdogAndDelaysNobody()
+void tst_BadNetwork::watchdogDetectsHalfOpenLinkWithoutDelayingOthers()
 {
     QPlcSimulator::run(1, [](QPlcSimulator &simulator) {
         VirtualPlant plant(simulator, "cut-received=100ms", 5ms);

@@ -13,10 +13,10 @@ private Q_SLOTS:
     void initTestCase();
     void init();
     void aNodeWithACertificateTakesPart();
-    void whoIsNotInTheAccessFileIsRefused();
+    void identityMissingInTheAccessFileIsRefused();
     void aWrongCertificateIsRefusedOnBothEnds_data();
     void aWrongCertificateIsRefusedOnBothEnds();
-    void aNodeIsNoMaster();
+    void nodeCertificateIsRefusedForAMaster();
     void aMasterOfAnotherAuthorityIsRefused();
     void aClientWithoutACertificateIsRefused();
     void oldVersionsAndWeakSuitesAreRefused_data();
@@ -66,7 +66,7 @@ void tst_Certificates::aNodeWithACertificateTakesPart()
     QCOMPARE(m_master->signalValue("count").toInt(), 5);
 }
 
-void tst_Certificates::whoIsNotInTheAccessFileIsRefused()
+void tst_Certificates::identityMissingInTheAccessFileIsRefused()
 {
     LogCapture log;
     CounterNode node(QStringLiteral("Mallory"));
@@ -101,7 +101,7 @@ void tst_Certificates::aWrongCertificateIsRefusedOnBothEnds()
 }
 
 /// A certificate of the same authority, but not of the master.
-void tst_Certificates::aNodeIsNoMaster()
+void tst_Certificates::nodeCertificateIsRefusedForAMaster()
 {
     LogCapture log;
     TestMaster impostor;

@@ -35,12 +35,12 @@ class tst_ClockSteps : public QObject
 private Q_SLOTS:
     void init() { QPlcSignalIndexTable::setCurrent({}); }
     void cleanup() { wallClockOffset = 0; }
-    void theWallClockIsThatOfTheTest();
+    void testControlsTheWallClock();
     void aStepOfTheWallClockMovesNoCycle_data();
     void aStepOfTheWallClockMovesNoCycle();
 };
 
-void tst_ClockSteps::theWallClockIsThatOfTheTest()
+void tst_ClockSteps::testControlsTheWallClock()
 {
     const std::int64_t before = qplc::wallClockNow();
     wallClockOffset = 3600;

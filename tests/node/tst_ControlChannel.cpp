@@ -14,15 +14,15 @@ private Q_SLOTS:
     void init();
     void getStateTellsEverything();
     void getSignalsTellsAllOrSome();
-    void getSignalsTakesEachNameOnce();
-    void getSignalsTakesNothingButNames();
-    void setSignalsReadsWhatGetSignalsWrites();
+    void getSignalsRefusesRepeatedNames();
+    void getSignalsRefusesInvalidNameLists();
+    void setSignalsAcceptsTheFormatOfGetSignals();
     void setSignalsSetsAllOrNone_data();
     void setSignalsSetsAllOrNone();
-    void setSignalsWhileCyclesRunIsLimitedAsAWhole();
+    void setSignalsDuringCyclesIsLimitedInSize();
     void anAnswerThatIsTooLongIsRefused();
     void answersComeInTheOrderOfTheRequests();
-    void aSequenceIsAnsweredWhenItIsOverAndAllElseAtOnce();
+    void sequenceIsAnsweredAtItsEndAndOthersImmediately();
     void unknownFieldsAreIgnored();
     void aTlsSocketIsNotSecuredBeforeItsHandshake();
 
@@ -108,7 +108,7 @@ void tst_ControlChannel::getSignalsTellsAllOrSome()
 }
 
 /// A short question has no endless answer.
-void tst_ControlChannel::getSignalsTakesEachNameOnce()
+void tst_ControlChannel::getSignalsRefusesRepeatedNames()
 {
     const QPlcMessage twice = m_tool->ask(QPlcMessage::GetSignals, {{"names", QJsonArray{"sum", "count", "sum"}}});
     QCOMPARE(twice.text("error"), QString("MalformedMessage"));
@@ -124,7 +124,7 @@ void tst_ControlChannel::getSignalsTakesEachNameOnce()
 }
 
 /// What cannot be read is no wish for all signals.
-void tst_ControlChannel::getSignalsTakesNothingButNames()
+void tst_ControlChannel::getSignalsRefusesInvalidNameLists()
 {
     for (const QJsonValue &names : {QJsonValue(3), QJsonValue("sum"), QJsonValue(QJsonArray{"sum", 3})}) {
         const QPlcMessage failed = m_tool->ask(QPlcMessage::GetSignals, {{"names", names}});
@@ -133,7 +133,7 @@ void tst_ControlChannel::getSignalsTakesNothingButNames()
     }
 }
 
-void tst_ControlChannel::setSignalsReadsWhatGetSignalsWrites()
+void tst_ControlChannel::setSignalsAcceptsTheFormatOfGetSignals()
 {
     for (bool running : {false, true}) {
         QVERIFY(!running || start());
@@ -198,7 +198,7 @@ void tst_ControlChannel::setSignalsSetsAllOrNone()
     m_master->stop();
 }
 
-void tst_ControlChannel::setSignalsWhileCyclesRunIsLimitedAsAWhole()
+void tst_ControlChannel::setSignalsDuringCyclesIsLimitedInSize()
 {
     QByteArray ini = "[gate]\ntype = Int32\n";
     QJsonObject many;
@@ -275,7 +275,7 @@ void tst_ControlChannel::answersComeInTheOrderOfTheRequests()
     }
 }
 
-void tst_ControlChannel::aSequenceIsAnsweredWhenItIsOverAndAllElseAtOnce()
+void tst_ControlChannel::sequenceIsAnsweredAtItsEndAndOthersImmediately()
 {
     ScriptedNode slow;
     slow.playsAlong = false;

@@ -14,31 +14,31 @@ class tst_ControlClient : public QObject
 
 private Q_SLOTS:
     void init();
-    void greetsAndKnowsTheMaster();
+    void clientGreetsTheMaster();
     void theCallerIsAskedWhenTheConnectionIsThere();
     void aNodeWaitsForItsGreetingBehindOtherMessages();
     void whatIsToldWaitsForNoAnswer();
     void theLossNamesTheErrorOfTheSocket();
-    void anAnswerComesAsAStruct();
-    void aRefusalComesInItsPlace();
+    void answerIsDeliveredAsAStruct();
+    void refusalIsDeliveredInPlaceOfTheAnswer();
     void aQuestionIsAnsweredWhileACommandWaits();
-    void commandsWaitForEachOtherAndStopForNone();
+    void stopIsSentWithoutWaitingForOtherCommands();
     void stopAnswersTellWhatBecameOfTheSequence_data();
     void stopAnswersTellWhatBecameOfTheSequence();
     void stopIsDoneAtOnceBehindACommandThatIsNoSequence();
-    void aPermitIsACommandToo();
-    void aCommandThatIsTooLongHoldsNoOther();
+    void armCountsAsACommand();
+    void oversizedCommandDelaysNoOtherCommand();
     void anAnswerOfAnotherKindFails();
-    void whatAnswersNothingIsIgnored_data();
-    void whatAnswersNothingIsIgnored();
+    void messagesThatAnswerNoRequestAreIgnored_data();
+    void messagesThatAnswerNoRequestAreIgnored();
     void unaskedMessagesAnswerNoRequest();
-    void anotherVersionIsLost();
-    void aRejectedGreetingIsLostWithItsWords();
-    void anotherFirstMessageIsNoGreeting();
+    void otherProtocolVersionEndsTheConnection();
+    void rejectedGreetingEndsTheConnectionWithItsReason();
+    void otherFirstMessageEndsTheConnection();
     void aMasterThatEndsIsLostAndItsRequestsFail();
     void aMasterThatDoesNotAnswerIsLost();
     void commandWithoutAnswerEndsAfterItsOwnTime();
-    void closeFailsRequestsAndTellsNoLoss();
+    void closeFailsRequestsWithoutReportingALoss();
     void aRequestWithoutAConnectionFails();
 
 private:
@@ -82,7 +82,7 @@ void tst_ControlClient::init()
     });
 }
 
-void tst_ControlClient::greetsAndKnowsTheMaster()
+void tst_ControlClient::clientGreetsTheMaster()
 {
     m_client->offer("leases");
     m_client->connectToMaster(m_master->tcp());
@@ -156,7 +156,7 @@ void tst_ControlClient::theLossNamesTheErrorOfTheSocket()
     QVERIFY(!m_client->connection());
 }
 
-void tst_ControlClient::anAnswerComesAsAStruct()
+void tst_ControlClient::answerIsDeliveredAsAStruct()
 {
     QVERIFY(greet());
     messages::State state;
@@ -169,7 +169,7 @@ void tst_ControlClient::anAnswerComesAsAStruct()
     QCOMPARE(state.period, std::chrono::nanoseconds(2'000'000));
 }
 
-void tst_ControlClient::aRefusalComesInItsPlace()
+void tst_ControlClient::refusalIsDeliveredInPlaceOfTheAnswer()
 {
     QVERIFY(greet());
     messages::Failed failed;
@@ -199,7 +199,7 @@ void tst_ControlClient::aQuestionIsAnsweredWhileACommandWaits()
     QVERIFY(!m_client->isBusy());
 }
 
-void tst_ControlClient::commandsWaitForEachOtherAndStopForNone()
+void tst_ControlClient::stopIsSentWithoutWaitingForOtherCommands()
 {
     QVERIFY(greet());
     note(messages::InitializeAllStates());
@@ -261,7 +261,7 @@ void tst_ControlClient::stopIsDoneAtOnceBehindACommandThatIsNoSequence()
     QTRY_COMPARE(m_notes, (QStringList{"Done", "Done"}));
 }
 
-void tst_ControlClient::aPermitIsACommandToo()
+void tst_ControlClient::armCountsAsACommand()
 {
     QVERIFY(greet());
     note(messages::InitializeAllStates());
@@ -274,7 +274,7 @@ void tst_ControlClient::aPermitIsACommandToo()
     QTRY_COMPARE(m_notes, (QStringList{"first", "Armed"}));
 }
 
-void tst_ControlClient::aCommandThatIsTooLongHoldsNoOther()
+void tst_ControlClient::oversizedCommandDelaysNoOtherCommand()
 {
     QVERIFY(greet());
     note(messages::InitializeAllStates());
@@ -290,7 +290,7 @@ void tst_ControlClient::aCommandThatIsTooLongHoldsNoOther()
     QTRY_COMPARE(m_notes, (QStringList{"MalformedMessage", "MalformedMessage", "Done", "Done"}));
 }
 
-void tst_ControlClient::whatAnswersNothingIsIgnored_data()
+void tst_ControlClient::messagesThatAnswerNoRequestAreIgnored_data()
 {
     QTest::addColumn<int>("kind");
     QTest::newRow("a kind of a newer master") << 200;
@@ -299,7 +299,7 @@ void tst_ControlClient::whatAnswersNothingIsIgnored_data()
     QTest::newRow("a question") << int(QPlcMessage::GetState);
 }
 
-void tst_ControlClient::whatAnswersNothingIsIgnored()
+void tst_ControlClient::messagesThatAnswerNoRequestAreIgnored()
 {
     QFETCH(int, kind);
     QVERIFY(greet());
@@ -339,7 +339,7 @@ void tst_ControlClient::unaskedMessagesAnswerNoRequest()
     QCOMPARE(told.size(), 3);
 }
 
-void tst_ControlClient::anotherVersionIsLost()
+void tst_ControlClient::otherProtocolVersionEndsTheConnection()
 {
     m_client->connectToMaster(m_master->tcp());
     QCOMPARE(m_master->next().kind(), QPlcMessage::Hello);
@@ -349,7 +349,7 @@ void tst_ControlClient::anotherVersionIsLost()
     QVERIFY(!m_client->isGreeted());
 }
 
-void tst_ControlClient::aRejectedGreetingIsLostWithItsWords()
+void tst_ControlClient::rejectedGreetingEndsTheConnectionWithItsReason()
 {
     m_client->connectToMaster(m_master->tcp());
     QCOMPARE(m_master->next().kind(), QPlcMessage::Hello);
@@ -359,7 +359,7 @@ void tst_ControlClient::aRejectedGreetingIsLostWithItsWords()
     QCOMPARE(m_client->rejection().error, QString("VersionMismatch"));
 }
 
-void tst_ControlClient::anotherFirstMessageIsNoGreeting()
+void tst_ControlClient::otherFirstMessageEndsTheConnection()
 {
     m_client->connectToMaster(m_master->tcp());
     QCOMPARE(m_master->next().kind(), QPlcMessage::Hello);
@@ -401,7 +401,7 @@ void tst_ControlClient::commandWithoutAnswerEndsAfterItsOwnTime()
     QCOMPARE(m_losses.at(0), qMakePair(ControlClient::Loss::Gone, QString("no answer within 0.07 s")));
 }
 
-void tst_ControlClient::closeFailsRequestsAndTellsNoLoss()
+void tst_ControlClient::closeFailsRequestsWithoutReportingALoss()
 {
     QVERIFY(greet());
     note(messages::GetState());

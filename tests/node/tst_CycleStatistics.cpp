@@ -169,9 +169,9 @@ private Q_SLOTS:
     void stopEndsTheCyclesBeforeTheLateOne();
     void worstCyclesAreThoseOfAFullSortWithTheirStages();
     void delayOfSkippedCyclesIsSeenInTheWorstCycles();
-    void everyPhaseBeginsWithNothing();
+    void statisticsAreClearedAtEachPhaseStart();
     void incompleteCyclesAreCountedOncePerCycle();
-    void sleepThatIsInterruptedCostsNothing();
+    void interruptedSleepCausesNoOverrun();
 };
 
 void tst_CycleStatistics::tenThousandInjectedDelaysAreFoundExactly_data()
@@ -345,7 +345,7 @@ void tst_CycleStatistics::incompleteCyclesAreCountedOncePerCycle()
     }
 }
 
-void tst_CycleStatistics::everyPhaseBeginsWithNothing()
+void tst_CycleStatistics::statisticsAreClearedAtEachPhaseStart()
 {
     std::mt19937_64 random{17};
     FakePlant plant([&] { return std::int64_t(random() % (3 * Period)); });
@@ -360,7 +360,7 @@ void tst_CycleStatistics::everyPhaseBeginsWithNothing()
     QCOMPARE(quint64(found.worst.size()), found.cycles);
 }
 
-void tst_CycleStatistics::sleepThatIsInterruptedCostsNothing()
+void tst_CycleStatistics::interruptedSleepCausesNoOverrun()
 {
     FakePlant plant([&] {
         plant.time.interruptions = 3;

@@ -17,16 +17,16 @@ class tst_Destruction : public QObject
 
 private Q_SLOTS:
     void init() { QPlcSignalIndexTable::setCurrent({}); }
-    void portsEndTheCyclesBeforeTheyGo_data() { addKinds(); }
-    void portsEndTheCyclesBeforeTheyGo();
+    void destructorOfPortsEndsTheCyclesFirst_data() { addKinds(); }
+    void destructorOfPortsEndsTheCyclesFirst();
     void aNodeThatDisconnectsFirstIsMadeSafe_data() { addKinds(); }
     void aNodeThatDisconnectsFirstIsMadeSafe();
-    void aNodeWithoutPortsIsWarnedOfAndDoesNotCrash_data() { addKinds(); }
-    void aNodeWithoutPortsIsWarnedOfAndDoesNotCrash();
+    void destroyedNodeWithoutPortsWarnsAndDoesNotCrash_data() { addKinds(); }
+    void destroyedNodeWithoutPortsWarnsAndDoesNotCrash();
     void aNodeDrivenFromOutsideMayEndAtAnyTime_data() { addKinds(); }
     void aNodeDrivenFromOutsideMayEndAtAnyTime();
     void aPortMayLiveLongerThanItsNode();
-    void aNodeWithoutRealTimeoutIsAFaultThatSaysSo();
+    void missingRealTimeoutIsReportedAsFault();
 
 private:
     static constexpr int Rounds = 20;
@@ -130,7 +130,7 @@ std::optional<QStringList> tst_Destruction::warningsOfDestroying(std::unique_ptr
     return flies && isGone ? std::optional<QStringList>(log.matching(Warning)) : std::nullopt;
 }
 
-void tst_Destruction::portsEndTheCyclesBeforeTheyGo()
+void tst_Destruction::destructorOfPortsEndsTheCyclesFirst()
 {
     QFETCH(QString, kind);
     for (int i = 0; i < Rounds; ++i) {
@@ -157,7 +157,7 @@ void tst_Destruction::aNodeThatDisconnectsFirstIsMadeSafe()
     }
 }
 
-void tst_Destruction::aNodeWithoutPortsIsWarnedOfAndDoesNotCrash()
+void tst_Destruction::destroyedNodeWithoutPortsWarnsAndDoesNotCrash()
 {
     QFETCH(QString, kind);
     QPlcSignalIndexTable::setCurrent(testTable());
@@ -216,7 +216,7 @@ public:
 
 }  // namespace
 
-void tst_Destruction::aNodeWithoutRealTimeoutIsAFaultThatSaysSo()
+void tst_Destruction::missingRealTimeoutIsReportedAsFault()
 {
     LogCapture log;
     TestMaster master;

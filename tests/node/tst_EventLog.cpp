@@ -14,15 +14,15 @@ class tst_EventLog : public QObject
 private Q_SLOTS:
     void eventsAreNumberedFromOne();
     void oldestEventsAreForgotten();
-    void askingGoesOnWhereItEnded();
+    void nextQueryContinuesAfterThePreviousOne();
     void longTextIsCutWithAnEllipsis();
     void aLongSourceIsCut();
-    void firstReportIsToldAtOnceAndFurtherOnesTogether();
-    void everyThingHasAPauseOfItsOwn();
-    void whatIsToldTogetherHasTheBeginOfTheFirstAndTheEndOfTheLast();
-    void lastReportIsToldWithoutAFurtherOne();
-    void quietThingsAreForgotten();
-    void untoldReportCanBeTakenEarly();
+    void furtherReportsAreCombinedAfterTheFirst();
+    void everyTopicHasItsOwnPause();
+    void combinedReportSpansFirstToLast();
+    void lastReportIsIssuedWithoutAFurtherReport();
+    void inactiveTopicsAreRemoved();
+    void pendingReportCanBeFetchedEarly();
 };
 
 namespace {
@@ -66,7 +66,7 @@ void tst_EventLog::oldestEventsAreForgotten()
     QCOMPARE(all.back().sequence, log.newest());
 }
 
-void tst_EventLog::askingGoesOnWhereItEnded()
+void tst_EventLog::nextQueryContinuesAfterThePreviousOne()
 {
     EventLog log;
     for (int i = 0; i < 7; ++i)
@@ -102,7 +102,7 @@ void tst_EventLog::aLongSourceIsCut()
     QCOMPARE(log.after(0, 1)[0].source, QString(EventLog::LongestSource, 'n'));
 }
 
-void tst_EventLog::firstReportIsToldAtOnceAndFurtherOnesTogether()
+void tst_EventLog::furtherReportsAreCombinedAfterTheFirst()
 {
     ReportLimiter limiter;
     QCOMPARE(limiter.report("late", "cycle ", anEvent("7"), 0)->text, QString("cycle 7"));
@@ -118,7 +118,7 @@ void tst_EventLog::firstReportIsToldAtOnceAndFurtherOnesTogether()
     QCOMPARE(limiter.report("late", "cycle ", anEvent("15"), 9000 * ms)->text, QString("cycle 15"));
 }
 
-void tst_EventLog::everyThingHasAPauseOfItsOwn()
+void tst_EventLog::everyTopicHasItsOwnPause()
 {
     ReportLimiter limiter;
     QVERIFY(limiter.report("a", "", anEvent("1"), 0));
@@ -126,7 +126,7 @@ void tst_EventLog::everyThingHasAPauseOfItsOwn()
     QVERIFY(!limiter.report("a", "", anEvent("2"), 2));
 }
 
-void tst_EventLog::whatIsToldTogetherHasTheBeginOfTheFirstAndTheEndOfTheLast()
+void tst_EventLog::combinedReportSpansFirstToLast()
 {
     ReportLimiter limiter;
     QCOMPARE(limiter.report("set", "0", anEvent(" -> 1"), 0)->text, QString("0 -> 1"));
@@ -137,7 +137,7 @@ void tst_EventLog::whatIsToldTogetherHasTheBeginOfTheFirstAndTheEndOfTheLast()
     QCOMPARE(due[0].text, QString("1 -> 3 (and 1 more since the last report)"));
 }
 
-void tst_EventLog::lastReportIsToldWithoutAFurtherOne()
+void tst_EventLog::lastReportIsIssuedWithoutAFurtherReport()
 {
     ReportLimiter limiter;
     limiter.report("late", "", anEvent("1"), 0);
@@ -148,7 +148,7 @@ void tst_EventLog::lastReportIsToldWithoutAFurtherOne()
     QVERIFY(!limiter.report("late", "", anEvent("3"), 1001 * ms));  // the pause begins again
 }
 
-void tst_EventLog::quietThingsAreForgotten()
+void tst_EventLog::inactiveTopicsAreRemoved()
 {
     ReportLimiter limiter;
     QVERIFY(!limiter.nextDue());
@@ -158,7 +158,7 @@ void tst_EventLog::quietThingsAreForgotten()
     QVERIFY(!limiter.nextDue());
 }
 
-void tst_EventLog::untoldReportCanBeTakenEarly()
+void tst_EventLog::pendingReportCanBeFetchedEarly()
 {
     ReportLimiter limiter;
     QVERIFY(!limiter.take("state"));

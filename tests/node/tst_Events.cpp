@@ -14,25 +14,25 @@ class tst_Events : public QObject
 private Q_SLOTS:
     void init();
     void statesAreEventsWithReasons();
-    void nodesComeAndGoWithReasons();
-    void aNodeThatIsMissedIsAnAlarmUntilItIsBack();
+    void joiningAndLeavingAreEventsWithReasons();
+    void lostNodeRaisesAnAlarmUntilItReturns();
     void aPhaseThatBeginsWithoutANodeEndsItsAlarm();
     void refusedNodeIsAWarning();
-    void lateAnswersAreToldOnceASecond();
+    void lateAnswersAreReportedOncePerSecond();
     void silentPolicyLeavesNoEvent_data();
     void silentPolicyLeavesNoEvent();
     void faultsAreErrorsOfTheirNode();
-    void valuesThatAreSetSayWhoAndFromWhatToWhat();
-    void manySettingsOfASliderAreToldTogether();
-    void valueThatComesBackIsTold();
-    void leasesAreTold();
-    void skippedCyclesAreTold();
-    void newsThatNobodyTakesHoldNoCycle();
+    void setSignalEventsNameAuthorAndBothValues();
+    void repeatedSettingsAreCombinedIntoOneEvent();
+    void restoredValueIsReported();
+    void leaseChangesAreReported();
+    void skippedCyclesAreReported();
+    void unreadEventsDelayNoCycle();
     void backlogIsAskedForInParts();
-    void eventsArePushedToWhoOffersTheFeature();
+    void eventsArePushedToToolsWithTheFeature();
     void logAndEventHaveTheSameText();
-    void badSinceIsRefused_data();
-    void badSinceIsRefused();
+    void invalidSinceIsRefused_data();
+    void invalidSinceIsRefused();
 
 private:
     /// All events of a kind, as "severity source: text".
@@ -94,7 +94,7 @@ void tst_Events::statesAreEventsWithReasons()
     }
 }
 
-void tst_Events::nodesComeAndGoWithReasons()
+void tst_Events::joiningAndLeavingAreEventsWithReasons()
 {
     CounterNode counter;  // is a part of the master, and no news
     QVERIFY(m_master->addLocalNode(&counter));
@@ -115,7 +115,7 @@ void tst_Events::nodesComeAndGoWithReasons()
     m_master->stop();
 }
 
-void tst_Events::aNodeThatIsMissedIsAnAlarmUntilItIsBack()
+void tst_Events::lostNodeRaisesAnAlarmUntilItReturns()
 {
     ScriptedNode node;
     node.answerAll();
@@ -168,7 +168,7 @@ void tst_Events::refusedNodeIsAWarning()
              qPrintable(texts.at(0)));
 }
 
-void tst_Events::lateAnswersAreToldOnceASecond()
+void tst_Events::lateAnswersAreReportedOncePerSecond()
 {
     ScriptedNode mute;
     QVERIFY(m_master->setInterval(0.005));
@@ -248,7 +248,7 @@ void tst_Events::faultsAreErrorsOfTheirNode()
     QVERIFY(events("state").last().startsWith("info Master: state Off: node 'Counter'"));
 }
 
-void tst_Events::valuesThatAreSetSayWhoAndFromWhatToWhat()
+void tst_Events::setSignalEventsNameAuthorAndBothValues()
 {
     m_tool->ask(QPlcMessage::SetSignals, {{"values", QJsonObject{{"setpoint", "1.5"}, {"vector", "1, 2, 3"}}}});
     QVERIFY(m_master->setSignalValue("setpoint", 2.0));
@@ -258,7 +258,7 @@ void tst_Events::valuesThatAreSetSayWhoAndFromWhatToWhat()
                           "info Master: 'Master' has set setpoint: 1.5 -> 2"}));
 }
 
-void tst_Events::manySettingsOfASliderAreToldTogether()
+void tst_Events::repeatedSettingsAreCombinedIntoOneEvent()
 {
     for (int i = 1; i <= 30; ++i)
         m_tool->ask(QPlcMessage::SetSignals, {{"values", QJsonObject{{"setpoint", QString::number(i / 10.0)}}}});
@@ -268,14 +268,14 @@ void tst_Events::manySettingsOfASliderAreToldTogether()
                           "info Master: 'Anna' has set setpoint: 0.1 -> 3 (and 28 more since the last report)"}));
 }
 
-void tst_Events::valueThatComesBackIsTold()
+void tst_Events::restoredValueIsReported()
 {
     m_tool->ask(QPlcMessage::SetSignals, {{"values", QJsonObject{{"setpoint", "4"}}}, {"duration", 20e6}});
     QTRY_COMPARE(events("set").size(), 2);
     QCOMPARE(events("set").last(), QString("info Master: former value restored: setpoint = 0"));
 }
 
-void tst_Events::leasesAreTold()
+void tst_Events::leaseChangesAreReported()
 {
     {
         ScriptedTool bert("Bert");
@@ -294,7 +294,7 @@ void tst_Events::leasesAreTold()
             "info Master: 'Anna' has released setpoint, free"}));
 }
 
-void tst_Events::skippedCyclesAreTold()
+void tst_Events::skippedCyclesAreReported()
 {
     CounterNode counter;
     counter.onStep = [](const QPlcCycle &cycle) {
@@ -316,7 +316,7 @@ void tst_Events::skippedCyclesAreTold()
 
 /// As when the event loop hangs: nobody takes what the cycles have to tell, which is far more than
 /// there is room for.
-void tst_Events::newsThatNobodyTakesHoldNoCycle()
+void tst_Events::unreadEventsDelayNoCycle()
 {
     constexpr quint64 cycles = 10'000;
     class Babbler : public QPlcCompactSlaveNode
@@ -365,7 +365,7 @@ void tst_Events::backlogIsAskedForInParts()
     QCOMPARE(m_tool->ask(QPlcMessage::GetEvents, {{"since", 1e15}}).fields().value("more").toBool(), false);
 }
 
-void tst_Events::eventsArePushedToWhoOffersTheFeature()
+void tst_Events::eventsArePushedToToolsWithTheFeature()
 {
     ScriptedTool viewer("Viewer");
     m_tool->ask(QPlcMessage::TakeLease, {{"signals", QJsonArray{"free"}}, {"timeout", 1e12}});  // before it came
@@ -393,7 +393,7 @@ void tst_Events::logAndEventHaveTheSameText()
     QCOMPARE(log.matching(m_master->errorString()).size(), 1);
 }
 
-void tst_Events::badSinceIsRefused_data()
+void tst_Events::invalidSinceIsRefused_data()
 {
     QTest::addColumn<QJsonValue>("since");
     QTest::newRow("negative") << QJsonValue(-1);
@@ -402,7 +402,7 @@ void tst_Events::badSinceIsRefused_data()
     QTest::newRow("a text") << QJsonValue("1");
 }
 
-void tst_Events::badSinceIsRefused()
+void tst_Events::invalidSinceIsRefused()
 {
     QFETCH(QJsonValue, since);
     const QPlcMessage refused = m_tool->ask(QPlcMessage::GetEvents, {{"since", since}});

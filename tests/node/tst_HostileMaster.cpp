@@ -189,10 +189,10 @@ class tst_HostileMaster : public QObject
 
 private Q_SLOTS:
     void anHonestMasterGetsItsNode();
-    void whatIsNoMemoryOrPipeIsNotOpened_data();
-    void whatIsNoMemoryOrPipeIsNotOpened();
-    void whatBelongsToAnotherUserIsNotOpened_data();
-    void whatBelongsToAnotherUserIsNotOpened();
+    void filesOfOtherKindsAreNotOpened_data();
+    void filesOfOtherKindsAreNotOpened();
+    void filesOfAnotherUserAreNotOpened_data();
+    void filesOfAnotherUserAreNotOpened();
     void aMasterOfAnotherUserCannotReachFilesOfThisOne_data();
     void aMasterOfAnotherUserCannotReachFilesOfThisOne();
     void aMasterOfAnotherUserMayNameItsOwnMemory();
@@ -226,7 +226,7 @@ void tst_HostileMaster::anHonestMasterGetsItsNode()
     node.disconnectFromMaster();
 }
 
-void tst_HostileMaster::whatIsNoMemoryOrPipeIsNotOpened_data()
+void tst_HostileMaster::filesOfOtherKindsAreNotOpened_data()
 {
     QTest::addColumn<QString>("role");
     QTest::addColumn<QString>("thing");
@@ -245,7 +245,7 @@ void tst_HostileMaster::whatIsNoMemoryOrPipeIsNotOpened_data()
     }
 }
 
-void tst_HostileMaster::whatIsNoMemoryOrPipeIsNotOpened()
+void tst_HostileMaster::filesOfOtherKindsAreNotOpened()
 {
     QFETCH(QString, role);
     QFETCH(QString, thing);
@@ -270,14 +270,14 @@ void tst_HostileMaster::whatIsNoMemoryOrPipeIsNotOpened()
     node.disconnectFromMaster();
 }
 
-void tst_HostileMaster::whatBelongsToAnotherUserIsNotOpened_data()
+void tst_HostileMaster::filesOfAnotherUserAreNotOpened_data()
 {
     QTest::addColumn<QString>("role");
     for (const QString &role : roles)
         QTest::newRow(qPrintable(role)) << role;
 }
 
-void tst_HostileMaster::whatBelongsToAnotherUserIsNotOpened()
+void tst_HostileMaster::filesOfAnotherUserAreNotOpened()
 {
     if (::geteuid() != 0)
         QSKIP("only root can give a file to another user");

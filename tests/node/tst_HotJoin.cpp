@@ -9,17 +9,17 @@ class tst_HotJoin : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void joinerGetsTheValuesOfNow();
-    void initialOutputsOfAJoinerAppear();
-    void othersGoOnWhileNodesComeAndGo_data();
-    void othersGoOnWhileNodesComeAndGo();
+    void joinerGetsTheCurrentValues();
+    void initialOutputsOfAJoinerReachTheMaster();
+    void cyclesContinueWhileNodesJoinAndLeave_data();
+    void cyclesContinueWhileNodesJoinAndLeave();
     void aJoinerThatFailsIsDropped_data();
     void aJoinerThatFailsIsDropped();
-    void whoComesDuringTheStartJoinsAfterwards();
+    void nodeRegisteredDuringTheStartJoinsAfterwards();
     void answersOutOfTurnFail();
 };
 
-void tst_HotJoin::joinerGetsTheValuesOfNow()
+void tst_HotJoin::joinerGetsTheCurrentValues()
 {
     TestMaster master(QPlcClock::realTime());
     master.setInterval(0.002);
@@ -46,7 +46,7 @@ void tst_HotJoin::joinerGetsTheValuesOfNow()
     master.stop();
 }
 
-void tst_HotJoin::initialOutputsOfAJoinerAppear()
+void tst_HotJoin::initialOutputsOfAJoinerReachTheMaster()
 {
     TestMaster master(QPlcClock::realTime());
     master.setInterval(0.002);
@@ -64,14 +64,14 @@ void tst_HotJoin::initialOutputsOfAJoinerAppear()
     master.stop();
 }
 
-void tst_HotJoin::othersGoOnWhileNodesComeAndGo_data()
+void tst_HotJoin::cyclesContinueWhileNodesJoinAndLeave_data()
 {
     QTest::addColumn<QString>("kind");
     QTest::newRow("tcp") << "tcp";
     QTest::newRow("udp") << "udp";
 }
 
-void tst_HotJoin::othersGoOnWhileNodesComeAndGo()
+void tst_HotJoin::cyclesContinueWhileNodesJoinAndLeave()
 {
     QFETCH(QString, kind);
     TestMaster master;
@@ -133,7 +133,7 @@ void tst_HotJoin::aJoinerThatFailsIsDropped()
     master.stop();
 }
 
-void tst_HotJoin::whoComesDuringTheStartJoinsAfterwards()
+void tst_HotJoin::nodeRegisteredDuringTheStartJoinsAfterwards()
 {
     TestMaster master;
     QVERIFY(master.listen());

@@ -18,16 +18,16 @@ private Q_SLOTS:
     void cleanup() { QPlcSignalIndexTable::setCurrent({}); }
     void outputsSetBetweenPhasesBeginTheNextOne_data();
     void outputsSetBetweenPhasesBeginTheNextOne();
-    void newOutputsTakeOverAndFreeTheOldOnes_data();
-    void newOutputsTakeOverAndFreeTheOldOnes();
+    void newOutputsReplaceAndReleaseTheOldOnes_data();
+    void newOutputsReplaceAndReleaseTheOldOnes();
     void aRefusedChangeIsAnError();
-    void inputsAreThoseOfOneCycleInAnyThread();
+    void inputsAreConsistentInAnyThread();
     void aNodeMayLiveInAThreadOfItsOwn_data();
     void aNodeMayLiveInAThreadOfItsOwn();
     void realTimedOutTellsThatThereAreNewInputs_data();
     void realTimedOutTellsThatThereAreNewInputs();
     void realTimedOutIsEmittedInTheThreadOfTheNode();
-    void aFullBufferInAnotherThreadSlowsNobody();
+    void fullBufferInAnotherThreadDelaysNoCycle();
     void framesTellCyclePhaseAndPeriod();
     void aNodeMayReadAllSignalsOfAnyTable();
 };
@@ -120,14 +120,14 @@ void tst_IONodes::outputsSetBetweenPhasesBeginTheNextOne()
     node.disconnectFromMaster();
 }
 
-void tst_IONodes::newOutputsTakeOverAndFreeTheOldOnes_data()
+void tst_IONodes::newOutputsReplaceAndReleaseTheOldOnes_data()
 {
     QTest::addColumn<bool>("running");
     QTest::newRow("off") << false;
     QTest::newRow("while cycles run") << true;
 }
 
-void tst_IONodes::newOutputsTakeOverAndFreeTheOldOnes()
+void tst_IONodes::newOutputsReplaceAndReleaseTheOldOnes()
 {
     QFETCH(bool, running);
     TestMaster master;
@@ -174,7 +174,7 @@ void tst_IONodes::aRefusedChangeIsAnError()
     node.disconnectFromMaster();
 }
 
-void tst_IONodes::inputsAreThoseOfOneCycleInAnyThread()
+void tst_IONodes::inputsAreConsistentInAnyThread()
 {
     TestMaster master;
     CounterNode counter;
@@ -301,7 +301,7 @@ void tst_IONodes::realTimedOutIsEmittedInTheThreadOfTheNode()
     master.stop();
 }
 
-void tst_IONodes::aFullBufferInAnotherThreadSlowsNobody()
+void tst_IONodes::fullBufferInAnotherThreadDelaysNoCycle()
 {
     TestMaster master;
     QVERIFY(master.listen());

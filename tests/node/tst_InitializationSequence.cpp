@@ -12,7 +12,7 @@ class tst_InitializationSequence : public QObject
 
 private Q_SLOTS:
     void init();
-    void masterAsksAllBeforeItTellsAnyone();
+    void masterCollectsAllOutputsBeforeItSendsInputs();
     void everyNodeGetsTheInitialOutputsOfTheOthers_data();
     void everyNodeGetsTheInitialOutputsOfTheOthers();
     void slaveAnswersStepByStep();
@@ -24,10 +24,10 @@ private Q_SLOTS:
     void initialOutputsThatAreNotFiniteEndTheInitialization();
     void codeThatThrowsEndsTheInitialization_data();
     void codeThatThrowsEndsTheInitialization();
-    void answersThatNobodyAskedForChangeNothing();
-    void answersCountOnceAndInTheirTurn();
-    void onlyPossibleWhileOff();
-    void withoutNodesItSucceedsAtOnce();
+    void unrequestedAnswersAreIgnored();
+    void repeatedAndEarlyAnswersAreIgnored();
+    void initializationIsAllowedOnlyInStateOff();
+    void initializationWithoutNodesSucceedsImmediately();
 
 private:
     double decoded(const QPlcMessage &message)
@@ -41,7 +41,7 @@ void tst_InitializationSequence::init()
     QPlcSignalIndexTable::setCurrent({});
 }
 
-void tst_InitializationSequence::masterAsksAllBeforeItTellsAnyone()
+void tst_InitializationSequence::masterCollectsAllOutputsBeforeItSendsInputs()
 {
     TestMaster master;
     QVERIFY(master.listen());
@@ -312,7 +312,7 @@ void tst_InitializationSequence::codeThatThrowsEndsTheInitialization()
     node.disconnectFromMaster();
 }
 
-void tst_InitializationSequence::answersThatNobodyAskedForChangeNothing()
+void tst_InitializationSequence::unrequestedAnswersAreIgnored()
 {
     TestMaster master;
     QVERIFY(master.listen());
@@ -336,7 +336,7 @@ void tst_InitializationSequence::answersThatNobodyAskedForChangeNothing()
     QCOMPARE(master.nodes().size(), 1);
 }
 
-void tst_InitializationSequence::answersCountOnceAndInTheirTurn()
+void tst_InitializationSequence::repeatedAndEarlyAnswersAreIgnored()
 {
     TestMaster master;
     QVERIFY(master.listen());
@@ -366,7 +366,7 @@ void tst_InitializationSequence::answersCountOnceAndInTheirTurn()
     QCOMPARE(master.error(), QPlcMasterNode::NoError);
 }
 
-void tst_InitializationSequence::onlyPossibleWhileOff()
+void tst_InitializationSequence::initializationIsAllowedOnlyInStateOff()
 {
     TestMaster master;
     QVERIFY(master.startRealTime());
@@ -380,7 +380,7 @@ void tst_InitializationSequence::onlyPossibleWhileOff()
     master.stop();
 }
 
-void tst_InitializationSequence::withoutNodesItSucceedsAtOnce()
+void tst_InitializationSequence::initializationWithoutNodesSucceedsImmediately()
 {
     TestMaster master;
     QSignalSpy all(&master, &QPlcMasterNode::statesInitialized);

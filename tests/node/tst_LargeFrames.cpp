@@ -14,8 +14,8 @@ private Q_SLOTS:
     void cleanup() { QPlcSignalIndexTable::setCurrent({}); }
     void textsAndArraysTravelUnchanged_data();
     void textsAndArraysTravelUnchanged();
-    void payloadsAroundTheBorderOfAFrame_data();
-    void payloadsAroundTheBorderOfAFrame();
+    void payloadsAroundTheFrameLimitTravelUnchanged_data();
+    void payloadsAroundTheFrameLimitTravelUnchanged();
 };
 
 namespace {
@@ -164,7 +164,7 @@ void tst_LargeFrames::textsAndArraysTravelUnchanged()
     QCOMPARE(digests.size(), 1);  // bit by bit the same on every way
 }
 
-void tst_LargeFrames::payloadsAroundTheBorderOfAFrame_data()
+void tst_LargeFrames::payloadsAroundTheFrameLimitTravelUnchanged_data()
 {
     QTest::addColumn<int>("second");  // [byte] of the second signal; the first one has 1440
     QTest::addColumn<int>("third");   // [byte]
@@ -176,7 +176,7 @@ void tst_LargeFrames::payloadsAroundTheBorderOfAFrame_data()
     QTest::newRow("1440, 1440 and 17 bytes") << 1440 << 17 << 3;
 }
 
-void tst_LargeFrames::payloadsAroundTheBorderOfAFrame()
+void tst_LargeFrames::payloadsAroundTheFrameLimitTravelUnchanged()
 {
     QFETCH(int, second);
     QFETCH(int, third);

@@ -12,10 +12,10 @@ class tst_LateAnswerLog : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void oneLineASecondTellsHowManyThereWere();
+    void lateAnswersAreCountedInOneLinePerSecond();
     void everyNodeHasLinesOfItsOwn();
-    void silentPoliciesAreSilent_data();
-    void silentPoliciesAreSilent();
+    void silentPoliciesLogNothing_data();
+    void silentPoliciesLogNothing();
 };
 
 namespace {
@@ -41,7 +41,7 @@ QVector<LateLine> parse(const QStringList &lines)
 
 }  // namespace
 
-void tst_LateAnswerLog::oneLineASecondTellsHowManyThereWere()
+void tst_LateAnswerLog::lateAnswersAreCountedInOneLinePerSecond()
 {
     LogCapture log;
     TestMaster master(QPlcClock::realTime());
@@ -85,7 +85,7 @@ void tst_LateAnswerLog::everyNodeHasLinesOfItsOwn()
     master.stop();
 }
 
-void tst_LateAnswerLog::silentPoliciesAreSilent_data()
+void tst_LateAnswerLog::silentPoliciesLogNothing_data()
 {
     QTest::addColumn<QString>("policy");
     QTest::addColumn<bool>("isSilent");
@@ -95,7 +95,7 @@ void tst_LateAnswerLog::silentPoliciesAreSilent_data()
     QTest::newRow("wait, error") << "ErrorWait" << false;
 }
 
-void tst_LateAnswerLog::silentPoliciesAreSilent()
+void tst_LateAnswerLog::silentPoliciesLogNothing()
 {
     QFETCH(QString, policy);
     QFETCH(bool, isSilent);

@@ -12,15 +12,15 @@ class tst_Leases : public QObject
 
 private Q_SLOTS:
     void init() { m_leases = Leases(); }
-    void nothingIsTakenAtFirst();
+    void noSignalIsLeasedInitially();
     void holderHasItsSignalsOnly();
-    void takingAgainReplacesTheHolder();
-    void releasedSignalIsNobodys();
-    void silentHolderLosesAtItsDeadline();
-    void everyWordOfTheHolderRenewsAllItsLeases();
+    void newLeaseReplacesTheHolder();
+    void releasedSignalHasNoHolder();
+    void silentHolderLosesItsLeaseAtTheDeadline();
+    void everyMessageOfTheHolderRenewsAllItsLeases();
     void lostHolderLosesItsOwnLeasesOnce();
-    void lostLeaseIsHeldByNobodyAndStaysInTheMask();
-    void nextDeadlineIsThatOfTheFirstLeaseThatCanBeLost();
+    void lostLeaseHasNoHolderAndStaysInTheMask();
+    void nextDeadlineIsTheEarliestOfAllHeldLeases();
 
 private:
     Leases m_leases;
@@ -29,7 +29,7 @@ private:
     Leases::Holder bert() const { return &m_second; }
 };
 
-void tst_Leases::nothingIsTakenAtFirst()
+void tst_Leases::noSignalIsLeasedInitially()
 {
     QVERIFY(!m_leases.find(0));
     QVERIFY(m_leases.mask().empty());
@@ -55,7 +55,7 @@ void tst_Leases::holderHasItsSignalsOnly()
     QCOMPARE(m_leases.find(1)->state(), qplc::messages::LeaseState::Held);
 }
 
-void tst_Leases::takingAgainReplacesTheHolder()
+void tst_Leases::newLeaseReplacesTheHolder()
 {
     m_leases.take({1, 2}, anna(), "Anna", 100, 1000);
     m_leases.take({2}, bert(), "Bert", 500, 1050);
@@ -66,7 +66,7 @@ void tst_Leases::takingAgainReplacesTheHolder()
     QCOMPARE(m_leases.find(2)->deadline, std::int64_t(1550));
 }
 
-void tst_Leases::releasedSignalIsNobodys()
+void tst_Leases::releasedSignalHasNoHolder()
 {
     m_leases.take({1, 2}, anna(), "Anna", 100, 1000);
     m_leases.release({2});
@@ -74,7 +74,7 @@ void tst_Leases::releasedSignalIsNobodys()
     QVERIFY(m_leases.mask() == (std::vector<bool>{false, true}));
 }
 
-void tst_Leases::silentHolderLosesAtItsDeadline()
+void tst_Leases::silentHolderLosesItsLeaseAtTheDeadline()
 {
     m_leases.take({1}, anna(), "Anna", 100, 1000);
     QVERIFY(m_leases.loseSilent(1099).empty());
@@ -84,7 +84,7 @@ void tst_Leases::silentHolderLosesAtItsDeadline()
     QVERIFY(m_leases.loseSilent(5000).empty());  // once is enough
 }
 
-void tst_Leases::everyWordOfTheHolderRenewsAllItsLeases()
+void tst_Leases::everyMessageOfTheHolderRenewsAllItsLeases()
 {
     m_leases.take({1}, anna(), "Anna", 100, 1000);
     m_leases.take({2}, anna(), "Anna", 300, 1000);
@@ -106,7 +106,7 @@ void tst_Leases::lostHolderLosesItsOwnLeasesOnce()
     QVERIFY(m_leases.isHeldBy(2, bert()));
 }
 
-void tst_Leases::lostLeaseIsHeldByNobodyAndStaysInTheMask()
+void tst_Leases::lostLeaseHasNoHolderAndStaysInTheMask()
 {
     m_leases.take({1}, anna(), "Anna", 100, 1000);
     m_leases.loseAllOf(anna());
@@ -118,7 +118,7 @@ void tst_Leases::lostLeaseIsHeldByNobodyAndStaysInTheMask()
     QCOMPARE(m_leases.find(1)->name, QString("Anna"));
 }
 
-void tst_Leases::nextDeadlineIsThatOfTheFirstLeaseThatCanBeLost()
+void tst_Leases::nextDeadlineIsTheEarliestOfAllHeldLeases()
 {
     m_leases.take({1}, anna(), "Anna", 100, 1000);
     m_leases.take({2}, bert(), "Bert", 50, 1000);

@@ -11,16 +11,16 @@ class tst_ListenerSequence : public QObject
 
 private Q_SLOTS:
     void init() { QPlcSignalIndexTable::setCurrent({}); }
-    void aSilentListenerHoldsNothingUp();
+    void silentListenerDelaysNoSequence();
     void aPunctualListenerIsInitializedWithTheOutputsOfTheOthers();
-    void itGoesOnAsFarAsTheMasterHasCome();
+    void listenerCatchesUpWithTheMaster();
     void aLateListenerJoinsTheRunningPlant();
-    void itIsToldOfTheStartWhenItBecomesReadyBeforeTheOthers();
+    void earlyReadyListenerReceivesTheStart();
     void answersToAnEarlierSequenceAreDropped();
-    void itsOutputsCountWhenTheyCome();
-    void itMayLeaveInTheMiddleOfASequence();
-    void itsFaultsStopNothing_data();
-    void itsFaultsStopNothing();
+    void listenerOutputsAreUsedOnArrival();
+    void listenerMayLeaveDuringASequence();
+    void listenerFaultsDoNotStopThePlant_data();
+    void listenerFaultsDoNotStopThePlant();
 };
 
 namespace {
@@ -51,7 +51,7 @@ int countIn(const QPlcMessage &message)
 
 }  // namespace
 
-void tst_ListenerSequence::aSilentListenerHoldsNothingUp()
+void tst_ListenerSequence::silentListenerDelaysNoSequence()
 {
     TestMaster master;
     CounterNode counter;
@@ -97,7 +97,7 @@ void tst_ListenerSequence::aPunctualListenerIsInitializedWithTheOutputsOfTheOthe
     QVERIFY(master.waitForState(QPlcMasterNode::Ready));
 }
 
-void tst_ListenerSequence::itGoesOnAsFarAsTheMasterHasCome()
+void tst_ListenerSequence::listenerCatchesUpWithTheMaster()
 {
     TestMaster master;
     CounterNode counter;
@@ -147,7 +147,7 @@ void tst_ListenerSequence::aLateListenerJoinsTheRunningPlant()
     master.stop();
 }
 
-void tst_ListenerSequence::itIsToldOfTheStartWhenItBecomesReadyBeforeTheOthers()
+void tst_ListenerSequence::earlyReadyListenerReceivesTheStart()
 {
     TestMaster master;
     QVERIFY(master.listen());
@@ -202,7 +202,7 @@ void tst_ListenerSequence::answersToAnEarlierSequenceAreDropped()
     master.stop();
 }
 
-void tst_ListenerSequence::itsOutputsCountWhenTheyCome()
+void tst_ListenerSequence::listenerOutputsAreUsedOnArrival()
 {
     TestMaster master;
     QVERIFY(master.listen());
@@ -226,7 +226,7 @@ void tst_ListenerSequence::itsOutputsCountWhenTheyCome()
     master.stop();
 }
 
-void tst_ListenerSequence::itMayLeaveInTheMiddleOfASequence()
+void tst_ListenerSequence::listenerMayLeaveDuringASequence()
 {
     TestMaster master;
     QVERIFY(master.listen());
@@ -249,7 +249,7 @@ void tst_ListenerSequence::itMayLeaveInTheMiddleOfASequence()
     master.stop();
 }
 
-void tst_ListenerSequence::itsFaultsStopNothing_data()
+void tst_ListenerSequence::listenerFaultsDoNotStopThePlant_data()
 {
     QTest::addColumn<QString>("what");
     for (const char *what :
@@ -257,7 +257,7 @@ void tst_ListenerSequence::itsFaultsStopNothing_data()
         QTest::newRow(what) << QString(what);
 }
 
-void tst_ListenerSequence::itsFaultsStopNothing()
+void tst_ListenerSequence::listenerFaultsDoNotStopThePlant()
 {
     QFETCH(QString, what);
     TestMaster master(QPlcClock::realTime());

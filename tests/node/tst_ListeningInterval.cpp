@@ -19,18 +19,18 @@ class tst_ListeningInterval : public QObject
 private Q_SLOTS:
     void init() { QPlcSignalIndexTable::setCurrent(testTable()); }
     void cleanup() { QPlcSignalIndexTable::setCurrent({}); }
-    void turnsAreCountedFromCycleZero();
-    void theFirstCycleOfEachTurnIsSentAndNoOther_data();
-    void theFirstCycleOfEachTurnIsSentAndNoOther();
-    void aTurnIsHeardLaterWhenItsFirstCyclesAreSkipped();
-    void oneThatJoinsHearsTheNextCycleAndThenTheTurns_data();
-    void oneThatJoinsHearsTheNextCycleAndThenTheTurns();
-    void aListenerInTheProcessOfItsMasterIsNotCalledInBetween();
-    void turnsThatNeverArriveAreMissed();
-    void aMasterThatSendsEveryCycleIsHeardWithoutALoss();
-    void theBufferTellsHowFarItsFramesLieApart();
-    void whatCannotHaveAnIntervalIsRefused_data();
-    void whatCannotHaveAnIntervalIsRefused();
+    void intervalsAreCountedFromCycleZero();
+    void onlyFirstCycleOfEachIntervalIsSent_data();
+    void onlyFirstCycleOfEachIntervalIsSent();
+    void skippedFirstCycleIsReplacedByTheNextOne();
+    void joiningListenerGetsTheNextCycleAndThenItsInterval_data();
+    void joiningListenerGetsTheNextCycleAndThenItsInterval();
+    void localListenerIsCalledOnlyOncePerInterval();
+    void lostIntervalsCountAsMissed();
+    void masterThatSendsEveryCycleCausesNoLoss();
+    void bufferReportsTheListeningInterval();
+    void invalidListeningIntervalIsRefused_data();
+    void invalidListeningIntervalIsRefused();
     void stateTellsTheInterval();
 };
 
@@ -121,7 +121,7 @@ private:
 
 }  // namespace
 
-void tst_ListeningInterval::turnsAreCountedFromCycleZero()
+void tst_ListeningInterval::intervalsAreCountedFromCycleZero()
 {
     const qplc::ListeningInterval one;
     QVERIFY(one.isEveryCycle());
@@ -139,7 +139,7 @@ void tst_ListeningInterval::turnsAreCountedFromCycleZero()
     QCOMPARE(ten.missed(25, 3), quint64(0));  // another phase
 }
 
-void tst_ListeningInterval::theFirstCycleOfEachTurnIsSentAndNoOther_data()
+void tst_ListeningInterval::onlyFirstCycleOfEachIntervalIsSent_data()
 {
     QTest::addColumn<int>("interval");
     QTest::addColumn<QVector<quint64>>("heard");
@@ -149,7 +149,7 @@ void tst_ListeningInterval::theFirstCycleOfEachTurnIsSentAndNoOther_data()
     QTest::newRow("longer than the phase") << qplc::ListeningInterval::Longest << QVector<quint64>{0};
 }
 
-void tst_ListeningInterval::theFirstCycleOfEachTurnIsSentAndNoOther()
+void tst_ListeningInterval::onlyFirstCycleOfEachIntervalIsSent()
 {
     QFETCH(int, interval);
     QFETCH(QVector<quint64>, heard);
@@ -161,7 +161,7 @@ void tst_ListeningInterval::theFirstCycleOfEachTurnIsSentAndNoOther()
     QCOMPARE(quint64(cycle.statistics().late), quint64(0));
 }
 
-void tst_ListeningInterval::aTurnIsHeardLaterWhenItsFirstCyclesAreSkipped()
+void tst_ListeningInterval::skippedFirstCycleIsReplacedByTheNextOne()
 {
     FakeTime time;
     time.target = 9'500'000;  // [ns]: the sleep up to cycle 10...
@@ -170,14 +170,14 @@ void tst_ListeningInterval::aTurnIsHeardLaterWhenItsFirstCyclesAreSkipped()
     QCOMPARE(cycle.run(QPlcClock::realTime(), 35), (QVector<quint64>{0, 13, 20, 30}));  // ...ends in cycle 13
 }
 
-void tst_ListeningInterval::oneThatJoinsHearsTheNextCycleAndThenTheTurns_data()
+void tst_ListeningInterval::joiningListenerGetsTheNextCycleAndThenItsInterval_data()
 {
     QTest::addColumn<QString>("kind");
     for (const char *kind : {"udp", "tcp", "local"})
         QTest::newRow(kind) << kind;
 }
 
-void tst_ListeningInterval::oneThatJoinsHearsTheNextCycleAndThenTheTurns()
+void tst_ListeningInterval::joiningListenerGetsTheNextCycleAndThenItsInterval()
 {
     QFETCH(QString, kind);
     TestMaster master;
@@ -218,7 +218,7 @@ void tst_ListeningInterval::oneThatJoinsHearsTheNextCycleAndThenTheTurns()
     master.stop();
 }
 
-void tst_ListeningInterval::aListenerInTheProcessOfItsMasterIsNotCalledInBetween()
+void tst_ListeningInterval::localListenerIsCalledOnlyOncePerInterval()
 {
     TestMaster master;
     CounterNode counter;
@@ -236,7 +236,7 @@ void tst_ListeningInterval::aListenerInTheProcessOfItsMasterIsNotCalledInBetween
     QCOMPARE(master.statistics().lateAnswers, quint64(0));
 }
 
-void tst_ListeningInterval::turnsThatNeverArriveAreMissed()
+void tst_ListeningInterval::lostIntervalsCountAsMissed()
 {
     ScriptedMaster master;
     Viewer viewer;
@@ -249,7 +249,7 @@ void tst_ListeningInterval::turnsThatNeverArriveAreMissed()
     viewer.disconnectFromMaster();
 }
 
-void tst_ListeningInterval::aMasterThatSendsEveryCycleIsHeardWithoutALoss()
+void tst_ListeningInterval::masterThatSendsEveryCycleCausesNoLoss()
 {
     ScriptedMaster master;
     Viewer viewer;
@@ -262,7 +262,7 @@ void tst_ListeningInterval::aMasterThatSendsEveryCycleIsHeardWithoutALoss()
     viewer.disconnectFromMaster();
 }
 
-void tst_ListeningInterval::theBufferTellsHowFarItsFramesLieApart()
+void tst_ListeningInterval::bufferReportsTheListeningInterval()
 {
     ScriptedMaster master;
     Viewer viewer(7);
@@ -277,7 +277,7 @@ void tst_ListeningInterval::theBufferTellsHowFarItsFramesLieApart()
     viewer.disconnectFromMaster();
 }
 
-void tst_ListeningInterval::whatCannotHaveAnIntervalIsRefused_data()
+void tst_ListeningInterval::invalidListeningIntervalIsRefused_data()
 {
     QTest::addColumn<QJsonObject>("changes");
     QTest::addColumn<QString>("words");
@@ -292,7 +292,7 @@ void tst_ListeningInterval::whatCannotHaveAnIntervalIsRefused_data()
         << "listeners without outputs";
 }
 
-void tst_ListeningInterval::whatCannotHaveAnIntervalIsRefused()
+void tst_ListeningInterval::invalidListeningIntervalIsRefused()
 {
     QFETCH(QJsonObject, changes);
     QFETCH(QString, words);

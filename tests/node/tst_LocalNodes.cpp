@@ -12,7 +12,7 @@ class tst_LocalNodes : public QObject
 private Q_SLOTS:
     void theOrderOfTheNodesDoesNotMatter();
     void aRemovedNodeLeavesAndStopsThePlant();
-    void everyPhaseBeginsAtTheTop();
+    void everyPhaseStartsFromTheInitialStates();
     void theCycleLimitIsExact_data();
     void theCycleLimitIsExact();
     void lockstepTimeIsExact();
@@ -21,10 +21,10 @@ private Q_SLOTS:
     void masterMeasuresJitterAndWorkload();
     void aNodeMayBeAddedAgain();
     void destroyingARunningMasterStopsIt();
-    void aNodeMayBeRemovedByWhatItHears_data();
-    void aNodeMayBeRemovedByWhatItHears();
-    void theProgramMayStopAStartByWhatItHears_data();
-    void theProgramMayStopAStartByWhatItHears();
+    void nodeMayBeRemovedInItsOwnSignalHandler_data();
+    void nodeMayBeRemovedInItsOwnSignalHandler();
+    void signalHandlerMayStopAStart_data();
+    void signalHandlerMayStopAStart();
     void aCriticalNodeMayLeaveAfterAStartThatFailed();
     void aNodeThatEndsBeforeItsMasterLeavesIt_data();
     void aNodeThatEndsBeforeItsMasterLeavesIt();
@@ -74,7 +74,7 @@ void tst_LocalNodes::aRemovedNodeLeavesAndStopsThePlant()
     QCOMPARE(master.nodes().size(), 1);
 }
 
-void tst_LocalNodes::everyPhaseBeginsAtTheTop()
+void tst_LocalNodes::everyPhaseStartsFromTheInitialStates()
 {
     TestMaster master;
     CounterNode counter;
@@ -214,7 +214,7 @@ void tst_LocalNodes::destroyingARunningMasterStopsIt()
     QCOMPARE(counter.stops, 1);
 }
 
-void tst_LocalNodes::aNodeMayBeRemovedByWhatItHears_data()
+void tst_LocalNodes::nodeMayBeRemovedInItsOwnSignalHandler_data()
 {
     QTest::addColumn<QPlcSlaveNode::State>("state");
     QTest::newRow("outputs are wanted") << QPlcSlaveNode::Initializing;
@@ -222,7 +222,7 @@ void tst_LocalNodes::aNodeMayBeRemovedByWhatItHears_data()
     QTest::newRow("the phase has begun") << QPlcSlaveNode::RealTime;
 }
 
-void tst_LocalNodes::aNodeMayBeRemovedByWhatItHears()
+void tst_LocalNodes::nodeMayBeRemovedInItsOwnSignalHandler()
 {
     QFETCH(QPlcSlaveNode::State, state);
     TestMaster master;
@@ -248,14 +248,14 @@ void tst_LocalNodes::aNodeMayBeRemovedByWhatItHears()
     master.stop();
 }
 
-void tst_LocalNodes::theProgramMayStopAStartByWhatItHears_data()
+void tst_LocalNodes::signalHandlerMayStopAStart_data()
 {
     QTest::addColumn<bool>("isInitialization");
     QTest::newRow("states are initialized") << true;
     QTest::newRow("cycles run") << false;
 }
 
-void tst_LocalNodes::theProgramMayStopAStartByWhatItHears()
+void tst_LocalNodes::signalHandlerMayStopAStart()
 {
     QFETCH(bool, isInitialization);
     TestMaster master;

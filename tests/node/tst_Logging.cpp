@@ -12,7 +12,7 @@ class tst_Logging : public QObject
 private Q_SLOTS:
     void init() { QPlcSignalIndexTable::setCurrent({}); }
     void cleanup() { QLoggingCategory::setFilterRules(QString()); }
-    void nothingIsLoggedWhenAllIsWell();
+    void normalOperationLogsNothing();
     void everyControlMessageIsLoggedByteByByte();
     void everyCyclicFrameIsLoggedByteByByte_data();
     void everyCyclicFrameIsLoggedByteByByte();
@@ -20,7 +20,7 @@ private Q_SLOTS:
     void statesAreLogged();
 };
 
-void tst_Logging::nothingIsLoggedWhenAllIsWell()
+void tst_Logging::normalOperationLogsNothing()
 {
     LogCapture log;
     {

@@ -15,8 +15,8 @@ class tst_LostConnections : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void bothEndsOfAControlConnectionAreWatched_data();
-    void bothEndsOfAControlConnectionAreWatched();
+    void bothEndsOfAControlConnectionDetectItsLoss_data();
+    void bothEndsOfAControlConnectionDetectItsLoss();
     void aCyclicStreamMayStayUnread();
 
 private:
@@ -56,14 +56,14 @@ private:
     SecurityFiles m_files;
 };
 
-void tst_LostConnections::bothEndsOfAControlConnectionAreWatched_data()
+void tst_LostConnections::bothEndsOfAControlConnectionDetectItsLoss_data()
 {
     QTest::addColumn<bool>("isSecured");
     QTest::newRow("without security") << false;
     QTest::newRow("TLS") << true;
 }
 
-void tst_LostConnections::bothEndsOfAControlConnectionAreWatched()
+void tst_LostConnections::bothEndsOfAControlConnectionDetectItsLoss()
 {
     QFETCH(bool, isSecured);
     TestMaster master;

@@ -16,13 +16,13 @@ class tst_MasterCycle : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void lockstepSendsTheRestWhenAFullStreamTakesItAgain();
+    void lockstepSendsTheRestAfterAFullStreamDrains();
     void anAbandonedSignalIsSafeWhenItsHoldIsOver();
     void theHubForgetsTheNodesOfACycleThatIsGone();
     void aNodeThatHasLeftIsFreedAtOnceWhileNoCycleRuns();
 };
 
-void tst_MasterCycle::lockstepSendsTheRestWhenAFullStreamTakesItAgain()
+void tst_MasterCycle::lockstepSendsTheRestAfterAFullStreamDrains()
 {
     constexpr quint64 session = 5;
     QByteArray ini = "[out]\ntype = Int32\n";

@@ -21,21 +21,21 @@ class tst_MasterFinder : public QObject
 private Q_SLOTS:
     void init() { m_folder = std::make_unique<RuntimeFolder>(); }
     void cleanup() { m_folder.reset(); }
-    void aMasterOfThisMachineIsFoundAndMissed();
+    void localMasterIsFoundAndItsEndIsNoticed();
     void theNameOfAMasterIsShown();
-    void mastersAreHeardOverTheNetworkAndOneGoesAway();
+    void networkMastersAreFoundAndOneDisappears();
     void theFirstBeaconIsSentAtOnce();
-    void withoutTheWishNothingIsSent();
-    void aMasterThatIsBothHereAndHeardIsShownOnce();
-    void beaconsGoAfterSixSecondsOfSilence();
-    void garbageIsNothing();
-    void aFloodFillsNoMoreThanTheList();
+    void masterSendsNoBeaconByDefault();
+    void localMasterWithABeaconIsListedOnce();
+    void beaconExpiresAfterSixSecondsOfSilence();
+    void malformedBeaconsAreIgnored();
+    void floodOfBeaconsIsLimitedByTheListSize();
     void aFloodOfDatagramsIsReadInPortions();
-    void whoRepeatsHimselfIsOne();
-    void namesAreFitToBeShown_data();
-    void namesAreFitToBeShown();
-    void withoutMulticastTheLocalOnesAreFoundInSilence();
-    void afterStopNothingIsKnown();
+    void repeatedBeaconIsListedOnce();
+    void namesAreSanitizedForDisplay_data();
+    void namesAreSanitizedForDisplay();
+    void localMastersAreFoundWithoutMulticast();
+    void stopClearsTheList();
 
 private:
     struct FakeClock : qplc::TimeSource
@@ -71,7 +71,7 @@ private:
     std::unique_ptr<RuntimeFolder> m_folder;
 };
 
-void tst_MasterFinder::aMasterOfThisMachineIsFoundAndMissed()
+void tst_MasterFinder::localMasterIsFoundAndItsEndIsNoticed()
 {
     MasterFinder finder;
     QSignalSpy changed(&finder, &MasterFinder::changed);
@@ -103,7 +103,7 @@ void tst_MasterFinder::theNameOfAMasterIsShown()
     QCOMPARE(find(masters, addressOf(nameless))->name, QCoreApplication::applicationName());
 }
 
-void tst_MasterFinder::mastersAreHeardOverTheNetworkAndOneGoesAway()
+void tst_MasterFinder::networkMastersAreFoundAndOneDisappears()
 {
     hideNotices();
     MasterFinder finder;
@@ -146,7 +146,7 @@ void tst_MasterFinder::theFirstBeaconIsSentAtOnce()
     QVERIFY(isHeard);
 }
 
-void tst_MasterFinder::withoutTheWishNothingIsSent()
+void tst_MasterFinder::masterSendsNoBeaconByDefault()
 {
     hideNotices();
     MasterFinder finder;
@@ -160,7 +160,7 @@ void tst_MasterFinder::withoutTheWishNothingIsSent()
     QVERIFY(!finds(finder, silent));
 }
 
-void tst_MasterFinder::aMasterThatIsBothHereAndHeardIsShownOnce()
+void tst_MasterFinder::localMasterWithABeaconIsListedOnce()
 {
     TestMaster master;
     master.setBeacon(true);
@@ -173,7 +173,7 @@ void tst_MasterFinder::aMasterThatIsBothHereAndHeardIsShownOnce()
     QVERIFY(finder.masters().constFirst().isLocal);
 }
 
-void tst_MasterFinder::beaconsGoAfterSixSecondsOfSilence()
+void tst_MasterFinder::beaconExpiresAfterSixSecondsOfSilence()
 {
     FakeClock clock;
     MasterFinder finder(nullptr, clock);
@@ -193,7 +193,7 @@ void tst_MasterFinder::beaconsGoAfterSixSecondsOfSilence()
     QCOMPARE(finder.masters().constFirst().name, QStringLiteral("other"));
 }
 
-void tst_MasterFinder::garbageIsNothing()
+void tst_MasterFinder::malformedBeaconsAreIgnored()
 {
     MasterFinder finder;
     QSignalSpy changed(&finder, &MasterFinder::changed);
@@ -207,7 +207,7 @@ void tst_MasterFinder::garbageIsNothing()
     QCOMPARE(changed.count(), 0);
 }
 
-void tst_MasterFinder::aFloodFillsNoMoreThanTheList()
+void tst_MasterFinder::floodOfBeaconsIsLimitedByTheListSize()
 {
     FakeClock clock;
     MasterFinder finder(nullptr, clock);
@@ -248,7 +248,7 @@ void tst_MasterFinder::aFloodOfDatagramsIsReadInPortions()
     QCOMPARE(finder.masters().size(), 1);
 }
 
-void tst_MasterFinder::whoRepeatsHimselfIsOne()
+void tst_MasterFinder::repeatedBeaconIsListedOnce()
 {
     MasterFinder finder;
     QSignalSpy changed(&finder, &MasterFinder::changed);
@@ -265,7 +265,7 @@ void tst_MasterFinder::whoRepeatsHimselfIsOne()
     QCOMPARE(finder.masters().constFirst().name, QStringLiteral("a new name"));
 }
 
-void tst_MasterFinder::namesAreFitToBeShown_data()
+void tst_MasterFinder::namesAreSanitizedForDisplay_data()
 {
     QTest::addColumn<QString>("name");
     QTest::addColumn<QString>("shown");
@@ -279,7 +279,7 @@ void tst_MasterFinder::namesAreFitToBeShown_data()
     QTest::newRow("41 characters") << QString(41, QLatin1Char('x')) << QString(39, QLatin1Char('x')) + text("…");
 }
 
-void tst_MasterFinder::namesAreFitToBeShown()
+void tst_MasterFinder::namesAreSanitizedForDisplay()
 {
     QFETCH(QString, name);
     MasterFinder finder;
@@ -289,7 +289,7 @@ void tst_MasterFinder::namesAreFitToBeShown()
     QTEST(finder.masters().constFirst().name, "shown");
 }
 
-void tst_MasterFinder::withoutMulticastTheLocalOnesAreFoundInSilence()
+void tst_MasterFinder::localMastersAreFoundWithoutMulticast()
 {
     LogCapture log;
     QUdpSocket other;  // has the port for itself
@@ -304,7 +304,7 @@ void tst_MasterFinder::withoutMulticastTheLocalOnesAreFoundInSilence()
     QVERIFY2(log.all().size() == said, qPrintable(log.all().join(QLatin1Char(10))));
 }
 
-void tst_MasterFinder::afterStopNothingIsKnown()
+void tst_MasterFinder::stopClearsTheList()
 {
     TestMaster master;
     QVERIFY(master.listen());

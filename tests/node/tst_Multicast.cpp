@@ -14,15 +14,15 @@ class tst_Multicast : public QObject
 
 private Q_SLOTS:
     void init() { QPlcSignalIndexTable::setCurrent({}); }
-    void fewDatagramsCarryTheInputsOfMany();
-    void whoJoinsLaterDisturbsNobody();
-    void aMasterWithoutAGroupRefuses();
-    void nodesThatAreAskedAloneAreRefused();
+    void multicastDatagramsCarryInputsOfManyNodes();
+    void joiningNodeDoesNotDisturbOthers();
+    void masterWithoutAGroupRefusesMulticastNodes();
+    void sameCycleNodesAreRefusedOverMulticast();
     void inputsThatFillMoreThanADatagramAreRefused();
-    void noGroupIsSaid_data();
-    void noGroupIsSaid();
-    void datagramsOfOthersAreNoCycles();
-    void datagramsForOthersDoNotCalmTheWatchdog();
+    void invalidGroupAddressIsReported_data();
+    void invalidGroupAddressIsReported();
+    void datagramsOfOtherMastersAreIgnored();
+    void datagramsForOthersDoNotResetTheWatchdog();
     void inputsLieInsideOfTheDatagram_data();
     void inputsLieInsideOfTheDatagram();
     void aNodeThatLeavesKeepsNothingOpen();
@@ -66,7 +66,7 @@ QPlcSignalTable manySignals(int nodes)
 
 }  // namespace
 
-void tst_Multicast::fewDatagramsCarryTheInputsOfMany()
+void tst_Multicast::multicastDatagramsCarryInputsOfManyNodes()
 {
     constexpr int count = 100;  // 2400 bytes of inputs: two parts
     TestMaster master(QPlcClock::lockstep(), manySignals(count));
@@ -91,7 +91,7 @@ void tst_Multicast::fewDatagramsCarryTheInputsOfMany()
     }
 }
 
-void tst_Multicast::whoJoinsLaterDisturbsNobody()
+void tst_Multicast::joiningNodeDoesNotDisturbOthers()
 {
     TestMaster master(QPlcClock::lockstep(), manySignals(3));
     master.setMulticastGroup(group);
@@ -119,7 +119,7 @@ void tst_Multicast::whoJoinsLaterDisturbsNobody()
     third.disconnectFromMaster();
 }
 
-void tst_Multicast::aMasterWithoutAGroupRefuses()
+void tst_Multicast::masterWithoutAGroupRefusesMulticastNodes()
 {
     TestMaster master(QPlcClock::lockstep(), manySignals(1));
     QVERIFY(master.listen());
@@ -128,7 +128,7 @@ void tst_Multicast::aMasterWithoutAGroupRefuses()
     QVERIFY2(node.errorString().contains("no multicast group"), qPrintable(node.errorString()));
 }
 
-void tst_Multicast::nodesThatAreAskedAloneAreRefused()
+void tst_Multicast::sameCycleNodesAreRefusedOverMulticast()
 {
     TestMaster master(QPlcClock::lockstep(), manySignals(1));
     master.setMulticastGroup(group);
@@ -161,14 +161,14 @@ void tst_Multicast::inputsThatFillMoreThanADatagramAreRefused()
     QVERIFY2(node.errorString().contains("1456 bytes of inputs"), qPrintable(node.errorString()));
 }
 
-void tst_Multicast::noGroupIsSaid_data()
+void tst_Multicast::invalidGroupAddressIsReported_data()
 {
     QTest::addColumn<QString>("address");
     QTest::newRow("no multicast address") << "10.0.0.1";
     QTest::newRow("IPv6") << "ff02::1";
 }
 
-void tst_Multicast::noGroupIsSaid()
+void tst_Multicast::invalidGroupAddressIsReported()
 {
     QFETCH(QString, address);
     TestMaster master(QPlcClock::lockstep(), manySignals(1));
@@ -181,7 +181,7 @@ void tst_Multicast::noGroupIsSaid()
 }
 
 /// Two masters may share a group: each has a port and a session of its own.
-void tst_Multicast::datagramsOfOthersAreNoCycles()
+void tst_Multicast::datagramsOfOtherMastersAreIgnored()
 {
     TestMaster one(QPlcClock::lockstep(), manySignals(1));
     TestMaster other(QPlcClock::lockstep(), manySignals(1));
@@ -225,7 +225,7 @@ private:
     std::array<char, 40> m_frame{};  // part 0
 };
 
-void tst_Multicast::datagramsForOthersDoNotCalmTheWatchdog()
+void tst_Multicast::datagramsForOthersDoNotResetTheWatchdog()
 {
     Summer node(0);
     qplc::NodeRuntime &runtime = QPlcSlaveNodePrivate::of(node).runtime;

@@ -11,7 +11,7 @@ class tst_NodeRegistry : public QObject
 
 private Q_SLOTS:
     void oneNodeTooManyIsRefusedWithTheLimit();
-    void theLastNodesThatLeftAreKnownAndNoMore();
+    void onlyTheLastRemovedNodesAreRemembered();
 };
 
 void tst_NodeRegistry::oneNodeTooManyIsRefusedWithTheLimit()
@@ -31,7 +31,7 @@ void tst_NodeRegistry::oneNodeTooManyIsRefusedWithTheLimit()
     QVERIFY(registry.admit(declaration, &refusal));
 }
 
-void tst_NodeRegistry::theLastNodesThatLeftAreKnownAndNoMore()
+void tst_NodeRegistry::onlyTheLastRemovedNodesAreRemembered()
 {
     qplc::GoneNodes gone;
     for (quint16 id = 0; id < 300; ++id)

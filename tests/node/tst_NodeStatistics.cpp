@@ -44,12 +44,12 @@ private Q_SLOTS:
     void init() { m_node = std::make_unique<NodeStatistics>(); }
     void answerInTimeGivesRoundTripExecutionAndSlack();
     void lateAnswerCountsWithItsFullTime();
-    void answersThatNeverComeAreLostWhenANewerOneIsThere();
+    void missingAnswersAreLostAfterANewerAnswer();
     void cyclesThatWereSkippedAreNotLost();
     void answerToAForgottenRequestIsNotLost();
     void clearForgetsWhatWasAsked();
     void seededLossesAreCountedExactly();
-    void lockstepCountsAndMeasuresNothing();
+    void lockstepCountsAnswersWithoutMeasuringTimes();
     void localStepHasNoRoundTrip();
     void slaveMeasuresDifferencesOfItsOwnClock();
     void slaveWithoutFramesHasNoValues();
@@ -80,7 +80,7 @@ void tst_NodeStatistics::lateAnswerCountsWithItsFullTime()
     QCOMPARE(found.lost, quint64(0));  // cycles 1 to 3 may still come
 }
 
-void tst_NodeStatistics::answersThatNeverComeAreLostWhenANewerOneIsThere()
+void tst_NodeStatistics::missingAnswersAreLostAfterANewerAnswer()
 {
     for (std::uint64_t cycle = 0; cycle < 10; ++cycle)
         ask(cycle);
@@ -161,7 +161,7 @@ void tst_NodeStatistics::seededLossesAreCountedExactly()
     QCOMPARE(read().roundTrip.sinceStart.count, answers);
 }
 
-void tst_NodeStatistics::lockstepCountsAndMeasuresNothing()
+void tst_NodeStatistics::lockstepCountsAnswersWithoutMeasuringTimes()
 {
     for (std::uint64_t cycle = 0; cycle < 10; ++cycle) {
         m_node->asked(cycle, 0, 0);

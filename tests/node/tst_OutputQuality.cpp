@@ -116,16 +116,16 @@ private Q_SLOTS:
     void init() { QPlcSignalIndexTable::setCurrent({}); }
     void anOutputWithoutAValueIsHeldAndThenSafe_data() { addKinds(); }
     void anOutputWithoutAValueIsHeldAndThenSafe();
-    void aHeldOutputIsAsOldAsItsWriterSays();
-    void aSameCycleReaderIsToldAtOnce();
+    void heldOutputHasTheAgeOfItsWriter();
+    void sameCycleReaderGetsQualityInTheSameCycle();
     void aSensorThatNeverMeasuredLeavesItsSignalInvalid();
-    void whatIsNoValueIsNotLookedAt();
-    void theOtherWriterTakesOverFromOneWithoutAValue();
-    void aNodeThatDoesNotSayIsGood();
-    void anOldMasterIsNoMasterForSuchANode();
+    void contentOfAnInvalidOutputIsNotChecked();
+    void otherWriterReplacesAWriterWithoutAValue();
+    void outputsWithoutQualityAreGood();
+    void nodeWithOutputQualityRefusesAnOlderMaster();
     void aNodeMayAskForASafeStop_data() { addKinds(); }
     void aNodeMayAskForASafeStop();
-    void whatWasAskedInOnePhaseDoesNotStopTheNext();
+    void safeStopRequestEndsWithItsPhase();
 };
 
 void tst_OutputQuality::anOutputWithoutAValueIsHeldAndThenSafe()
@@ -149,7 +149,7 @@ void tst_OutputQuality::anOutputWithoutAValueIsHeldAndThenSafe()
     reader.disconnectFromMaster();
 }
 
-void tst_OutputQuality::aHeldOutputIsAsOldAsItsWriterSays()
+void tst_OutputQuality::heldOutputHasTheAgeOfItsWriter()
 {
     TestMaster master(QPlcClock::lockstep(), sensorTable());
     Sensor sensor;
@@ -163,7 +163,7 @@ void tst_OutputQuality::aHeldOutputIsAsOldAsItsWriterSays()
              (QStringList{"0.5 good", "0 good", "1 good", "2 held 1", "3 held 2", "4 held 3", "-5 safe", "-5 safe"}));
 }
 
-void tst_OutputQuality::aSameCycleReaderIsToldAtOnce()
+void tst_OutputQuality::sameCycleReaderGetsQualityInTheSameCycle()
 {
     TestMaster master(QPlcClock::lockstep(), sensorTable());
     Sensor sensor;
@@ -190,7 +190,7 @@ void tst_OutputQuality::aSensorThatNeverMeasuredLeavesItsSignalInvalid()
              (QStringList{"1 invalid", "1 invalid", "1 invalid", "1 invalid", "1 invalid", "4 good", "5 good"}));
 }
 
-void tst_OutputQuality::whatIsNoValueIsNotLookedAt()
+void tst_OutputQuality::contentOfAnInvalidOutputIsNotChecked()
 {
     TestMaster master(QPlcClock::lockstep(), sensorTable());
     Sensor sensor;
@@ -205,7 +205,7 @@ void tst_OutputQuality::whatIsNoValueIsNotLookedAt()
     QVERIFY2(log.matching("angle").isEmpty(), qPrintable(log.all().join('\n')));  // no alarm
 }
 
-void tst_OutputQuality::theOtherWriterTakesOverFromOneWithoutAValue()
+void tst_OutputQuality::otherWriterReplacesAWriterWithoutAValue()
 {
     TestMaster master(QPlcClock::lockstep(), sensorTable());
     Writer first("Sensor", 1.0);
@@ -223,7 +223,7 @@ void tst_OutputQuality::theOtherWriterTakesOverFromOneWithoutAValue()
     QCOMPARE(master.signalQuality("shared").kind(), QPlcQuality::Good);
 }
 
-void tst_OutputQuality::aNodeThatDoesNotSayIsGood()
+void tst_OutputQuality::outputsWithoutQualityAreGood()
 {
     TestMaster master(QPlcClock::lockstep(), sensorTable());
     Sensor sensor;
@@ -237,7 +237,7 @@ void tst_OutputQuality::aNodeThatDoesNotSayIsGood()
     QCOMPARE(reader.record, (QStringList{"0.5 good", "0 good", "1 good"}));
 }
 
-void tst_OutputQuality::anOldMasterIsNoMasterForSuchANode()
+void tst_OutputQuality::nodeWithOutputQualityRefusesAnOlderMaster()
 {
     ScriptedMaster master;
     Sensor sensor;
@@ -275,7 +275,7 @@ void tst_OutputQuality::aNodeMayAskForASafeStop()
     reader.disconnectFromMaster();
 }
 
-void tst_OutputQuality::whatWasAskedInOnePhaseDoesNotStopTheNext()
+void tst_OutputQuality::safeStopRequestEndsWithItsPhase()
 {
     TestMaster master(QPlcClock::lockstep(), sensorTable());
     Sensor sensor;

@@ -84,17 +84,17 @@ private Q_SLOTS:
     void truthValuesAreNormalized();
     void timesAreNanoseconds();
     void realsMixAndIntegersWiden();
-    void whatDoesNotFitIsRefused_data();
-    void whatDoesNotFitIsRefused();
+    void incompatibleTypesAreRefused_data();
+    void incompatibleTypesAreRefused();
     void allMismatchesStandInOneMessage();
     void aSignalIsDeclaredOnce();
     void oneSignalMayBeReadAndWritten();
     void boundPortsUseVariablesThatExist();
     void outputsStayUntilAssigned();
-    void compactSignalsTakeTheTypeOfTheSignal();
+    void compactSignalsAdoptTheTypeOfTheSignal();
     void compactSignalsThatDoNotFitAreFaults();
     void theFirstFaultOfAPhaseIsKept();
-    void portsTellWhatTheyAre();
+    void portsReportNameDirectionAndValue();
     void workloadBecomesAnOutput();
     void bindingAgainFollowsTheNewTable();
 };
@@ -173,7 +173,7 @@ void tst_Ports::realsMixAndIntegersWiden()
     QCOMPARE(QPlcValue::fromBytes(QPlcSignalType(QPlcSignalType::Int32), runtime.outputs()).toInt(), -100);
 }
 
-void tst_Ports::whatDoesNotFitIsRefused_data()
+void tst_Ports::incompatibleTypesAreRefused_data()
 {
     QTest::addColumn<QString>("text");
     QTest::addColumn<QStringList>("words");
@@ -194,7 +194,7 @@ void tst_Ports::whatDoesNotFitIsRefused_data()
     row("time as int", refusal<QPlcInput<int>>("DateTime"), {"DateTime", "Int32"});
 }
 
-void tst_Ports::whatDoesNotFitIsRefused()
+void tst_Ports::incompatibleTypesAreRefused()
 {
     QFETCH(QString, text);
     QFETCH(QStringList, words);
@@ -334,7 +334,7 @@ void tst_Ports::outputsStayUntilAssigned()
     }
 }
 
-void tst_Ports::compactSignalsTakeTheTypeOfTheSignal()
+void tst_Ports::compactSignalsAdoptTheTypeOfTheSignal()
 {
     class Compact : public QPlcCompactSlaveNode
     {
@@ -430,7 +430,7 @@ void tst_Ports::theFirstFaultOfAPhaseIsKept()
     }
 }
 
-void tst_Ports::portsTellWhatTheyAre()
+void tst_Ports::portsReportNameDirectionAndValue()
 {
     Through<double> node;
     QCOMPARE(node.m_in.name(), QString("in"));

@@ -16,21 +16,21 @@ private Q_SLOTS:
     void init();
     void aNodeWithItsKeyTakesPart_data();
     void aNodeWithItsKeyTakesPart();
-    void twoNodesAndAToolFlyTogether();
+    void nodesAndToolWorkTogetherWithKeys();
     void aWrongKeyIsRefusedOnBothEnds();
     void anUnknownIdentityIsRefusedOnBothEnds();
-    void aClientWithoutSecurityIsTold();
-    void aSecuredClientIsToldThatTheMasterIsNot();
-    void aClientWithCertificatesIsTold();
-    void aRevokedKeyDoesNotComeInAgain();
+    void clientWithoutSecurityGetsTheReason();
+    void securedClientReportsAnUnsecuredMaster();
+    void clientWithCertificateGetsTheReason();
+    void revokedKeyIsRefused();
     void aKeyIsReplacedWithoutARestart();
     void aKeysFileThatOthersMayReadIsRefused();
     void aKeysFileOfAnotherUserIsRefused();
-    void aKeysFileThatBecomesUnreadableLetsNobodyIn();
+    void unreadableKeysFileRefusesAllClients();
     void aNodeIsReplacedByItsOwnIdentityOnly();
-    void anUncertainIdentityIsAsked();
-    void aMasterThatSaysNothingIsGivenUp();
-    void theOtherNodeIsNoMaster();
+    void ambiguousIdentityIsReported();
+    void silentMasterIsGivenUp();
+    void keyOfANodeIsRefusedForAMaster();
     void noKeyIsEverLogged();
     void multicastIsRefused();
     void oldVersionsAndWeakSuitesAreRefused_data();
@@ -76,7 +76,7 @@ void tst_PreSharedKeys::aNodeWithItsKeyTakesPart()
     QCOMPARE(m_master->signalValue("count").toInt(), 5);
 }
 
-void tst_PreSharedKeys::twoNodesAndAToolFlyTogether()
+void tst_PreSharedKeys::nodesAndToolWorkTogetherWithKeys()
 {
     CounterNode counter;
     EchoNode echo;
@@ -115,7 +115,7 @@ void tst_PreSharedKeys::anUnknownIdentityIsRefusedOnBothEnds()
     QTRY_VERIFY(!log.matching("unknown identity 'Mallory'").isEmpty());
 }
 
-void tst_PreSharedKeys::aClientWithoutSecurityIsTold()
+void tst_PreSharedKeys::clientWithoutSecurityGetsTheReason()
 {
     LogCapture log;
     CounterNode node;
@@ -125,7 +125,7 @@ void tst_PreSharedKeys::aClientWithoutSecurityIsTold()
     QTRY_VERIFY(!log.matching("it does not speak TLS, but this master is secured").isEmpty());
 }
 
-void tst_PreSharedKeys::aSecuredClientIsToldThatTheMasterIsNot()
+void tst_PreSharedKeys::securedClientReportsAnUnsecuredMaster()
 {
     LogCapture log;
     TestMaster open;
@@ -138,7 +138,7 @@ void tst_PreSharedKeys::aSecuredClientIsToldThatTheMasterIsNot()
     QTRY_VERIFY(!log.matching("it speaks TLS, but this master is not secured").isEmpty());
 }
 
-void tst_PreSharedKeys::aClientWithCertificatesIsTold()
+void tst_PreSharedKeys::clientWithCertificateGetsTheReason()
 {
     LogCapture log;
     QVERIFY(m_files.makeAuthority("authority") && m_files.makeCertificate("Counter", "authority"));
@@ -149,7 +149,7 @@ void tst_PreSharedKeys::aClientWithCertificatesIsTold()
     QTRY_VERIFY(!log.matching("TLS handshake failed").isEmpty());
 }
 
-void tst_PreSharedKeys::aRevokedKeyDoesNotComeInAgain()
+void tst_PreSharedKeys::revokedKeyIsRefused()
 {
     EchoNode echo;
     echo.setSecurity(m_files.echo());
@@ -217,7 +217,7 @@ void tst_PreSharedKeys::aKeysFileOfAnotherUserIsRefused()
     QVERIFY2(master.listen(), qPrintable(master.errorString()));
 }
 
-void tst_PreSharedKeys::aKeysFileThatBecomesUnreadableLetsNobodyIn()
+void tst_PreSharedKeys::unreadableKeysFileRefusesAllClients()
 {
     LogCapture log;
     m_files.write("keys.ini", "[Counter]\nkey = 12\n");
@@ -255,7 +255,7 @@ void tst_PreSharedKeys::aNodeIsReplacedByItsOwnIdentityOnly()
     QCOMPARE(master.nodes().size(), 1);
 }
 
-void tst_PreSharedKeys::anUncertainIdentityIsAsked()
+void tst_PreSharedKeys::ambiguousIdentityIsReported()
 {
     LogCapture log;
     CounterNode node;
@@ -265,7 +265,7 @@ void tst_PreSharedKeys::anUncertainIdentityIsAsked()
              qPrintable(node.errorString()));
 }
 
-void tst_PreSharedKeys::aMasterThatSaysNothingIsGivenUp()
+void tst_PreSharedKeys::silentMasterIsGivenUp()
 {
     LogCapture log;
     QTcpServer dumb;
@@ -280,7 +280,7 @@ void tst_PreSharedKeys::aMasterThatSaysNothingIsGivenUp()
 }
 
 /// A node knows its own key alone: it cannot play the master for another one.
-void tst_PreSharedKeys::theOtherNodeIsNoMaster()
+void tst_PreSharedKeys::keyOfANodeIsRefusedForAMaster()
 {
     LogCapture log;
     TestMaster impostor;

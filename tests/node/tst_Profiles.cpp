@@ -43,16 +43,16 @@ class tst_Profiles : public QObject
 
 private Q_SLOTS:
     void init() { QPlcSignalIndexTable::setCurrent({}); }
-    void factsDecideUnlessSomebodyHasChosen_data();
-    void factsDecideUnlessSomebodyHasChosen();
+    void chosenProfileOverridesTheDetectedOne_data();
+    void chosenProfileOverridesTheDetectedOne();
     void namesAreReadInAnyCase();
     void stateTellsProfileAndReason();
     void aPhaseKeepsItsProfile();
-    void simulationHoldsForEverWhatHasNoHold();
+    void simulationHoldsValuesWithoutHoldTimeForever();
     void plantGoesToSafeValues();
     void aWatchdogReportsInASimulation();
-    void aWatchdogMakesSafeInAPlantWithoutBeingAskedFor();
-    void whatIsNoProfileOfAPhaseIsTakenForAPlant();
+    void plantActivatesTheWatchdogByDefault();
+    void unknownProfileCountsAsPlant();
     void settingsOfANodeWinOverTheProfile();
     void aMasterThatListensOnANetworkIsAPlant();
     void aListenerHasNoWatchdogByDefault();
@@ -60,14 +60,14 @@ private Q_SLOTS:
     void aProcessThatStaysAliveKeepsItsState();
     void aRestartedProcessBeginsAtItsInitialStateWithAnEvent();
     void aNewPhaseBeginsAtTheInitialState();
-    void aLateNodeIsWaitedForWithoutEndInASimulation();
-    void aGapEndsNothingInASimulation();
+    void simulationWaitsForALateNodeWithoutLimit();
+    void gapDoesNotStopASimulation();
     void realDevicesMakeAPlant();
     void realDevicesAreRefusedInASimulationUntilTheNextStart();
     void realDevicesInThisProcessMakeAPlant();
 };
 
-void tst_Profiles::factsDecideUnlessSomebodyHasChosen_data()
+void tst_Profiles::chosenProfileOverridesTheDetectedOne_data()
 {
     QTest::addColumn<int>("wanted");
     QTest::addColumn<QString>("hardware");
@@ -87,7 +87,7 @@ void tst_Profiles::factsDecideUnlessSomebodyHasChosen_data()
     row("a person wants a plant", Profile::Plant, "", "", true, Profile::Plant);
 }
 
-void tst_Profiles::factsDecideUnlessSomebodyHasChosen()
+void tst_Profiles::chosenProfileOverridesTheDetectedOne()
 {
     QFETCH(int, wanted);
     QFETCH(QString, hardware);
@@ -144,7 +144,7 @@ void tst_Profiles::aPhaseKeepsItsProfile()
     master.stop();
 }
 
-void tst_Profiles::simulationHoldsForEverWhatHasNoHold()
+void tst_Profiles::simulationHoldsValuesWithoutHoldTimeForever()
 {
     ProfiledMaster master(Profile::Simulation);
     QVERIFY(master.listen());
@@ -226,7 +226,7 @@ void tst_Profiles::aWatchdogReportsInASimulation()
     QVERIFY(log.matching("no frame of the master for 15 ms since cycle").size() >= 2);  // the rest is told at the end
 }
 
-void tst_Profiles::aWatchdogMakesSafeInAPlantWithoutBeingAskedFor()
+void tst_Profiles::plantActivatesTheWatchdogByDefault()
 {
     ScriptedMaster master(profileTable());
     CounterNode node;
@@ -241,7 +241,7 @@ void tst_Profiles::aWatchdogMakesSafeInAPlantWithoutBeingAskedFor()
     QCOMPARE(node.error(), QPlcSlaveNode::WatchdogError);
 }
 
-void tst_Profiles::whatIsNoProfileOfAPhaseIsTakenForAPlant()
+void tst_Profiles::unknownProfileCountsAsPlant()
 {
     for (const char *told : {"Automatic", "simulated", ""}) {
         ScriptedMaster master(profileTable());
@@ -380,7 +380,7 @@ void tst_Profiles::aNewPhaseBeginsAtTheInitialState()
     master.stop();
 }
 
-void tst_Profiles::aLateNodeIsWaitedForWithoutEndInASimulation()
+void tst_Profiles::simulationWaitsForALateNodeWithoutLimit()
 {
     const auto waitsIn = [](Profile::Value profile, bool isSet) {
         ProfiledMaster master(profile);
@@ -408,7 +408,7 @@ void tst_Profiles::aLateNodeIsWaitedForWithoutEndInASimulation()
     QCOMPARE(qplc::ProfileDefaults::of(Profile::Plant).longestWait, std::chrono::nanoseconds(5s));
 }
 
-void tst_Profiles::aGapEndsNothingInASimulation()
+void tst_Profiles::gapDoesNotStopASimulation()
 {
     const auto stateAfterAGap = [](Profile::Value profile) {
         ProfiledMaster master(profile);

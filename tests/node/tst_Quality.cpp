@@ -86,19 +86,19 @@ private Q_SLOTS:
     void aBadValueNeverReachesTheActuator();
     void aSameCycleReaderSeesTheGuardedValue_data() { addKinds(); }
     void aSameCycleReaderSeesTheGuardedValue();
-    void whoDoesNotAskGetsSafeValuesToo_data() { addKinds(); }
-    void whoDoesNotAskGetsSafeValuesToo();
-    void whatNobodyWritesIsInvalidUntilSomebodySetsIt();
+    void nodesWithoutQualityGetSafeValuesToo_data() { addKinds(); }
+    void nodesWithoutQualityGetSafeValuesToo();
+    void unwrittenSignalIsInvalidUntilItIsSet();
     void aWriterThatIsLostIsHeldAndThenSafe_data();
     void aWriterThatIsLostIsHeldAndThenSafe();
     void aWriterThatIsKilledIsHeldAndThenSafe_data();
-    void cyclesThatAreLeftOutAreTimeThatHasPassed();
+    void skippedCyclesCountAsHoldTime();
     void aWriterThatIsKilledIsHeldAndThenSafe();
-    void aListenerIsGoodUntilItIsGone();
+    void valueOfAListenerIsGoodUntilItLeaves();
     void theNextPhaseBeginsWithoutOldValues();
-    void theNodeItselfDoesNotBelieveAMasterThatIsMad();
-    void refusedValuesAreCountedAndAnAlarm();
-    void aSignalThatTremblesAboutItsLimitIsOneAlarm();
+    void nodeRefusesInputsOutsideItsOwnLimits();
+    void refusedValuesAreCountedAndRaiseAnAlarm();
+    void signalOscillatingAtItsLimitRaisesOneAlarm();
     void initialOutputsOutOfRangeEndTheInitialization();
 };
 
@@ -142,7 +142,7 @@ void tst_Quality::aSameCycleReaderSeesTheGuardedValue()
     actuator.disconnectFromMaster();
 }
 
-void tst_Quality::whoDoesNotAskGetsSafeValuesToo()
+void tst_Quality::nodesWithoutQualityGetSafeValuesToo()
 {
     QFETCH(QString, kind);
     TestMaster master(QPlcClock::lockstep(), qualityTable());
@@ -161,7 +161,7 @@ void tst_Quality::whoDoesNotAskGetsSafeValuesToo()
     actuator.disconnectFromMaster();
 }
 
-void tst_Quality::whatNobodyWritesIsInvalidUntilSomebodySetsIt()
+void tst_Quality::unwrittenSignalIsInvalidUntilItIsSet()
 {
     TestMaster master(QPlcClock::lockstep(), qualityTable());
     QVERIFY(master.listen());
@@ -232,7 +232,7 @@ void tst_Quality::aWriterThatIsKilledIsHeldAndThenSafe_data()
         QTest::newRow(kind) << QString(kind);
 }
 
-void tst_Quality::cyclesThatAreLeftOutAreTimeThatHasPassed()
+void tst_Quality::skippedCyclesCountAsHoldTime()
 {
     constexpr int Tries = 5;  // a machine that stands still leaves out cycles by itself, at another time
     int held = -1;
@@ -293,7 +293,7 @@ void tst_Quality::aWriterThatIsKilledIsHeldAndThenSafe()
     QCOMPARE(actuator.record.mid(0, last).filter("good").size(), last);
 }
 
-void tst_Quality::aListenerIsGoodUntilItIsGone()
+void tst_Quality::valueOfAListenerIsGoodUntilItLeaves()
 {
     TestMaster master(QPlcClock::lockstep(), qualityTable());
     Actuator actuator;
@@ -337,7 +337,7 @@ void tst_Quality::theNextPhaseBeginsWithoutOldValues()
     QCOMPARE(actuator.record.count("-5 safe"), 10);
 }
 
-void tst_Quality::theNodeItselfDoesNotBelieveAMasterThatIsMad()
+void tst_Quality::nodeRefusesInputsOutsideItsOwnLimits()
 {
     // The table of the node is stricter than that of the master.
     TestMaster master(QPlcClock::lockstep(), qualityTable());
@@ -360,7 +360,7 @@ void tst_Quality::theNodeItselfDoesNotBelieveAMasterThatIsMad()
     actuator.disconnectFromMaster();
 }
 
-void tst_Quality::refusedValuesAreCountedAndAnAlarm()
+void tst_Quality::refusedValuesAreCountedAndRaiseAnAlarm()
 {
     LogCapture log;
     TestMaster master(QPlcClock::lockstep(), qualityTable());
@@ -383,7 +383,7 @@ void tst_Quality::refusedValuesAreCountedAndAnAlarm()
     QCOMPARE(log.matching("echo").size(), 3);
 }
 
-void tst_Quality::aSignalThatTremblesAboutItsLimitIsOneAlarm()
+void tst_Quality::signalOscillatingAtItsLimitRaisesOneAlarm()
 {
     LogCapture log;
     std::atomic<bool> isBad{true};

@@ -17,11 +17,11 @@ private Q_SLOTS:
     void slaveComputesOnceAndAnswers_data();
     void slaveComputesOnceAndAnswers();
     void lockstepWaitsForAllButListeners();
-    void framesOfTheLastPhaseAreNeverTaken();
+    void framesOfTheLastPhaseAreNeverAccepted();
     void anAnswerToACycleToComeIsRejected_data();
     void anAnswerToACycleToComeIsRejected();
     void framesBetweenPhasesAreDropped();
-    void aListenerInLockstepIsHeardWhenItSpeaks();
+    void lockstepUsesListenerOutputsOnArrival();
     void valuesOfSeveralPartsTravel_data();
     void valuesOfSeveralPartsTravel();
     void cyclesTellTheirTime();
@@ -127,7 +127,7 @@ void tst_RealTimeSequence::lockstepWaitsForAllButListeners()
     QCOMPARE(master.nodes().at(1).resent, quint64(0));
 }
 
-void tst_RealTimeSequence::aListenerInLockstepIsHeardWhenItSpeaks()
+void tst_RealTimeSequence::lockstepUsesListenerOutputsOnArrival()
 {
     TestMaster master;
     QVERIFY(master.listen());
@@ -145,7 +145,7 @@ void tst_RealTimeSequence::aListenerInLockstepIsHeardWhenItSpeaks()
     master.stop();
 }
 
-void tst_RealTimeSequence::framesOfTheLastPhaseAreNeverTaken()
+void tst_RealTimeSequence::framesOfTheLastPhaseAreNeverAccepted()
 {
     TestMaster master;
     ScriptedNode node;

@@ -13,22 +13,22 @@ class tst_RealTimeViolationPolicies : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void zeroOrderHoldGoesOn_data();
-    void zeroOrderHoldGoesOn();
-    void waitLetsTimeStandStill_data();
-    void waitLetsTimeStandStill();
+    void zeroOrderHoldContinuesWithHeldValues_data();
+    void zeroOrderHoldContinuesWithHeldValues();
+    void waitStopsTimeUntilTheAnswerArrives_data();
+    void waitStopsTimeUntilTheAnswerArrives();
     void onlyTheAnswerOfThisCycleEndsTheWait();
-    void aLateAnswerIsNewerThanWhatIsHeld();
-    void theAnswerOfTheCycleBeforeIsNoAnswer();
-    void aNodeThatDiesWhileWaitedForIsNotWaitedFor_data();
-    void aNodeThatDiesWhileWaitedForIsNotWaitedFor();
+    void lateAnswerReplacesTheHeldValue();
+    void answerOfThePreviousCycleCountsAsLate();
+    void waitEndsWhenTheLateNodeDies_data();
+    void waitEndsWhenTheLateNodeDies();
     void stopEndsTheWait();
-    void stopIsNoViolation();
-    void nobodyWaitsForAListener();
+    void stopCausesNoViolation();
+    void masterNeverWaitsForAListener();
     void overrunsSkipToTheGrid();
 };
 
-void tst_RealTimeViolationPolicies::zeroOrderHoldGoesOn_data()
+void tst_RealTimeViolationPolicies::zeroOrderHoldContinuesWithHeldValues_data()
 {
     QTest::addColumn<QString>("policy");
     QTest::addColumn<bool>("reports");
@@ -36,7 +36,7 @@ void tst_RealTimeViolationPolicies::zeroOrderHoldGoesOn_data()
     QTest::newRow("error") << "ErrorZeroOrderHold" << true;
 }
 
-void tst_RealTimeViolationPolicies::zeroOrderHoldGoesOn()
+void tst_RealTimeViolationPolicies::zeroOrderHoldContinuesWithHeldValues()
 {
     QFETCH(QString, policy);
     QFETCH(bool, reports);
@@ -65,7 +65,7 @@ void tst_RealTimeViolationPolicies::zeroOrderHoldGoesOn()
     }
 }
 
-void tst_RealTimeViolationPolicies::waitLetsTimeStandStill_data()
+void tst_RealTimeViolationPolicies::waitStopsTimeUntilTheAnswerArrives_data()
 {
     QTest::addColumn<QString>("policy");
     QTest::addColumn<QString>("kind");
@@ -76,7 +76,7 @@ void tst_RealTimeViolationPolicies::waitLetsTimeStandStill_data()
                                 << "tcp" << true;
 }
 
-void tst_RealTimeViolationPolicies::waitLetsTimeStandStill()
+void tst_RealTimeViolationPolicies::waitStopsTimeUntilTheAnswerArrives()
 {
     QFETCH(QString, policy);
     QFETCH(QString, kind);
@@ -131,7 +131,7 @@ void tst_RealTimeViolationPolicies::onlyTheAnswerOfThisCycleEndsTheWait()
     master.stop();
 }
 
-void tst_RealTimeViolationPolicies::aLateAnswerIsNewerThanWhatIsHeld()
+void tst_RealTimeViolationPolicies::lateAnswerReplacesTheHeldValue()
 {
     TestMaster master(QPlcClock::realTime());
     master.setInterval(0.005);
@@ -148,7 +148,7 @@ void tst_RealTimeViolationPolicies::aLateAnswerIsNewerThanWhatIsHeld()
     master.stop();
 }
 
-void tst_RealTimeViolationPolicies::theAnswerOfTheCycleBeforeIsNoAnswer()
+void tst_RealTimeViolationPolicies::answerOfThePreviousCycleCountsAsLate()
 {
     TestMaster master(QPlcClock::realTime());
     master.setInterval(0.010);
@@ -168,7 +168,7 @@ void tst_RealTimeViolationPolicies::theAnswerOfTheCycleBeforeIsNoAnswer()
             >= master.statistics().cycles);  // every cycle but, at most, the one that stop() has cut short
 }
 
-void tst_RealTimeViolationPolicies::aNodeThatDiesWhileWaitedForIsNotWaitedFor_data()
+void tst_RealTimeViolationPolicies::waitEndsWhenTheLateNodeDies_data()
 {
     QTest::addColumn<QString>("kind");
     QTest::addColumn<bool>("lockstep");
@@ -180,7 +180,7 @@ void tst_RealTimeViolationPolicies::aNodeThatDiesWhileWaitedForIsNotWaitedFor_da
     QTest::newRow("tcp, lockstep, cyclic connection") << "tcp" << true << false;
 }
 
-void tst_RealTimeViolationPolicies::aNodeThatDiesWhileWaitedForIsNotWaitedFor()
+void tst_RealTimeViolationPolicies::waitEndsWhenTheLateNodeDies()
 {
     QFETCH(QString, kind);
     QFETCH(bool, lockstep);
@@ -223,7 +223,7 @@ void tst_RealTimeViolationPolicies::stopEndsTheWait()
     }
 }
 
-void tst_RealTimeViolationPolicies::stopIsNoViolation()
+void tst_RealTimeViolationPolicies::stopCausesNoViolation()
 {
     TestMaster master(QPlcClock::realTime());
     master.setInterval(5.0);
@@ -235,7 +235,7 @@ void tst_RealTimeViolationPolicies::stopIsNoViolation()
     QCOMPARE(master.statistics().lateAnswers, quint64(0));
 }
 
-void tst_RealTimeViolationPolicies::nobodyWaitsForAListener()
+void tst_RealTimeViolationPolicies::masterNeverWaitsForAListener()
 {
     TestMaster master(QPlcClock::realTime());
     master.setInterval(0.005);

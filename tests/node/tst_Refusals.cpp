@@ -17,12 +17,12 @@ private Q_SLOTS:
     void bothWritersOfASignalAreNamed();
     void aNameInUseIsRefusedUnlessItIsTheSameNode();
     void theFirstMessageIsHello();
-    void helloComesOnce();
-    void registerComesOnce();
+    void secondHelloIsRejected();
+    void secondRegisterIsRejected();
     void anotherVersionIsNamed();
     void garbageOnTheControlPortClosesTheConnection_data();
     void garbageOnTheControlPortClosesTheConnection();
-    void anythingThatIsNoRequestOfThisRoleFails();
+    void messagesOfOtherRolesFail();
     void aWrongTokenAttachesNothing();
     void masterSignalsAreChecked();
     void limitsOfAMasterHaveRanges();
@@ -168,7 +168,7 @@ void tst_Refusals::theFirstMessageIsHello()
     }
 }
 
-void tst_Refusals::helloComesOnce()
+void tst_Refusals::secondHelloIsRejected()
 {
     ScriptedNode node;
     QVERIFY(node.registerAt(m_master->serverPort()));
@@ -180,7 +180,7 @@ void tst_Refusals::helloComesOnce()
     QTRY_VERIFY(!node.control.isConnected());
 }
 
-void tst_Refusals::registerComesOnce()
+void tst_Refusals::secondRegisterIsRejected()
 {
     ScriptedNode node;
     QVERIFY(node.registerAt(m_master->serverPort()));
@@ -245,7 +245,7 @@ void tst_Refusals::garbageOnTheControlPortClosesTheConnection()
     }
 }
 
-void tst_Refusals::anythingThatIsNoRequestOfThisRoleFails()
+void tst_Refusals::messagesOfOtherRolesFail()
 {
     ScriptedTool tool;
     QVERIFY(tool.greetAt(m_master->serverPort()));

@@ -10,14 +10,14 @@ class tst_RegisterSequence : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void slaveReportsThatNobodyListens();  // first: no socket has registered the types of signals yet
+    void slaveReportsAClosedPort();  // first: no socket has registered the types of signals yet
     void masterAnswersANodeStepByStep();
     void masterAttachesATcpChannelByItsToken();
     void masterSendsItsTableOnlyWhenItDiffers();
     void slaveSpeaksStepByStep_data();
     void slaveSpeaksStepByStep();
-    void slaveTakesTheTableOfTheMaster();
-    void slaveGoesOnOnlyWithEqualLayouts();
+    void slaveAdoptsTheTableOfTheMaster();
+    void slaveRegistersOnlyWithEqualLayouts();
     void slaveRefusesAnotherProtocolVersion();
     void slaveReportsARejection();
     void slaveWaitsNoLongerThanItsTimeout();
@@ -25,7 +25,7 @@ private Q_SLOTS:
     void slaveIgnoresMessagesOutOfTurn();
     void slaveSendsMessagesOfItsProgram();
     void namesAndWritersAreFreeAfterALeave();
-    void aNodeThatComesBackTakesItsOwnPlace();
+    void returningNodeReplacesItsOldConnection();
 };
 
 void tst_RegisterSequence::masterAnswersANodeStepByStep()
@@ -146,7 +146,7 @@ void tst_RegisterSequence::slaveSpeaksStepByStep()
     QCOMPARE(master.next(0).kind(), QPlcMessage::Invalid);  // nothing else was said
 }
 
-void tst_RegisterSequence::slaveTakesTheTableOfTheMaster()
+void tst_RegisterSequence::slaveAdoptsTheTableOfTheMaster()
 {
     QPlcSignalIndexTable::setCurrent({});
     ScriptedMaster master;
@@ -157,7 +157,7 @@ void tst_RegisterSequence::slaveTakesTheTableOfTheMaster()
     QPlcSignalIndexTable::setCurrent({});
 }
 
-void tst_RegisterSequence::slaveGoesOnOnlyWithEqualLayouts()
+void tst_RegisterSequence::slaveRegistersOnlyWithEqualLayouts()
 {
     ScriptedMaster master;
     CounterNode node;
@@ -200,7 +200,7 @@ void tst_RegisterSequence::slaveReportsARejection()
     QCOMPARE(errors.size(), 1);
 }
 
-void tst_RegisterSequence::slaveReportsThatNobodyListens()
+void tst_RegisterSequence::slaveReportsAClosedPort()
 {
     quint16 port = 0;
     {
@@ -306,7 +306,7 @@ void tst_RegisterSequence::namesAndWritersAreFreeAfterALeave()
     }
 }
 
-void tst_RegisterSequence::aNodeThatComesBackTakesItsOwnPlace()
+void tst_RegisterSequence::returningNodeReplacesItsOldConnection()
 {
     TestMaster master;
     QVERIFY(master.listen());

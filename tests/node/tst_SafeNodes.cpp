@@ -77,20 +77,20 @@ class tst_SafeNodes : public QObject
 
 private Q_SLOTS:
     void init() { QPlcSignalIndexTable::setCurrent({}); }
-    void aFrameWithTheFlagMakesItSafeAtOnceAndForGood();
-    void theWatchdogMakesItSafeAndItConnectsAgain();
-    void withoutAWishItStaysWhereItIs();
-    void codeThatThrowsMakesItSafe();
-    void theEndOfThePhaseMakesItSafeBeforeItIsStopped();
-    void leavingInThePhaseMakesItSafe();
-    void aLostMasterMakesItSafeAndIsFoundAgain_data();
-    void aLostMasterMakesItSafeAndIsFoundAgain();
-    void aMasterThatSaysGoodbyeIsWaitedForOnWish();
+    void safeStopFlagMakesTheNodeSafeUntilThePhaseEnds();
+    void watchdogMakesTheNodeSafeAndItReconnects();
+    void nodeStaysDisconnectedWithoutReconnectPolicy();
+    void exceptionMakesTheNodeSafe();
+    void phaseEndMakesTheNodeSafeBeforeItStops();
+    void leavingDuringThePhaseMakesTheNodeSafe();
+    void nodeIsSafeAfterMasterLossAndReconnects_data();
+    void nodeIsSafeAfterMasterLossAndReconnects();
+    void nodeWaitsForAnEndedMasterOnlyOnRequest();
     void aRefusalIsTriedAgainLater();
-    void anAttemptWithoutAnswerEnds();
+    void connectionAttemptWithoutAnswerTimesOut();
 };
 
-void tst_SafeNodes::aFrameWithTheFlagMakesItSafeAtOnceAndForGood()
+void tst_SafeNodes::safeStopFlagMakesTheNodeSafeUntilThePhaseEnds()
 {
     ScriptedMaster master(winchTable());
     Winch winch;
@@ -124,7 +124,7 @@ void tst_SafeNodes::aFrameWithTheFlagMakesItSafeAtOnceAndForGood()
     winch.disconnectFromMaster();
 }
 
-void tst_SafeNodes::theWatchdogMakesItSafeAndItConnectsAgain()
+void tst_SafeNodes::watchdogMakesTheNodeSafeAndItReconnects()
 {
     ScriptedMaster master(winchTable());
     Winch winch;
@@ -149,7 +149,7 @@ void tst_SafeNodes::theWatchdogMakesItSafeAndItConnectsAgain()
     QCOMPARE(winch.state(), QPlcSlaveNode::Disconnected);
 }
 
-void tst_SafeNodes::withoutAWishItStaysWhereItIs()
+void tst_SafeNodes::nodeStaysDisconnectedWithoutReconnectPolicy()
 {
     ScriptedMaster master(winchTable());
     Winch winch;
@@ -164,7 +164,7 @@ void tst_SafeNodes::withoutAWishItStaysWhereItIs()
     QCOMPARE(winch.state(), QPlcSlaveNode::SafeStop);
 }
 
-void tst_SafeNodes::codeThatThrowsMakesItSafe()
+void tst_SafeNodes::exceptionMakesTheNodeSafe()
 {
     ScriptedMaster master(winchTable());
     Winch winch;
@@ -197,7 +197,7 @@ void tst_SafeNodes::codeThatThrowsMakesItSafe()
     winch.disconnectFromMaster();
 }
 
-void tst_SafeNodes::theEndOfThePhaseMakesItSafeBeforeItIsStopped()
+void tst_SafeNodes::phaseEndMakesTheNodeSafeBeforeItStops()
 {
     ScriptedMaster master(winchTable());
     Winch winch;
@@ -211,7 +211,7 @@ void tst_SafeNodes::theEndOfThePhaseMakesItSafeBeforeItIsStopped()
     QCOMPARE(winch.story().size(), 3);
 }
 
-void tst_SafeNodes::leavingInThePhaseMakesItSafe()
+void tst_SafeNodes::leavingDuringThePhaseMakesTheNodeSafe()
 {
     ScriptedMaster master(winchTable());
     Winch winch;
@@ -221,14 +221,14 @@ void tst_SafeNodes::leavingInThePhaseMakesItSafe()
     QCOMPARE(winch.state(), QPlcSlaveNode::Disconnected);
 }
 
-void tst_SafeNodes::aLostMasterMakesItSafeAndIsFoundAgain_data()
+void tst_SafeNodes::nodeIsSafeAfterMasterLossAndReconnects_data()
 {
     QTest::addColumn<QString>("kind");
     QTest::newRow("tcp") << "tcp";
     QTest::newRow("udp") << "udp";
 }
 
-void tst_SafeNodes::aLostMasterMakesItSafeAndIsFoundAgain()
+void tst_SafeNodes::nodeIsSafeAfterMasterLossAndReconnects()
 {
     QFETCH(QString, kind);
     Winch winch;
@@ -256,7 +256,7 @@ void tst_SafeNodes::aLostMasterMakesItSafeAndIsFoundAgain()
     winch.disconnectFromMaster();
 }
 
-void tst_SafeNodes::aMasterThatSaysGoodbyeIsWaitedForOnWish()
+void tst_SafeNodes::nodeWaitsForAnEndedMasterOnlyOnRequest()
 {
     for (bool wish : {false, true}) {
         Winch winch;
@@ -289,7 +289,7 @@ void tst_SafeNodes::aRefusalIsTriedAgainLater()
     winch.disconnectFromMaster();
 }
 
-void tst_SafeNodes::anAttemptWithoutAnswerEnds()
+void tst_SafeNodes::connectionAttemptWithoutAnswerTimesOut()
 {
     ScriptedMaster master(winchTable());  // accepts, and says nothing
     Winch winch;

@@ -44,22 +44,22 @@ class tst_SafeStop : public QObject
 
 private Q_SLOTS:
     void init() { QPlcSignalIndexTable::setCurrent({}); }
-    void nodesAreToldAndComputeNothingUntilTheNextPhase();
-    void nothingButAResetLeavesIt();
+    void nodesEnterSafeStateAndStopComputing();
+    void onlyAResetLeavesTheSafeStop();
     void allNodesGetTheSafeValuesOfTheTable();
-    void answersInASafeStopCountForNothing();
-    void valuesThatWereComputedBeforeCountForNothing();
-    void valuesThatAreTakenOverAreSafeToo();
+    void answersDuringASafeStopAreIgnored();
+    void valuesComputedBeforeTheSafeStopAreIgnored();
+    void leasedSignalsBecomeSafeToo();
     void nodesOfEveryTransportAreSafe_data();
     void nodesOfEveryTransportAreSafe();
-    void lockstepDoesNotRunAwayInASafeStop();
-    void whoWatchesGoesOnAndWhoComesJoins();
-    void withoutCyclesItEndsWhatWasBegunAndLatchesNothing();
-    void theControlChannelCarriesItAll();
+    void lockstepKeepsItsPeriodDuringASafeStop();
+    void listenersContinueAndMayJoinDuringASafeStop();
+    void safeStopWithoutCyclesEndsSequencesAndLatchesNothing();
+    void controlChannelCarriesSafeStopAndReset();
     void anArmedStartNeedsItsTokenAndReadiness();
 };
 
-void tst_SafeStop::nodesAreToldAndComputeNothingUntilTheNextPhase()
+void tst_SafeStop::nodesEnterSafeStateAndStopComputing()
 {
     TestMaster master(QPlcClock::realTime());
     master.setInterval(0.005);
@@ -101,7 +101,7 @@ void tst_SafeStop::nodesAreToldAndComputeNothingUntilTheNextPhase()
     QCOMPARE(winch.reason.load(), int(QPlcSlaveNode::PhaseEnded));
 }
 
-void tst_SafeStop::nothingButAResetLeavesIt()
+void tst_SafeStop::onlyAResetLeavesTheSafeStop()
 {
     TestMaster master(QPlcClock::realTime());
     master.setCycleLimit(50);
@@ -179,7 +179,7 @@ void tst_SafeStop::allNodesGetTheSafeValuesOfTheTable()
     QVERIFY(reader.waitForMessage(QPlcMessage::RealTimeStopped));
 }
 
-void tst_SafeStop::answersInASafeStopCountForNothing()
+void tst_SafeStop::answersDuringASafeStopAreIgnored()
 {
     TestMaster master(QPlcClock::realTime(), safeTable());
     master.setInterval(0.05);
@@ -208,7 +208,7 @@ void tst_SafeStop::answersInASafeStopCountForNothing()
     QVERIFY(master.reset());
 }
 
-void tst_SafeStop::valuesThatWereComputedBeforeCountForNothing()
+void tst_SafeStop::valuesComputedBeforeTheSafeStopAreIgnored()
 {
     TestMaster master(QPlcClock::realTime(), safeTable());
     master.setInterval(0.005);
@@ -234,7 +234,7 @@ void tst_SafeStop::valuesThatWereComputedBeforeCountForNothing()
     QVERIFY(master.reset());
 }
 
-void tst_SafeStop::valuesThatAreTakenOverAreSafeToo()
+void tst_SafeStop::leasedSignalsBecomeSafeToo()
 {
     TestMaster master(QPlcClock::realTime());
     master.setInterval(0.005);
@@ -283,7 +283,7 @@ void tst_SafeStop::nodesOfEveryTransportAreSafe()
     winch.disconnectFromMaster();
 }
 
-void tst_SafeStop::lockstepDoesNotRunAwayInASafeStop()
+void tst_SafeStop::lockstepKeepsItsPeriodDuringASafeStop()
 {
     TestMaster master;
     master.setInterval(0.050);
@@ -303,7 +303,7 @@ void tst_SafeStop::lockstepDoesNotRunAwayInASafeStop()
     QVERIFY(master.waitForCycles(cycles + 6));  // and for nobody it waits
 }
 
-void tst_SafeStop::whoWatchesGoesOnAndWhoComesJoins()
+void tst_SafeStop::listenersContinueAndMayJoinDuringASafeStop()
 {
     TestMaster master(QPlcClock::realTime());
     master.setInterval(0.005);
@@ -331,7 +331,7 @@ void tst_SafeStop::whoWatchesGoesOnAndWhoComesJoins()
     QVERIFY(master.reset());
 }
 
-void tst_SafeStop::withoutCyclesItEndsWhatWasBegunAndLatchesNothing()
+void tst_SafeStop::safeStopWithoutCyclesEndsSequencesAndLatchesNothing()
 {
     TestMaster master;
     QVERIFY(master.listen());
@@ -351,7 +351,7 @@ void tst_SafeStop::withoutCyclesItEndsWhatWasBegunAndLatchesNothing()
     QVERIFY(master.errorString().contains("smoke"));
 }
 
-void tst_SafeStop::theControlChannelCarriesItAll()
+void tst_SafeStop::controlChannelCarriesSafeStopAndReset()
 {
     TestMaster master(QPlcClock::realTime());
     QVERIFY(master.listen());

@@ -17,8 +17,8 @@ class tst_SafeStopCauses : public QObject
 
 private Q_SLOTS:
     void init() { QPlcSignalIndexTable::setCurrent({}); }
-    void aCriticalNodeThatLeavesStopsThePlantAndHasToBeBack();
-    void onlyANodeThatTakesPartIsBack();
+    void leavingCriticalNodeStopsThePlantUntilItReturns();
+    void onlyAParticipatingNodeCountsAsReturned();
     void aNodeThatIsNotCriticalMayLeave();
     void aCriticalNodeThatFailsStopsThePlantSafely();
     void aCriticalNodeThatIsLateTooOftenStopsThePlant();
@@ -27,10 +27,10 @@ private Q_SLOTS:
     void aLateNodeThatDiesWhileTheMasterWaitsNeverHangsIt_data();
     void aLateNodeThatDiesWhileTheMasterWaitsNeverHangsIt();
     void aMasterThatStoodStillStopsSafely();
-    void aPortThatIsTakenIsAFaultUntilAnotherIsFound();
+    void portInUseIsAFaultUntilAnotherPortOpens();
 };
 
-void tst_SafeStopCauses::aCriticalNodeThatLeavesStopsThePlantAndHasToBeBack()
+void tst_SafeStopCauses::leavingCriticalNodeStopsThePlantUntilItReturns()
 {
     TestMaster master(QPlcClock::realTime());
     master.setInterval(0.005);
@@ -68,7 +68,7 @@ void tst_SafeStopCauses::aCriticalNodeThatLeavesStopsThePlantAndHasToBeBack()
 
 /// Somebody with its name is not enough: a listener does none of its work, and neither does who has
 /// no cyclic channel yet.
-void tst_SafeStopCauses::onlyANodeThatTakesPartIsBack()
+void tst_SafeStopCauses::onlyAParticipatingNodeCountsAsReturned()
 {
     TestMaster master(QPlcClock::realTime());
     QVERIFY(master.listen());
@@ -298,7 +298,7 @@ void tst_SafeStopCauses::aMasterThatStoodStillStopsSafely()
     cycle.setRoster({});
 }
 
-void tst_SafeStopCauses::aPortThatIsTakenIsAFaultUntilAnotherIsFound()
+void tst_SafeStopCauses::portInUseIsAFaultUntilAnotherPortOpens()
 {
     TestMaster first;
     QVERIFY(first.listen());

@@ -20,11 +20,11 @@ private Q_SLOTS:
     void everyKindOfInputMayBeSameCycle();
     void twoPhaseNodesCloseTheLoopWithoutDeadTime_data();
     void twoPhaseNodesCloseTheLoopWithoutDeadTime();
-    void defaultNodesSayNothingNew();
-    void orderedNodesSayWhatTheyNeed();
-    void anOldMasterIsNoMasterForOrderedNodes();
+    void defaultNodesRegisterWithoutNewFields();
+    void orderedNodesRegisterTheirSameCycleInputs();
+    void orderedNodesRefuseAnOlderMaster();
     void aTwoPhaseNodeAnswersWithTheNextOutputs();
-    void theAnswerOfATwoPhaseNodeCountsInTheNextCycle();
+    void answerOfATwoPhaseNodeIsUsedInTheNextCycle();
     void twoPhaseValuesAreCheckedToo();
 };
 
@@ -181,7 +181,7 @@ void tst_SameCycle::twoPhaseNodesCloseTheLoopWithoutDeadTime()
     adder.disconnectFromMaster();
 }
 
-void tst_SameCycle::defaultNodesSayNothingNew()
+void tst_SameCycle::defaultNodesRegisterWithoutNewFields()
 {
     ScriptedMaster master;
     EchoNode node;
@@ -194,7 +194,7 @@ void tst_SameCycle::defaultNodesSayNothingNew()
     node.disconnectFromMaster();
 }
 
-void tst_SameCycle::orderedNodesSayWhatTheyNeed()
+void tst_SameCycle::orderedNodesRegisterTheirSameCycleInputs()
 {
     ScriptedMaster master;
     Integrator node;
@@ -224,7 +224,7 @@ void tst_SameCycle::orderedNodesSayWhatTheyNeed()
     }
 }
 
-void tst_SameCycle::anOldMasterIsNoMasterForOrderedNodes()
+void tst_SameCycle::orderedNodesRefuseAnOlderMaster()
 {
     ScriptedMaster master;
     ListIntegrator node;
@@ -268,7 +268,7 @@ void tst_SameCycle::aTwoPhaseNodeAnswersWithTheNextOutputs()
     node.disconnectFromMaster();
 }
 
-void tst_SameCycle::theAnswerOfATwoPhaseNodeCountsInTheNextCycle()
+void tst_SameCycle::answerOfATwoPhaseNodeIsUsedInTheNextCycle()
 {
     TestMaster master;
     QVERIFY(master.listen());

@@ -17,15 +17,15 @@ class tst_Schedule : public QObject
 
 private Q_SLOTS:
     void withoutSameCycleInputsThereIsOneStage();
-    void noNodeHasNoStage();
+    void scheduleWithoutNodesHasNoStages();
     void aChainHasAStageForEachNode();
-    void whoWaitsForNobodyIsInTheFirstStage();
+    void nodesWithoutSameCycleInputsAreInTheFirstStage();
     void twoPhaseNodesCloseLoops();
-    void outputsOfTwoPhaseNodesKeepNobodyWaiting();
+    void outputsOfTwoPhaseNodesAddNoStage();
     void aNodeThatReadsItselfIsALoop();
     void theLoopBeginsWithTheLastNodeAndIsShort();
-    void randomGraphs_data();
-    void randomGraphs();
+    void randomGraphsGiveValidSchedulesOrLoops_data();
+    void randomGraphsGiveValidSchedulesOrLoops();
 };
 
 namespace {
@@ -96,7 +96,7 @@ void tst_Schedule::withoutSameCycleInputsThereIsOneStage()
     QVERIFY(schedule.writer(3) == Schedule::Nobody);
 }
 
-void tst_Schedule::noNodeHasNoStage()
+void tst_Schedule::scheduleWithoutNodesHasNoStages()
 {
     const Schedule schedule(Nodes{});
     QVERIFY(schedule.isValid());
@@ -116,7 +116,7 @@ void tst_Schedule::aChainHasAStageForEachNode()
     QVERIFY(schedule.feedsLaterStage(2));
 }
 
-void tst_Schedule::whoWaitsForNobodyIsInTheFirstStage()
+void tst_Schedule::nodesWithoutSameCycleInputsAreInTheFirstStage()
 {
     const Schedule schedule({{false, {}, {0}}, {false, {{0, same}}, {1}}, {false, {{1, last}}, {}}});
     QCOMPARE(schedule.stage(1), std::size_t(1));
@@ -134,7 +134,7 @@ void tst_Schedule::twoPhaseNodesCloseLoops()
     QVERIFY(!Schedule(loop).isValid());
 }
 
-void tst_Schedule::outputsOfTwoPhaseNodesKeepNobodyWaiting()
+void tst_Schedule::outputsOfTwoPhaseNodesAddNoStage()
 {
     const Schedule schedule({{true, {}, {0}}, {true, {{0, same}}, {1}}, {false, {{0, same}, {1, same}}, {}}});
     QCOMPARE(schedule.stageCount(), std::size_t(1));
@@ -171,14 +171,14 @@ void tst_Schedule::theLoopBeginsWithTheLastNodeAndIsShort()
     QCOMPARE(loop[2].input, QPlcSignalIndex(0));
 }
 
-void tst_Schedule::randomGraphs_data()
+void tst_Schedule::randomGraphsGiveValidSchedulesOrLoops_data()
 {
     QTest::addColumn<double>("density");
     for (double density : {0.02, 0.05, 0.1, 0.3})
         QTest::addRow("%g", density) << density;
 }
 
-void tst_Schedule::randomGraphs()
+void tst_Schedule::randomGraphsGiveValidSchedulesOrLoops()
 {
     QFETCH(double, density);
     std::mt19937 random(7);

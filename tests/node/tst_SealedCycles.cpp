@@ -16,18 +16,18 @@ class tst_SealedCycles : public QObject
 private Q_SLOTS:
     void init() { QPlcSignalIndexTable::setCurrent({}); }
     void noNonceServesTwoFrames();
-    void aSecuredNodeTakesNoFramesWithoutKeys_data();
-    void aSecuredNodeTakesNoFramesWithoutKeys();
+    void securedNodeRefusesRegistrationWithoutFrameKeys_data();
+    void securedNodeRefusesRegistrationWithoutFrameKeys();
     void aSecuredNodeComputesNoFrameThatIsNotSealed();
     void valuesAreNotSeenOnTheWire_data();
     void valuesAreNotSeenOnTheWire();
     void sharedMemoryIsNotSealed();
     void everyChangedFrameIsCountedAndDropped_data();
     void everyChangedFrameIsCountedAndDropped();
-    void framesOfThisRegistrationThatComeAgainAreOld();
+    void repeatedFramesAreDroppedAsOld();
     void framesOfTheLastRegistrationAreForged();
     void framesOfAnotherNodeOrDirectionAreForged();
-    void aForgedFrameIsToldOnce();
+    void forgedFramesAreReportedOnce();
     void keysAreNotLogged();
 
 private:
@@ -207,7 +207,7 @@ static QJsonObject greetSecured(ScriptedMaster &master, const SecurityFiles &fil
     return master.registeredFields(master.next());
 }
 
-void tst_SealedCycles::aSecuredNodeTakesNoFramesWithoutKeys_data()
+void tst_SealedCycles::securedNodeRefusesRegistrationWithoutFrameKeys_data()
 {
     QTest::addColumn<QJsonValue>("seal");
     QTest::addColumn<QString>("words");
@@ -224,7 +224,7 @@ void tst_SealedCycles::aSecuredNodeTakesNoFramesWithoutKeys_data()
     QTest::newRow("no text") << QJsonValue(QJsonObject{{"inputs", key}, {"outputs", 7}}) << unusable;
 }
 
-void tst_SealedCycles::aSecuredNodeTakesNoFramesWithoutKeys()
+void tst_SealedCycles::securedNodeRefusesRegistrationWithoutFrameKeys()
 {
     QFETCH(QJsonValue, seal);
     QFETCH(QString, words);
@@ -365,7 +365,7 @@ void tst_SealedCycles::everyChangedFrameIsCountedAndDropped()
     master.stop();
 }
 
-void tst_SealedCycles::framesOfThisRegistrationThatComeAgainAreOld()
+void tst_SealedCycles::repeatedFramesAreDroppedAsOld()
 {
     SecuredMaster master(m_files);
     QVERIFY(master.listen());
@@ -443,7 +443,7 @@ void tst_SealedCycles::framesOfAnotherNodeOrDirectionAreForged()
     master.stop();
 }
 
-void tst_SealedCycles::aForgedFrameIsToldOnce()
+void tst_SealedCycles::forgedFramesAreReportedOnce()
 {
     LogCapture log;
     SecuredMaster master(m_files);

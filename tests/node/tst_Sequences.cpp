@@ -14,37 +14,37 @@ class tst_Sequences : public QObject
 private Q_SLOTS:
     // initialize
     void nodesGetTheirInputsWhenAllHaveGivenTheirOutputs();
-    void nodesThatAnswerAtOnceAreAskedLast();
+    void nodesThatAnswerImmediatelyAreAskedLast();
     void aNodeWithoutAnAnswerIsNamed();
     void outputsOfTheWrongSizeDropTheirNode();
     void outputsThatAreNotFiniteEndTheInitialization();
     void aFaultOfANodeEndsTheInitialization_data();
     void aFaultOfANodeEndsTheInitialization();
-    void aNodeMayEndTheInitializationByWhatItHears();
-    void nobodyGoesOnWhenTheProgramEndsTheInitialization();
+    void nodeMayCancelTheInitializationInItsHandler();
+    void cancelledInitializationStopsAllNodes();
     void aNodeThatLeavesIsNotWaitedFor();
     // start
     void cyclesStartWhenAllNodesAreReady();
     void faultOfANodeEndsTheStart();
     void nodeMayEndTheStartWhileTheOthersAreAsked();
-    void withoutAThreadTheStartEnds();
-    void nobodyHearsOfCyclesThatHaveEnded();
+    void missingThreadEndsTheStart();
+    void nodesAreNotNotifiedOfEndedCycles();
     void nobodyHearsTwiceOfCyclesThatWereStartedAnew();
     void aNodeThatCameDuringTheStartJoinsAfterwards();
-    void nobodyJoinsAPhaseThatHasEnded();
+    void noNodeJoinsAnEndedPhase();
     // join
-    void aListenerWaitsForNobodyAndNobodyForIt();
+    void listenersAndNodesDoNotWaitForEachOther();
     void aListenerIsStartedWithTheOthers();
     void aNodeJoinsAtItsOwnPace();
-    void aNodeThatComesBackMayGoOnInASimulation_data();
-    void aNodeThatComesBackMayGoOnInASimulation();
+    void returningNodeMayContinueInASimulation_data();
+    void returningNodeMayContinueInASimulation();
     void aNodeThatJoinsAgainHasNotFailed();
     void wrongOutputsOfAJoinerDropIt();
     // stop
-    void theEndOfASequenceIsTold_data();
-    void theEndOfASequenceIsTold();
-    void theEndOfAPhaseIsToldToAll();
-    void nodesMayLeaveWhileTheEndIsTold();
+    void cancelledSequenceIsReportedToItsNodes_data();
+    void cancelledSequenceIsReportedToItsNodes();
+    void phaseEndIsReportedToAllNodes();
+    void nodesMayLeaveDuringTheEndOfAPhase();
 };
 
 void tst_Sequences::nodesGetTheirInputsWhenAllHaveGivenTheirOutputs()
@@ -73,7 +73,7 @@ void tst_Sequences::nodesGetTheirInputsWhenAllHaveGivenTheirOutputs()
     QCOMPARE(winch->stage(), NodeSession::Initialized);
 }
 
-void tst_Sequences::nodesThatAnswerAtOnceAreAskedLast()
+void tst_Sequences::nodesThatAnswerImmediatelyAreAskedLast()
 {
     SequenceBench bench;
     bench.add("Local", Answers::AtOnce, "sum");
@@ -147,7 +147,7 @@ void tst_Sequences::aFaultOfANodeEndsTheInitialization()
     QVERIFY(!log.contains("all: initialized"));
 }
 
-void tst_Sequences::aNodeMayEndTheInitializationByWhatItHears()
+void tst_Sequences::nodeMayCancelTheInitializationInItsHandler()
 {
     SequenceBench bench;
     const auto winch = bench.add("Winch", Answers::AtOnce, "sum");
@@ -164,7 +164,7 @@ void tst_Sequences::aNodeMayEndTheInitializationByWhatItHears()
     QVERIFY(!bench.step.isUnderWay());
 }
 
-void tst_Sequences::nobodyGoesOnWhenTheProgramEndsTheInitialization()
+void tst_Sequences::cancelledInitializationStopsAllNodes()
 {
     SequenceBench bench;
     bench.add("Winch", Answers::AtOnce, "sum");
@@ -240,7 +240,7 @@ void tst_Sequences::nodeMayEndTheStartWhileTheOthersAreAsked()
     QVERIFY(!bench.cycles.running && !bench.step.isUnderWay());
 }
 
-void tst_Sequences::withoutAThreadTheStartEnds()
+void tst_Sequences::missingThreadEndsTheStart()
 {
     SequenceBench bench;
     bench.cycles.threadError = QStringLiteral("no thread left");
@@ -253,7 +253,7 @@ void tst_Sequences::withoutAThreadTheStartEnds()
     QCOMPARE(done.size(), 0);
 }
 
-void tst_Sequences::nobodyHearsOfCyclesThatHaveEnded()
+void tst_Sequences::nodesAreNotNotifiedOfEndedCycles()
 {
     SequenceBench bench;
     const auto winch = bench.add("Winch", Answers::AtOnce, "sum");
@@ -305,7 +305,7 @@ void tst_Sequences::aNodeThatCameDuringTheStartJoinsAfterwards()
     QCOMPARE(late->stage(), NodeSession::GivingOutputs);
 }
 
-void tst_Sequences::nobodyJoinsAPhaseThatHasEnded()
+void tst_Sequences::noNodeJoinsAnEndedPhase()
 {
     SequenceBench bench;
     const auto remote = bench.add("Remote", Answers::Later, "echo");
@@ -320,7 +320,7 @@ void tst_Sequences::nobodyJoinsAPhaseThatHasEnded()
     QCOMPARE(remote->stage(), NodeSession::Idle);
 }
 
-void tst_Sequences::aListenerWaitsForNobodyAndNobodyForIt()
+void tst_Sequences::listenersAndNodesDoNotWaitForEachOther()
 {
     SequenceBench bench;
     const auto winch = bench.add("Winch", Answers::Later, "sum");
@@ -377,7 +377,7 @@ void tst_Sequences::aNodeJoinsAtItsOwnPace()
     QCOMPARE(bench.cycles.rosters, 1);
 }
 
-void tst_Sequences::aNodeThatComesBackMayGoOnInASimulation_data()
+void tst_Sequences::returningNodeMayContinueInASimulation_data()
 {
     QTest::addColumn<QPlcProfile::Value>("profile");
     QTest::addColumn<bool>("isAsked");
@@ -385,7 +385,7 @@ void tst_Sequences::aNodeThatComesBackMayGoOnInASimulation_data()
     QTest::newRow("plant") << QPlcProfile::Plant << false;
 }
 
-void tst_Sequences::aNodeThatComesBackMayGoOnInASimulation()
+void tst_Sequences::returningNodeMayContinueInASimulation()
 {
     QFETCH(QPlcProfile::Value, profile);
     QFETCH(bool, isAsked);
@@ -427,14 +427,14 @@ void tst_Sequences::wrongOutputsOfAJoinerDropIt()
     QCOMPARE(winch->stage(), NodeSession::GivingOutputs);
 }
 
-void tst_Sequences::theEndOfASequenceIsTold_data()
+void tst_Sequences::cancelledSequenceIsReportedToItsNodes_data()
 {
     QTest::addColumn<bool>("isStart");
     QTest::newRow("initialization") << false;
     QTest::newRow("start") << true;
 }
 
-void tst_Sequences::theEndOfASequenceIsTold()
+void tst_Sequences::cancelledSequenceIsReportedToItsNodes()
 {
     QFETCH(bool, isStart);
     SequenceBench bench;
@@ -454,7 +454,7 @@ void tst_Sequences::theEndOfASequenceIsTold()
     QVERIFY(!winch->owes(QPlcMessage::ReceiveMyInitialOutputStates) && !winch->owes(QPlcMessage::RealTimeReady));
 }
 
-void tst_Sequences::theEndOfAPhaseIsToldToAll()
+void tst_Sequences::phaseEndIsReportedToAllNodes()
 {
     SequenceBench bench;
     bench.add("Winch", Answers::Later, "sum")->setStage(NodeSession::Running);
@@ -466,7 +466,7 @@ void tst_Sequences::theEndOfAPhaseIsToldToAll()
     QCOMPARE(bench.takeLog(), QStringList({"Winch stop: enough", "Joiner stop: enough", "Local stop: enough"}));
 }
 
-void tst_Sequences::nodesMayLeaveWhileTheEndIsTold()
+void tst_Sequences::nodesMayLeaveDuringTheEndOfAPhase()
 {
     SequenceBench bench;
     auto winch = bench.add("Winch", Answers::AtOnce, "sum");

@@ -50,21 +50,21 @@ private Q_SLOTS:
         for (const char *name : {"NOTIFY_SOCKET", "WATCHDOG_USEC", "WATCHDOG_PID"})
             qunsetenv(name);
     }
-    void withoutAServiceManagerNobodyIsTold();
-    void aServiceManagerThatIsGoneIsToldOfOnce();
-    void readyIsToldOnceWithTheState();
-    void theEndIsTold();
-    void theStateIsToldWhenItChanges();
+    void noNotificationWithoutServiceManager();
+    void missingServiceManagerIsReportedOnce();
+    void readyIsNotifiedOnceWithTheState();
+    void destructorNotifiesStopping();
+    void stateChangesAreNotified();
     void theWatchdogOfAnotherProcessIsNotOurs();
-    void theTimerLooksBeforeTheTimeIsOver();
-    void aNodeIsFedWhileNoCycleRuns();
-    void aNodeIsFedWhileItsCyclesGoOn();
-    void aNodeWhoseStepHangsIsNotFed();
-    void silenceOfTheMasterIsNoHang();
-    void aMasterIsFedWhileItsCyclesGoOn();
-    void aMasterWhoseCycleHangsIsNotFed();
-    void longPeriodsAreWaitedFor();
-    void lockstepMayStandStill();
+    void timerFeedsTheWatchdogBeforeItsTimeout();
+    void nodeFeedsTheWatchdogWithoutCycles();
+    void nodeFeedsTheWatchdogWhileCyclesRun();
+    void nodeWithHangingStepStopsFeedingTheWatchdog();
+    void nodeFeedsTheWatchdogWhileTheMasterIsSilent();
+    void masterFeedsTheWatchdogWhileCyclesRun();
+    void masterWithHangingCycleStopsFeedingTheWatchdog();
+    void longPeriodsAreNotTreatedAsHangs();
+    void waitingLockstepIsNotTreatedAsHang();
 
 private:
     /// Whether a look feeds the watchdog.
@@ -77,7 +77,7 @@ private:
     std::unique_ptr<NotifyListener> m_listener;
 };
 
-void tst_ServiceNotifier::withoutAServiceManagerNobodyIsTold()
+void tst_ServiceNotifier::noNotificationWithoutServiceManager()
 {
     qunsetenv("NOTIFY_SOCKET");
     CounterNode node;
@@ -87,7 +87,7 @@ void tst_ServiceNotifier::withoutAServiceManagerNobodyIsTold()
     QVERIFY(!feeds(service));
 }
 
-void tst_ServiceNotifier::aServiceManagerThatIsGoneIsToldOfOnce()
+void tst_ServiceNotifier::missingServiceManagerIsReportedOnce()
 {
     qputenv("NOTIFY_SOCKET", "/nowhere/notify");
     CounterNode node;
@@ -97,7 +97,7 @@ void tst_ServiceNotifier::aServiceManagerThatIsGoneIsToldOfOnce()
     service.look();
 }
 
-void tst_ServiceNotifier::readyIsToldOnceWithTheState()
+void tst_ServiceNotifier::readyIsNotifiedOnceWithTheState()
 {
     CounterNode node;
     QPlcServiceNotifier service(node);
@@ -108,7 +108,7 @@ void tst_ServiceNotifier::readyIsToldOnceWithTheState()
     QCOMPARE(m_listener->take(), QStringList());
 }
 
-void tst_ServiceNotifier::theEndIsTold()
+void tst_ServiceNotifier::destructorNotifiesStopping()
 {
     CounterNode node;
     {
@@ -117,7 +117,7 @@ void tst_ServiceNotifier::theEndIsTold()
     QCOMPARE(m_listener->take(), QStringList("STOPPING=1"));
 }
 
-void tst_ServiceNotifier::theStateIsToldWhenItChanges()
+void tst_ServiceNotifier::stateChangesAreNotified()
 {
     TestMaster master;
     QPlcServiceNotifier service(master);
@@ -138,7 +138,7 @@ void tst_ServiceNotifier::theWatchdogOfAnotherProcessIsNotOurs()
     QCOMPARE(QPlcServiceNotifier(node).watchdogTime(), 0us);
 }
 
-void tst_ServiceNotifier::theTimerLooksBeforeTheTimeIsOver()
+void tst_ServiceNotifier::timerFeedsTheWatchdogBeforeItsTimeout()
 {
     qputenv("WATCHDOG_USEC", "40000");
     CounterNode node;
@@ -147,7 +147,7 @@ void tst_ServiceNotifier::theTimerLooksBeforeTheTimeIsOver()
     QVERIFY(m_listener->waitFor("WATCHDOG=1"));
 }
 
-void tst_ServiceNotifier::aNodeIsFedWhileNoCycleRuns()
+void tst_ServiceNotifier::nodeFeedsTheWatchdogWithoutCycles()
 {
     CounterNode node;
     QPlcServiceNotifier service(node);
@@ -155,7 +155,7 @@ void tst_ServiceNotifier::aNodeIsFedWhileNoCycleRuns()
         QVERIFY(feeds(service));
 }
 
-void tst_ServiceNotifier::aNodeIsFedWhileItsCyclesGoOn()
+void tst_ServiceNotifier::nodeFeedsTheWatchdogWhileCyclesRun()
 {
     ScriptedMaster master;
     CounterNode node;
@@ -173,7 +173,7 @@ void tst_ServiceNotifier::aNodeIsFedWhileItsCyclesGoOn()
     node.disconnectFromMaster();
 }
 
-void tst_ServiceNotifier::aNodeWhoseStepHangsIsNotFed()
+void tst_ServiceNotifier::nodeWithHangingStepStopsFeedingTheWatchdog()
 {
     ScriptedMaster master;
     CounterNode node;
@@ -196,7 +196,7 @@ void tst_ServiceNotifier::aNodeWhoseStepHangsIsNotFed()
     node.disconnectFromMaster();
 }
 
-void tst_ServiceNotifier::silenceOfTheMasterIsNoHang()
+void tst_ServiceNotifier::nodeFeedsTheWatchdogWhileTheMasterIsSilent()
 {
     ScriptedMaster master;
     CounterNode node;
@@ -210,7 +210,7 @@ void tst_ServiceNotifier::silenceOfTheMasterIsNoHang()
     node.disconnectFromMaster();
 }
 
-void tst_ServiceNotifier::aMasterIsFedWhileItsCyclesGoOn()
+void tst_ServiceNotifier::masterFeedsTheWatchdogWhileCyclesRun()
 {
     TestMaster master(QPlcClock::realTime());
     CounterNode counter;
@@ -230,7 +230,7 @@ void tst_ServiceNotifier::aMasterIsFedWhileItsCyclesGoOn()
     QVERIFY(feeds(service) && feeds(service));
 }
 
-void tst_ServiceNotifier::aMasterWhoseCycleHangsIsNotFed()
+void tst_ServiceNotifier::masterWithHangingCycleStopsFeedingTheWatchdog()
 {
     TestMaster master(QPlcClock::realTime());
     master.setGapLimit(0s);
@@ -251,7 +251,7 @@ void tst_ServiceNotifier::aMasterWhoseCycleHangsIsNotFed()
     QVERIFY(master.waitForState(QPlcMasterNode::Off));
 }
 
-void tst_ServiceNotifier::longPeriodsAreWaitedFor()
+void tst_ServiceNotifier::longPeriodsAreNotTreatedAsHangs()
 {
     qputenv("WATCHDOG_USEC", "40000000");  // a look in 10 s
     TestMaster master(QPlcClock::scaled(0.001));
@@ -272,7 +272,7 @@ void tst_ServiceNotifier::longPeriodsAreWaitedFor()
     QVERIFY(master.waitForState(QPlcMasterNode::Off));
 }
 
-void tst_ServiceNotifier::lockstepMayStandStill()
+void tst_ServiceNotifier::waitingLockstepIsNotTreatedAsHang()
 {
     TestMaster master;
     HangingCounter counter;

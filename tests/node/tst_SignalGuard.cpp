@@ -92,26 +92,26 @@ class tst_SignalGuard : public QObject
 
 private Q_SLOTS:
     void initialValuesAreInvalidUntilTheFirstOne();
-    void whatIsAnsweredInItsCycleIsGood();
-    void whatIsMissingIsHeldAndThenSafe();
-    void theLastCycleThatMayBeHeldIsHold_data();
-    void theLastCycleThatMayBeHeldIsHold();
-    void ageBehindTheLastByteIsCut();
-    void aValueComesBackWithTheNextAnswer();
-    void aLateAnswerIsAsOldAsItIs();
-    void anAnswerThatIsTooOldIsNotTaken();
-    void badValuesAreCountedAndNeverTaken();
+    void valueAnsweredInItsCycleIsGood();
+    void missingValueIsHeldAndThenSafe();
+    void valueIsHeldForExactlyItsHoldTime_data();
+    void valueIsHeldForExactlyItsHoldTime();
+    void ageIsLimitedToOneByte();
+    void nextAnswerRestoresTheValue();
+    void lateAnswerIsHeldWithItsAge();
+    void answerOlderThanTheHoldTimeIsIgnored();
+    void badValuesAreCountedAndNeverAccepted();
     void aBadValueHoldsItsOwnSignalOnly();
-    void aRowOfBadValuesIsToldOnce();
-    void aSignalIsSafeOnceInARow();
-    void aFirstValueThatIsBadLeavesTheInitialOne();
-    void whatIsHeldByAPersonIsNotTouched();
-    void whatAPersonGivesBackGrowsOldAgain();
-    void aWriterThatIsGoneLeavesItsSignalsToGrowOld();
-    void afterAPhaseWhatNobodyWritesIsSafe();
+    void consecutiveBadValuesAreReportedOnce();
+    void safeSignalIsReportedOnceUntilItRecovers();
+    void badFirstValueKeepsTheInitialValue();
+    void leasedSignalIsNotChanged();
+    void releasedSignalIsAgedAgain();
+    void signalsOfALostWriterAreHeldAndThenSafe();
+    void unwrittenSignalsAreSafeAfterAPhase();
     void cyclesThatWereSkippedCount();
-    void beforeAFrameTheLastGoodInputsStay();
-    void everyHistoryEndsAsTheRulesSay();
+    void lastGoodInputsStayUntilTheNextFrame();
+    void randomHistoriesFollowTheQualityRule();
 };
 
 void tst_SignalGuard::initialValuesAreInvalidUntilTheFirstOne()
@@ -125,7 +125,7 @@ void tst_SignalGuard::initialValuesAreInvalidUntilTheFirstOne()
     QVERIFY(plant.told.isEmpty());
 }
 
-void tst_SignalGuard::whatIsAnsweredInItsCycleIsGood()
+void tst_SignalGuard::valueAnsweredInItsCycleIsGood()
 {
     Plant plant;
     for (int cycle = 0; cycle < 5; ++cycle) {
@@ -142,7 +142,7 @@ void tst_SignalGuard::whatIsAnsweredInItsCycleIsGood()
     QVERIFY(plant.told.isEmpty());
 }
 
-void tst_SignalGuard::whatIsMissingIsHeldAndThenSafe()
+void tst_SignalGuard::missingValueIsHeldAndThenSafe()
 {
     Plant plant;
     plant.answerA(7, 7, -3.0);
@@ -158,14 +158,14 @@ void tst_SignalGuard::whatIsMissingIsHeldAndThenSafe()
     QCOMPARE(plant.told, (QStringList{"force is safe", "vector is safe", "speed is safe"}));
 }
 
-void tst_SignalGuard::theLastCycleThatMayBeHeldIsHold_data()
+void tst_SignalGuard::valueIsHeldForExactlyItsHoldTime_data()
 {
     QTest::addColumn<int>("hold");
     for (const int hold : {0, 1, 2, 3, 10, 251, 252, 253, 1000})
         QTest::newRow(qPrintable(QString::number(hold))) << hold;
 }
 
-void tst_SignalGuard::theLastCycleThatMayBeHeldIsHold()
+void tst_SignalGuard::valueIsHeldForExactlyItsHoldTime()
 {
     QFETCH(int, hold);
     Plant plant(QPlcSignalTable::fromIni(plantTable().toIni().replace(
@@ -180,7 +180,7 @@ void tst_SignalGuard::theLastCycleThatMayBeHeldIsHold()
     QCOMPARE(plant.state(Force), QString("0 safe"));
 }
 
-void tst_SignalGuard::ageBehindTheLastByteIsCut()
+void tst_SignalGuard::ageIsLimitedToOneByte()
 {
     Plant plant;
     plant.answerB(0, 0, 9);
@@ -191,7 +191,7 @@ void tst_SignalGuard::ageBehindTheLastByteIsCut()
     QCOMPARE(plant.state(Mode), QString("3 safe"));
 }
 
-void tst_SignalGuard::aValueComesBackWithTheNextAnswer()
+void tst_SignalGuard::nextAnswerRestoresTheValue()
 {
     Plant plant;
     plant.answerA(0, 0, 2.0);
@@ -207,7 +207,7 @@ void tst_SignalGuard::aValueComesBackWithTheNextAnswer()
     }
 }
 
-void tst_SignalGuard::aLateAnswerIsAsOldAsItIs()
+void tst_SignalGuard::lateAnswerIsHeldWithItsAge()
 {
     Plant plant;
     plant.answerA(0, 0, 0.0);
@@ -225,7 +225,7 @@ void tst_SignalGuard::aLateAnswerIsAsOldAsItIs()
     QCOMPARE(plant.state(Force), QString("0.5 good"));
 }
 
-void tst_SignalGuard::anAnswerThatIsTooOldIsNotTaken()
+void tst_SignalGuard::answerOlderThanTheHoldTimeIsIgnored()
 {
     Plant plant;
     plant.answerA(0, 0, 0.0);
@@ -240,7 +240,7 @@ void tst_SignalGuard::anAnswerThatIsTooOldIsNotTaken()
     QCOMPARE(plant.state(Speed), QString("1 safe"));
 }
 
-void tst_SignalGuard::badValuesAreCountedAndNeverTaken()
+void tst_SignalGuard::badValuesAreCountedAndNeverAccepted()
 {
     Plant plant;
     plant.answerA(0, 0, 5.0);
@@ -277,7 +277,7 @@ void tst_SignalGuard::aBadValueHoldsItsOwnSignalOnly()
     QCOMPARE(plant.state(Vector), QString("0, 2, 0 good"));
 }
 
-void tst_SignalGuard::aRowOfBadValuesIsToldOnce()
+void tst_SignalGuard::consecutiveBadValuesAreReportedOnce()
 {
     Plant plant;
     for (int cycle = 0; cycle < 3; ++cycle)
@@ -290,7 +290,7 @@ void tst_SignalGuard::aRowOfBadValuesIsToldOnce()
     QCOMPARE(plant.refusals, 5);
 }
 
-void tst_SignalGuard::aSignalIsSafeOnceInARow()
+void tst_SignalGuard::safeSignalIsReportedOnceUntilItRecovers()
 {
     Plant plant;
     for (int time = 0; time < 2; ++time) {
@@ -305,7 +305,7 @@ void tst_SignalGuard::aSignalIsSafeOnceInARow()
     QCOMPARE(plant.told.size(), 6);
 }
 
-void tst_SignalGuard::aFirstValueThatIsBadLeavesTheInitialOne()
+void tst_SignalGuard::badFirstValueKeepsTheInitialValue()
 {
     Plant plant;
     for (int cycle = 0; cycle < 8; ++cycle) {
@@ -316,7 +316,7 @@ void tst_SignalGuard::aFirstValueThatIsBadLeavesTheInitialOne()
     }
 }
 
-void tst_SignalGuard::whatIsHeldByAPersonIsNotTouched()
+void tst_SignalGuard::leasedSignalIsNotChanged()
 {
     Plant plant;
     plant.answerA(0, 0, 5.0);
@@ -340,7 +340,7 @@ void tst_SignalGuard::whatIsHeldByAPersonIsNotTouched()
     QCOMPARE(plant.image.quality(Speed), QPlcQuality(QPlcQuality::Safe));
 }
 
-void tst_SignalGuard::whatAPersonGivesBackGrowsOldAgain()
+void tst_SignalGuard::releasedSignalIsAgedAgain()
 {
     Plant plant;
     const SignalGuard::Frame free = plant.frameA;
@@ -361,7 +361,7 @@ void tst_SignalGuard::whatAPersonGivesBackGrowsOldAgain()
     QCOMPARE(plant.state(Speed), QString("5 good"));
 }
 
-void tst_SignalGuard::aWriterThatIsGoneLeavesItsSignalsToGrowOld()
+void tst_SignalGuard::signalsOfALostWriterAreHeldAndThenSafe()
 {
     Plant plant;
     plant.answerA(4, 4, 5.0);
@@ -380,7 +380,7 @@ void tst_SignalGuard::aWriterThatIsGoneLeavesItsSignalsToGrowOld()
     QCOMPARE(plant.state(Speed), QString("6 good"));
 }
 
-void tst_SignalGuard::afterAPhaseWhatNobodyWritesIsSafe()
+void tst_SignalGuard::unwrittenSignalsAreSafeAfterAPhase()
 {
     Plant plant;
     plant.answerA(500, 500, 5.0);
@@ -415,7 +415,7 @@ void tst_SignalGuard::cyclesThatWereSkippedCount()
 }
 
 /// As a node has it: places are the fields of its inputs.
-void tst_SignalGuard::beforeAFrameTheLastGoodInputsStay()
+void tst_SignalGuard::lastGoodInputsStayUntilTheNextFrame()
 {
     const QPlcSignalTable table = QPlcSignalTable::fromIni(
         "[x]\ntype = Real64\ninitial = nan\n[y]\ntype = Int16\nmax = 50\nsafe = -1\nhold = 1\n");
@@ -450,7 +450,7 @@ void tst_SignalGuard::beforeAFrameTheLastGoodInputsStay()
 
 /// Any history of answers that are good, bad, late or missing against the rule in one line: the
 /// quality of a signal is the age of its newest good value.
-void tst_SignalGuard::everyHistoryEndsAsTheRulesSay()
+void tst_SignalGuard::randomHistoriesFollowTheQualityRule()
 {
     std::mt19937 random(20261122);
     const auto chance = [&random](unsigned percent) { return random() % 100 < percent; };

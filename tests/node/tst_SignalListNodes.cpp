@@ -19,17 +19,17 @@ private Q_SLOTS:
     void eachValueOfAListGoesToItsSignal();
     void indicesOfAnotherTableAreRefused();
     void unknownNamesAreRefusedInOneMessage();
-    void outputsOfAnIoNodeAreSetWheneverOneLikes();
+    void outputsOfAnIoNodeCanBeSetAtAnyTime();
     void anIoNodeBeginsWithItsInitialOutputs();
     void aBurstOfOutputsEndsWithTheNewest();
-    void outputsThatDoNotFitAreSaid();
+    void invalidOutputsAreReported();
     void newIndicesRegisterAgain();
     void aLocalIoNodeKeepsItsPlace();
     void aBufferNodeKeepsEveryCycleInOrder_data();
     void aBufferNodeKeepsEveryCycleInOrder();
     void aFullBufferLosesTheNewestAndCounts();
-    void aLimiterHandsOutBatches();
-    void limitsOfTheFrameRate();
+    void rateLimiterDeliversBatches();
+    void frameRateLimitIsClampedToItsRange();
 };
 
 namespace {
@@ -155,7 +155,7 @@ void tst_SignalListNodes::unknownNamesAreRefusedInOneMessage()
         QVERIFY2(master.errorString().contains(name), qPrintable(master.errorString()));
 }
 
-void tst_SignalListNodes::outputsOfAnIoNodeAreSetWheneverOneLikes()
+void tst_SignalListNodes::outputsOfAnIoNodeCanBeSetAtAnyTime()
 {
     TestMaster master;
     QVERIFY(master.listen());
@@ -207,7 +207,7 @@ void tst_SignalListNodes::aBurstOfOutputsEndsWithTheNewest()
     master.stop();
 }
 
-void tst_SignalListNodes::outputsThatDoNotFitAreSaid()
+void tst_SignalListNodes::invalidOutputsAreReported()
 {
     TestMaster master;
     QPlcIOSlaveNode node("Operator");
@@ -308,7 +308,7 @@ void tst_SignalListNodes::aFullBufferLosesTheNewestAndCounts()
     QCOMPARE(viewer.lostCycles(), quint64(36));
 }
 
-void tst_SignalListNodes::aLimiterHandsOutBatches()
+void tst_SignalListNodes::rateLimiterDeliversBatches()
 {
     TestMaster master;
     QPlcIOBufferSlaveNode viewer("Viewer");
@@ -330,7 +330,7 @@ void tst_SignalListNodes::aLimiterHandsOutBatches()
         QVERIFY(!batch.at(0).value<QList<QPlcSignalList>>().isEmpty());
 }
 
-void tst_SignalListNodes::limitsOfTheFrameRate()
+void tst_SignalListNodes::frameRateLimitIsClampedToItsRange()
 {
     auto *viewer = new QPlcIOBufferSlaveNode("Viewer");
     QPlcFrameRateLimiter limiter(viewer);

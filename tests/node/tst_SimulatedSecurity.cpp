@@ -16,10 +16,10 @@ class tst_SimulatedSecurity : public QObject
 private Q_SLOTS:
     void init() { QPlcSignalIndexTable::setCurrent({}); }
     void framesOfASecuredPlantAreSealed();
-    void whoHasNoKeyIsToldWhy_data();
-    void whoHasNoKeyIsToldWhy();
-    void aSecuredNodeIsToldThatItsMasterIsNot();
-    void aHandshakeSurvivesABadRoad();
+    void nodeWithoutKeyGetsTheReason_data();
+    void nodeWithoutKeyGetsTheReason();
+    void securedNodeReportsAnUnsecuredMaster();
+    void handshakeSucceedsAfterALinkOutage();
 
 private:
     SecurityFiles m_files;
@@ -82,7 +82,7 @@ void tst_SimulatedSecurity::framesOfASecuredPlantAreSealed()
     });
 }
 
-void tst_SimulatedSecurity::whoHasNoKeyIsToldWhy_data()
+void tst_SimulatedSecurity::nodeWithoutKeyGetsTheReason_data()
 {
     QTest::addColumn<QPlcSecurity>("security");
     QTest::addColumn<QString>("told");
@@ -92,7 +92,7 @@ void tst_SimulatedSecurity::whoHasNoKeyIsToldWhy_data()
     QTest::newRow("the name of another") << m_files.echo() << "identity";
 }
 
-void tst_SimulatedSecurity::whoHasNoKeyIsToldWhy()
+void tst_SimulatedSecurity::nodeWithoutKeyGetsTheReason()
 {
     QFETCH(QPlcSecurity, security);
     QFETCH(QString, told);
@@ -108,7 +108,7 @@ void tst_SimulatedSecurity::whoHasNoKeyIsToldWhy()
     });
 }
 
-void tst_SimulatedSecurity::aSecuredNodeIsToldThatItsMasterIsNot()
+void tst_SimulatedSecurity::securedNodeReportsAnUnsecuredMaster()
 {
     QPlcSimulator::run(1, [this](QPlcSimulator &simulator) {
         const LogCapture log;
@@ -121,7 +121,7 @@ void tst_SimulatedSecurity::aSecuredNodeIsToldThatItsMasterIsNot()
 }
 
 /// A road that is cut in the middle of a handshake: the next attempt gets in.
-void tst_SimulatedSecurity::aHandshakeSurvivesABadRoad()
+void tst_SimulatedSecurity::handshakeSucceedsAfterALinkOutage()
 {
     QPlcSimulator::run(1, [this](QPlcSimulator &simulator) {
         const LogCapture log;

@@ -20,14 +20,14 @@ class tst_SlaveFaults : public QObject
 
 private Q_SLOTS:
     void init() { QPlcSignalIndexTable::setCurrent({}); }
-    void corruptedFramesDoNotCalmTheWatchdog();
-    void theWatchdogBarksAtItsDeadlineAndNotAPeriodLater();
+    void corruptedFramesDoNotResetTheWatchdog();
+    void watchdogExpiresAtItsDeadline();
     void theWatchdogWaitsForTheFirstFrameOfAStartThatOthersDelay();
-    void watchdogSleepsInLockstepAndOutsideOfAPhase();
-    void afterAPauseOnlyTheNewestIsComputed();
-    void aFloodAfterAPauseHoldsNobody();
-    void requestsOfManyPartsAreNoFlood();
-    void lockstepLeavesNothingOut();
+    void watchdogIsInactiveInLockstepAndOutsideAPhase();
+    void nodeComputesOnlyTheNewestCycleAfterAPause();
+    void frameFloodAfterAPauseDoesNotBlockTheNode();
+    void multiPartRequestsAreNotTreatedAsFlood();
+    void lockstepComputesEveryCycle();
     void aStepThatThrowsGivesSafeValuesAndAFault();
     void whoGoesOnHasTheOutputsOfItsLastStep();
     void whoGoesOnTellsTheOutputsOfItsLastStep();
@@ -35,12 +35,12 @@ private Q_SLOTS:
     void aStepThatThrowsStopsThePlant();
     void outputsThatAreNotFiniteAreHeldAndStopNothing_data();
     void outputsThatAreNotFiniteAreHeldAndStopNothing();
-    void aListThatDoesNotFitIsAFault();
-    void stoppedMayThrow();
+    void wrongOutputListIsAFault();
+    void exceptionInStoppedIsTolerated();
     void aTornCyclicStreamEndsTheNode();
 };
 
-void tst_SlaveFaults::corruptedFramesDoNotCalmTheWatchdog()
+void tst_SlaveFaults::corruptedFramesDoNotResetTheWatchdog()
 {
     ScriptedMaster master;
     CounterNode node;
@@ -77,7 +77,7 @@ private:
 
 }  // namespace
 
-void tst_SlaveFaults::theWatchdogBarksAtItsDeadlineAndNotAPeriodLater()
+void tst_SlaveFaults::watchdogExpiresAtItsDeadline()
 {
     const std::chrono::nanoseconds time = 105ms;
     qint64 best = std::numeric_limits<qint64>::max();
@@ -114,7 +114,7 @@ void tst_SlaveFaults::theWatchdogWaitsForTheFirstFrameOfAStartThatOthersDelay()
     node.disconnectFromMaster();
 }
 
-void tst_SlaveFaults::watchdogSleepsInLockstepAndOutsideOfAPhase()
+void tst_SlaveFaults::watchdogIsInactiveInLockstepAndOutsideAPhase()
 {
     ScriptedMaster master;
     CounterNode node;
@@ -128,7 +128,7 @@ void tst_SlaveFaults::watchdogSleepsInLockstepAndOutsideOfAPhase()
     node.disconnectFromMaster();
 }
 
-void tst_SlaveFaults::afterAPauseOnlyTheNewestIsComputed()
+void tst_SlaveFaults::nodeComputesOnlyTheNewestCycleAfterAPause()
 {
     ScriptedMaster master;
     CounterNode node;
@@ -241,7 +241,7 @@ QVector<QByteArray> requestsFor(const qplc::NodeRuntime &runtime, int cycles)
 
 }  // namespace
 
-void tst_SlaveFaults::aFloodAfterAPauseHoldsNobody()
+void tst_SlaveFaults::frameFloodAfterAPauseDoesNotBlockTheNode()
 {
     CounterNode node;
     qplc::NodeRuntime &runtime = QPlcSlaveNodePrivate::of(node).runtime;
@@ -261,7 +261,7 @@ void tst_SlaveFaults::aFloodAfterAPauseHoldsNobody()
     QCOMPARE(cycle.counters().cycles, quint64(2));
 }
 
-void tst_SlaveFaults::requestsOfManyPartsAreNoFlood()
+void tst_SlaveFaults::multiPartRequestsAreNotTreatedAsFlood()
 {
     constexpr int cycles = 400;
     const QPlcSignalTable table
@@ -288,7 +288,7 @@ void tst_SlaveFaults::requestsOfManyPartsAreNoFlood()
     QCOMPARE(cycle.counters().cycles, quint64(1));  // the parts of the first request come with pauses, too
 }
 
-void tst_SlaveFaults::lockstepLeavesNothingOut()
+void tst_SlaveFaults::lockstepComputesEveryCycle()
 {
     ScriptedMaster master;
     CounterNode node;
@@ -468,7 +468,7 @@ void tst_SlaveFaults::outputsThatAreNotFiniteAreHeldAndStopNothing()
     }
 }
 
-void tst_SlaveFaults::aListThatDoesNotFitIsAFault()
+void tst_SlaveFaults::wrongOutputListIsAFault()
 {
     class Lister : public QPlcSlaveNode
     {
@@ -508,7 +508,7 @@ void tst_SlaveFaults::aListThatDoesNotFitIsAFault()
     }
 }
 
-void tst_SlaveFaults::stoppedMayThrow()
+void tst_SlaveFaults::exceptionInStoppedIsTolerated()
 {
     class Bye : public QPlcCompactSlaveNode
     {

@@ -80,15 +80,15 @@ private Q_SLOTS:
     void init();
     void aSignalMovesBySlopeTimesPeriodInEachCycle();
     void eachElementOfAnArrayMovesOnItsOwn();
-    void aNewValueTurnsTheSignalWhereItIs();
+    void newTargetStartsFromThePresentValue();
     void aLostLeaseMovesToTheNeutralValue();
-    void whoTakesOverALostSignalKeepsItWhereItIs();
+    void newHolderKeepsThePresentValue();
     void aSignalMovesToTheValueWithWhichItIsTaken();
-    void whoHoldsASignalAndTakesItAgainTurnsNothing();
-    void aReleasedSignalIsItsWritersAtOnce();
+    void renewedLeaseKeepsTheTarget();
+    void releasedSignalFollowsItsWriterWithoutSlope();
     void aWriterThatJoinsEndsTheWayOfItsSignal();
-    void aSafeStopDoesNotWait();
-    void withoutCyclesAValueIsThereAtOnce();
+    void safeStopIgnoresTheSlope();
+    void slopeIsIgnoredWithoutCycles();
     void aWayEndsWithItsPhase();
     void thereIsNoWayFromInfinity();
     void theNeighbourOfAMovingSignalStays();
@@ -185,7 +185,7 @@ void tst_Slopes::eachElementOfAnArrayMovesOnItsOwn()
     m_master->stop();
 }
 
-void tst_Slopes::aNewValueTurnsTheSignalWhereItIs()
+void tst_Slopes::newTargetStartsFromThePresentValue()
 {
     QVERIFY(set("speed", "10"));
     QTRY_VERIFY(number("speed") > 0.2);
@@ -211,7 +211,7 @@ void tst_Slopes::aLostLeaseMovesToTheNeutralValue()
 }
 
 /// On its way to the neutral value.
-void tst_Slopes::whoTakesOverALostSignalKeepsItWhereItIs()
+void tst_Slopes::newHolderKeepsThePresentValue()
 {
     QVERIFY(take("drive"));
     QVERIFY(set("drive", "9"));
@@ -245,7 +245,7 @@ void tst_Slopes::aSignalMovesToTheValueWithWhichItIsTaken()
     m_master->stop();
 }
 
-void tst_Slopes::whoHoldsASignalAndTakesItAgainTurnsNothing()
+void tst_Slopes::renewedLeaseKeepsTheTarget()
 {
     QVERIFY(take("drive"));
     QVERIFY(set("drive", "3"));
@@ -254,7 +254,7 @@ void tst_Slopes::whoHoldsASignalAndTakesItAgainTurnsNothing()
     m_master->stop();
 }
 
-void tst_Slopes::aReleasedSignalIsItsWritersAtOnce()
+void tst_Slopes::releasedSignalFollowsItsWriterWithoutSlope()
 {
     QVERIFY(take("drive"));
     QVERIFY(set("drive", "-8"));
@@ -287,7 +287,7 @@ void tst_Slopes::aWriterThatJoinsEndsTheWayOfItsSignal()
     m_master->stop();
 }
 
-void tst_Slopes::aSafeStopDoesNotWait()
+void tst_Slopes::safeStopIgnoresTheSlope()
 {
     QVERIFY(take("drive"));
     QVERIFY(set("drive", "9"));
@@ -311,7 +311,7 @@ void tst_Slopes::aSafeStopDoesNotWait()
     QCOMPARE(number("speed"), halted);
 }
 
-void tst_Slopes::withoutCyclesAValueIsThereAtOnce()
+void tst_Slopes::slopeIsIgnoredWithoutCycles()
 {
     QVERIFY(set("speed", "9"));
     QTRY_VERIFY(number("speed") > 0.0);

@@ -13,14 +13,14 @@ class tst_StagePolicies : public QObject
 
 private Q_SLOTS:
     void init() { QPlcSignalIndexTable::setCurrent({}); }
-    void aLateTwoPhaseAnswerCountsAtOnce();
-    void aLateStageGoesOnWithItsShareOfThePeriod();
-    void whoFeedsNobodyDelaysNobody();
-    void waitingInAStageLetsTimeStandStill();
+    void lateTwoPhaseAnswerIsUsedImmediately();
+    void lateStageEndsAfterItsShareOfThePeriod();
+    void nodeWithoutSameCycleReadersDelaysNoStage();
+    void waitingInAStageStopsTime();
     void stopEndsTheWaitWithinAStage();
 };
 
-void tst_StagePolicies::aLateTwoPhaseAnswerCountsAtOnce()
+void tst_StagePolicies::lateTwoPhaseAnswerIsUsedImmediately()
 {
     TestMaster master(QPlcClock::realTime());
     master.setInterval(0.200);
@@ -36,7 +36,7 @@ void tst_StagePolicies::aLateTwoPhaseAnswerCountsAtOnce()
     QCOMPARE(master.signalValue("echo").toReal(), 7.0);
 }
 
-void tst_StagePolicies::aLateStageGoesOnWithItsShareOfThePeriod()
+void tst_StagePolicies::lateStageEndsAfterItsShareOfThePeriod()
 {
     TestMaster master(QPlcClock::realTime());
     constexpr qint64 period = 100'000'000;  // [ns]
@@ -77,7 +77,7 @@ void tst_StagePolicies::aLateStageGoesOnWithItsShareOfThePeriod()
     QCOMPARE(violated.size(), int(late));
 }
 
-void tst_StagePolicies::whoFeedsNobodyDelaysNobody()
+void tst_StagePolicies::nodeWithoutSameCycleReadersDelaysNoStage()
 {
     TestMaster master;  // lockstep: a stage that waited for it would wait for ever
     QVERIFY(master.listen());
@@ -101,7 +101,7 @@ void tst_StagePolicies::whoFeedsNobodyDelaysNobody()
     master.stop();
 }
 
-void tst_StagePolicies::waitingInAStageLetsTimeStandStill()
+void tst_StagePolicies::waitingInAStageStopsTime()
 {
     TestMaster master(QPlcClock::realTime());
     master.setInterval(0.020);

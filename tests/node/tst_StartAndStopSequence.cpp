@@ -14,7 +14,7 @@ class tst_StartAndStopSequence : public QObject
 private Q_SLOTS:
     void init() { QPlcSignalIndexTable::setCurrent({}); }
     void masterStartsWhenAllAreReady();
-    void startInitializesWhenNobodyHas();
+    void startInitializesAnUninitializedMaster();
     void anInitializedMasterStartsWithoutAnotherInitialization();
     void aNodeThatIsNotReadyInTimeEndsTheStart();
     void stopDuringTheInitializationEndsIt();
@@ -22,12 +22,12 @@ private Q_SLOTS:
     void theStateTellsWhoHasStopped();
     void slaveStartsAndStopsStepByStep();
     void aSecondStartIsRefused();
-    void cyclesAreCheckedAndKept_data();
-    void cyclesAreCheckedAndKept();
-    void aPhaseThatCannotBeMeantIsRefused_data();
-    void aPhaseThatCannotBeMeantIsRefused();
-    void aCycleAfterTheEndOfTimeIsRejected();
-    void masterEndIsSaidAndMasterLossIsAnError();
+    void cycleLimitIsCheckedAndKept_data();
+    void cycleLimitIsCheckedAndKept();
+    void invalidPhaseIsRefused_data();
+    void invalidPhaseIsRefused();
+    void cycleBeyondTheTimeRangeIsRejected();
+    void masterEndIsNotifiedAndMasterLossIsAnError();
 };
 
 void tst_StartAndStopSequence::masterStartsWhenAllAreReady()
@@ -68,7 +68,7 @@ void tst_StartAndStopSequence::masterStartsWhenAllAreReady()
     QCOMPARE(master.state(), QPlcMasterNode::Off);
 }
 
-void tst_StartAndStopSequence::startInitializesWhenNobodyHas()
+void tst_StartAndStopSequence::startInitializesAnUninitializedMaster()
 {
     TestMaster master;
     QVERIFY(master.listen());
@@ -239,7 +239,7 @@ void tst_StartAndStopSequence::aSecondStartIsRefused()
     master.stop();
 }
 
-void tst_StartAndStopSequence::cyclesAreCheckedAndKept_data()
+void tst_StartAndStopSequence::cycleLimitIsCheckedAndKept_data()
 {
     QTest::addColumn<QJsonValue>("cycles");
     QTest::addColumn<quint64>("expected");  // 0: refused
@@ -252,7 +252,7 @@ void tst_StartAndStopSequence::cyclesAreCheckedAndKept_data()
     QTest::newRow("null") << QJsonValue() << quint64(0);
 }
 
-void tst_StartAndStopSequence::cyclesAreCheckedAndKept()
+void tst_StartAndStopSequence::cycleLimitIsCheckedAndKept()
 {
     QFETCH(QJsonValue, cycles);
     QFETCH(quint64, expected);
@@ -274,7 +274,7 @@ void tst_StartAndStopSequence::cyclesAreCheckedAndKept()
     QCOMPARE(master.signalValue("count").toUInt64(), expected);
 }
 
-void tst_StartAndStopSequence::aPhaseThatCannotBeMeantIsRefused_data()
+void tst_StartAndStopSequence::invalidPhaseIsRefused_data()
 {
     QTest::addColumn<QString>("field");
     QTest::addColumn<QJsonValue>("value");
@@ -297,7 +297,7 @@ void tst_StartAndStopSequence::aPhaseThatCannotBeMeantIsRefused_data()
         << "firstCycle" << QJsonValue(QPlcMessage::fromHex64(Q_UINT64_C(1) << 62)) << "begins with cycle 4611";
 }
 
-void tst_StartAndStopSequence::aPhaseThatCannotBeMeantIsRefused()
+void tst_StartAndStopSequence::invalidPhaseIsRefused()
 {
     QFETCH(QString, field);
     QFETCH(QJsonValue, value);
@@ -320,7 +320,7 @@ void tst_StartAndStopSequence::aPhaseThatCannotBeMeantIsRefused()
     node.disconnectFromMaster();
 }
 
-void tst_StartAndStopSequence::aCycleAfterTheEndOfTimeIsRejected()
+void tst_StartAndStopSequence::cycleBeyondTheTimeRangeIsRejected()
 {
     ScriptedMaster master;
     CounterNode node;
@@ -335,7 +335,7 @@ void tst_StartAndStopSequence::aCycleAfterTheEndOfTimeIsRejected()
     node.disconnectFromMaster();
 }
 
-void tst_StartAndStopSequence::masterEndIsSaidAndMasterLossIsAnError()
+void tst_StartAndStopSequence::masterEndIsNotifiedAndMasterLossIsAnError()
 {
     CounterNode ended;
     CounterNode lost;

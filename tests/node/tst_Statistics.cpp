@@ -12,7 +12,7 @@ class tst_Statistics : public QObject
 private Q_SLOTS:
     void nodesOverTheNetworkAndInTheProcessAreMeasured();
     void slaveMeasuresItself();
-    void slaveInTheProcessOfTheMasterHasNoneOfItsOwn();
+    void localSlaveHasNoStatisticsOfItsOwn();
     void everyFaultOfAnAnswerHasItsCounter();
     void aCycleWithoutTwoAnswersIsIncompleteOnce();
     void statisticsOverTheWireAreThoseOfTheApi_data();
@@ -22,8 +22,8 @@ private Q_SLOTS:
     void figuresAreWrittenIntoSignals();
     void signalsAreUpdatedWhileCyclesRun();
     void unfitStatisticSignalsAreRefused();
-    void numbersBeyondATypeStayAtItsLargest_data();
-    void numbersBeyondATypeStayAtItsLargest();
+    void numbersOutOfRangeAreSaturated_data();
+    void numbersOutOfRangeAreSaturated();
     void policyStopEndsThePhaseWithAnError();
     void unfitPolicyIsRefused();
     void policyCatchUpComputesEveryCycle();
@@ -150,7 +150,7 @@ void tst_Statistics::slaveMeasuresItself()
     echo.disconnectFromMaster();
 }
 
-void tst_Statistics::slaveInTheProcessOfTheMasterHasNoneOfItsOwn()
+void tst_Statistics::localSlaveHasNoStatisticsOfItsOwn()
 {
     TestMaster master(QPlcClock::realTime());
     EchoNode echo;
@@ -411,7 +411,7 @@ void tst_Statistics::unfitStatisticSignalsAreRefused()
     QCOMPARE(master.error(), QPlcMasterNode::SignalError);
 }
 
-void tst_Statistics::numbersBeyondATypeStayAtItsLargest_data()
+void tst_Statistics::numbersOutOfRangeAreSaturated_data()
 {
     QTest::addColumn<QString>("type");
     QTest::addColumn<double>("number");
@@ -426,7 +426,7 @@ void tst_Statistics::numbersBeyondATypeStayAtItsLargest_data()
     QTest::newRow("real") << "Real64" << 0.25 << "0.25";
 }
 
-void tst_Statistics::numbersBeyondATypeStayAtItsLargest()
+void tst_Statistics::numbersOutOfRangeAreSaturated()
 {
     QFETCH(QString, type);
     QFETCH(double, number);

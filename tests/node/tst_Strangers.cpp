@@ -20,17 +20,17 @@ class tst_Strangers : public QObject
 private Q_SLOTS:
     void initTestCase_data();
     void init();
-    void thousandsComeAndGoWithoutATrace();
-    void whoSaysNothingIsShownOut();
-    void whoSpeaksSlowlyIsShownOut();
-    void whoStaysSilentKeepsNobodyOut();
-    void whoIsRefusedAgainAndAgainFillsNoLog();
+    void thousandsOfConnectionsLeaveNoResources();
+    void silentConnectionIsClosed();
+    void slowGreetingIsClosed();
+    void silentConnectionsDoNotBlockOthers();
+    void repeatedRefusalsDoNotFillTheLog();
     void garbageEndsItsOwnConnectionOnly();
     void aLongGreetingIsRefusedBeforeItIsRead();
-    void tooManyConnectionsAreClosedAtOnce();
-    void whoAsksTooMuchIsShownOut();
-    void aNodeThatAsksTooMuchIsShownOut_data();
-    void aNodeThatAsksTooMuchIsShownOut();
+    void excessConnectionsAreClosedImmediately();
+    void toolThatSendsTooManyRequestsIsDisconnected();
+    void nodeThatSendsTooManyRequestsIsDisconnected_data();
+    void nodeThatSendsTooManyRequestsIsDisconnected();
     void aNodeThatDoesNotAttachKeepsItsNameForAWhileOnly();
 
 private:
@@ -98,7 +98,7 @@ void tst_Strangers::init()
     QVERIFY(m_master->listen());
 }
 
-void tst_Strangers::thousandsComeAndGoWithoutATrace()
+void tst_Strangers::thousandsOfConnectionsLeaveNoResources()
 {
     const auto comeAndGo = [this](int times) {
         for (int i = 0; i < times; ++i) {
@@ -125,7 +125,7 @@ void tst_Strangers::thousandsComeAndGoWithoutATrace()
     QVERIFY(lets("Counter"));
 }
 
-void tst_Strangers::whoSaysNothingIsShownOut()
+void tst_Strangers::silentConnectionIsClosed()
 {
     const int descriptor = connected();
     QTRY_VERIFY_WITH_TIMEOUT(isClosed(descriptor), 10000);
@@ -134,7 +134,7 @@ void tst_Strangers::whoSaysNothingIsShownOut()
     QCOMPARE(m_master->statistics().failedHandshakes, quint64(1));
 }
 
-void tst_Strangers::whoSpeaksSlowlyIsShownOut()
+void tst_Strangers::slowGreetingIsClosed()
 {
     const int descriptor = connected();
     const QByteArray begin = m_isSecured ? QByteArray("\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03", 11)
@@ -154,7 +154,7 @@ void tst_Strangers::whoSpeaksSlowlyIsShownOut()
 
 /// A crowd that says nothing fills the room for strangers; the next one waits in the queue of the
 /// system until they are shown out.
-void tst_Strangers::whoStaysSilentKeepsNobodyOut()
+void tst_Strangers::silentConnectionsDoNotBlockOthers()
 {
     std::vector<int> crowd;
     for (int i = 0; i < 40; ++i) {
@@ -167,7 +167,7 @@ void tst_Strangers::whoStaysSilentKeepsNobodyOut()
         ::close(descriptor);
 }
 
-void tst_Strangers::whoIsRefusedAgainAndAgainFillsNoLog()
+void tst_Strangers::repeatedRefusalsDoNotFillTheLog()
 {
     // What a stranger may say first, to masters of both kinds.
     const QString longName(20000, 'n');
@@ -222,7 +222,7 @@ void tst_Strangers::aLongGreetingIsRefusedBeforeItIsRead()
     QTRY_VERIFY(!m_log->matching("at most 65536 are allowed").isEmpty());
 }
 
-void tst_Strangers::tooManyConnectionsAreClosedAtOnce()
+void tst_Strangers::excessConnectionsAreClosedImmediately()
 {
     m_master.reset(new TestMaster);
     m_master->setMaximumConnections(2);
@@ -241,7 +241,7 @@ void tst_Strangers::tooManyConnectionsAreClosedAtOnce()
     QTRY_VERIFY(lets("Counter"));
 }
 
-void tst_Strangers::whoAsksTooMuchIsShownOut()
+void tst_Strangers::toolThatSendsTooManyRequestsIsDisconnected()
 {
     SecuredTool tool(m_isSecured ? m_files.anna() : QPlcSecurity());
     QVERIFY(tool.greetAt(m_master->serverPort()));
@@ -253,14 +253,14 @@ void tst_Strangers::whoAsksTooMuchIsShownOut()
     QVERIFY(lets("Counter"));
 }
 
-void tst_Strangers::aNodeThatAsksTooMuchIsShownOut_data()
+void tst_Strangers::nodeThatSendsTooManyRequestsIsDisconnected_data()
 {
     QTest::addColumn<int>("kind");
     QTest::newRow("questions") << int(QPlcMessage::GetLeases);
     QTest::newRow("answers that nobody has asked for") << int(QPlcMessage::Initialized);
 }
 
-void tst_Strangers::aNodeThatAsksTooMuchIsShownOut()
+void tst_Strangers::nodeThatSendsTooManyRequestsIsDisconnected()
 {
     QFETCH(int, kind);
     ScriptedNode node("Counter");

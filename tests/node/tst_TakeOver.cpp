@@ -12,28 +12,28 @@ private Q_SLOTS:
     void init();
     void holderSetsASignalThatANodeWrites();
     void signalKeepsItsPresentValueUntilTheHolderSetsIt();
-    void releasedSignalIsItsWritersAgain();
-    void signalWithoutAWriterCanBeTakenToo();
-    void nobodyElseSetsIt();
+    void releasedSignalFollowsItsWriterAgain();
+    void signalWithoutAWriterCanBeLeasedToo();
+    void onlyTheHolderSetsTheSignal();
     void takingOverIsExplicit();
     void twoHoldersHaveTwoSignals();
-    void neutralWhenTheConnectionOfTheHolderEnds();
-    void neutralWhenTheHolderIsSilent();
-    void anyMessageOfTheHolderIsAWord();
-    void lostLeaseIsReleasedByAnyoneOrTakenAgain();
+    void signalIsNeutralWhenTheHolderDisconnects();
+    void signalIsNeutralWhenTheHolderIsSilent();
+    void anyMessageOfTheHolderRenewsTheLease();
+    void lostLeaseCanBeReleasedOrReplacedByAnyone();
     void lostLeaseSurvivesStopAndStart();
-    void valuesForAWhileDoNotComeBackOverALease();
+    void temporaryValuesAreNotRestoredDuringALease();
     void aThousandSignalsAreTakenAtMost();
-    void badRequestsTakeNothing_data();
-    void badRequestsTakeNothing();
-    void releaseOfWhatAnotherOneHoldsIsRefused();
-    void signalOfTheMasterItselfIsNotTaken();
-    void nodeThatComesLaterDoesNotTakeItBack();
+    void invalidRequestsCreateNoLease_data();
+    void invalidRequestsCreateNoLease();
+    void releaseOfAnotherHoldersLeaseIsRefused();
+    void masterSignalsCannotBeLeased();
+    void laterWriterDoesNotEndTheLease();
     void everyReaderSeesTheHeldValueInEveryCycle_data();
     void everyReaderSeesTheHeldValueInEveryCycle();
-    void listenerHearsNothingElse();
-    void resultsAreTheSameBitForBitWithoutALease();
-    void changesAreShownToWhoOffersTheFeature();
+    void listenerReceivesOnlyTheLeasedValue();
+    void releasedLeaseLeavesResultsIdentical();
+    void leaseChangesArePushedToToolsWithTheFeature();
 
 private:
     QPlcMessage take(ScriptedTool &tool, const QStringList &names, QJsonObject fields = {})
@@ -123,7 +123,7 @@ void tst_TakeOver::signalKeepsItsPresentValueUntilTheHolderSetsIt()
     m_master->stop();
 }
 
-void tst_TakeOver::releasedSignalIsItsWritersAgain()
+void tst_TakeOver::releasedSignalFollowsItsWriterAgain()
 {
     QVERIFY(startWithNodes());
     QSignalSpy changed(m_master.data(), &QPlcMasterNode::leaseChanged);
@@ -141,7 +141,7 @@ void tst_TakeOver::releasedSignalIsItsWritersAgain()
     m_master->stop();
 }
 
-void tst_TakeOver::signalWithoutAWriterCanBeTakenToo()
+void tst_TakeOver::signalWithoutAWriterCanBeLeasedToo()
 {
     QVERIFY(startWithNodes());
     take(*m_anna, {"setpoint"});
@@ -154,7 +154,7 @@ void tst_TakeOver::signalWithoutAWriterCanBeTakenToo()
     m_master->stop();
 }
 
-void tst_TakeOver::nobodyElseSetsIt()
+void tst_TakeOver::onlyTheHolderSetsTheSignal()
 {
     take(*m_anna, {"setpoint"}, {{"values", QJsonObject{{"setpoint", "4"}}}});
     const QPlcMessage refused = set(*m_bert, "setpoint", "5");
@@ -198,7 +198,7 @@ void tst_TakeOver::twoHoldersHaveTwoSignals()
     m_master->stop();
 }
 
-void tst_TakeOver::neutralWhenTheConnectionOfTheHolderEnds()
+void tst_TakeOver::signalIsNeutralWhenTheHolderDisconnects()
 {
     QVERIFY(startWithNodes());
     take(*m_anna, {"echo"}, {{"values", QJsonObject{{"echo", "-1"}}}});
@@ -213,7 +213,7 @@ void tst_TakeOver::neutralWhenTheConnectionOfTheHolderEnds()
     m_master->stop();
 }
 
-void tst_TakeOver::neutralWhenTheHolderIsSilent()
+void tst_TakeOver::signalIsNeutralWhenTheHolderIsSilent()
 {
     QVERIFY(startWithNodes());
     take(*m_anna, {"echo"}, {{"values", QJsonObject{{"echo", "-1"}}}, {"timeout", 100e6}});
@@ -226,7 +226,7 @@ void tst_TakeOver::neutralWhenTheHolderIsSilent()
     m_master->stop();
 }
 
-void tst_TakeOver::anyMessageOfTheHolderIsAWord()
+void tst_TakeOver::anyMessageOfTheHolderRenewsTheLease()
 {
     take(*m_anna, {"setpoint"}, {{"values", QJsonObject{{"setpoint", "4"}}}, {"timeout", 1e9}});
     QElapsedTimer clock;
@@ -240,7 +240,7 @@ void tst_TakeOver::anyMessageOfTheHolderIsAWord()
     QTRY_COMPARE(value("setpoint"), QString("0"));
 }
 
-void tst_TakeOver::lostLeaseIsReleasedByAnyoneOrTakenAgain()
+void tst_TakeOver::lostLeaseCanBeReleasedOrReplacedByAnyone()
 {
     QVERIFY(startWithNodes());
     take(*m_anna, {"count", "echo"}, {{"values", QJsonObject{{"count", "-1"}, {"echo", "-1"}}}});
@@ -272,7 +272,7 @@ void tst_TakeOver::lostLeaseSurvivesStopAndStart()
     m_master->stop();
 }
 
-void tst_TakeOver::valuesForAWhileDoNotComeBackOverALease()
+void tst_TakeOver::temporaryValuesAreNotRestoredDuringALease()
 {
     const QJsonObject values{{"setpoint", "5"}};
     m_bert->ask(QPlcMessage::SetSignals, {{"values", values}, {"duration", 100e6}});
@@ -311,7 +311,7 @@ void tst_TakeOver::aThousandSignalsAreTakenAtMost()
     QCOMPARE(take(tool, {names.first()}).kind(), QPlcMessage::Done);  // again
 }
 
-void tst_TakeOver::badRequestsTakeNothing_data()
+void tst_TakeOver::invalidRequestsCreateNoLease_data()
 {
     QTest::addColumn<QJsonObject>("fields");
     QTest::addColumn<QString>("error");
@@ -341,7 +341,7 @@ void tst_TakeOver::badRequestsTakeNothing_data()
     QTest::newRow("a number as name") << with("whoever", 3) << "MalformedMessage";
 }
 
-void tst_TakeOver::badRequestsTakeNothing()
+void tst_TakeOver::invalidRequestsCreateNoLease()
 {
     QFETCH(QJsonObject, fields);
     QFETCH(QString, error);
@@ -355,7 +355,7 @@ void tst_TakeOver::badRequestsTakeNothing()
     QCOMPARE(set(*m_anna, "setpoint", "10.5").text("error"), QString("InvalidValue"));
 }
 
-void tst_TakeOver::releaseOfWhatAnotherOneHoldsIsRefused()
+void tst_TakeOver::releaseOfAnotherHoldersLeaseIsRefused()
 {
     take(*m_anna, {"setpoint"});
     take(*m_bert, {"free"});
@@ -365,7 +365,7 @@ void tst_TakeOver::releaseOfWhatAnotherOneHoldsIsRefused()
     QCOMPARE(release(*m_bert, {"nonsense"}).text("error"), QString("UnknownSignal"));
 }
 
-void tst_TakeOver::signalOfTheMasterItselfIsNotTaken()
+void tst_TakeOver::masterSignalsCannotBeLeased()
 {
     QVERIFY(m_master->activateJitterMeasurement("jitter"));
     const QPlcMessage refused = take(*m_anna, {"jitter"});
@@ -375,7 +375,7 @@ void tst_TakeOver::signalOfTheMasterItselfIsNotTaken()
     QVERIFY2(m_master->errorString().contains("'Anna'"), qPrintable(m_master->errorString()));
 }
 
-void tst_TakeOver::nodeThatComesLaterDoesNotTakeItBack()
+void tst_TakeOver::laterWriterDoesNotEndTheLease()
 {
     QVERIFY(m_master->addLocalNode(m_counter.data()));
     QVERIFY(m_master->startRealTime());
@@ -441,7 +441,7 @@ void tst_TakeOver::everyReaderSeesTheHeldValueInEveryCycle()
     QCOMPARE(master.signalValue("masterWorkload").toReal(), -2.0);
 }
 
-void tst_TakeOver::listenerHearsNothingElse()
+void tst_TakeOver::listenerReceivesOnlyTheLeasedValue()
 {
     QVERIFY(m_master->addLocalNode(m_counter.data()) && m_master->addLocalNode(m_echo.data()));
     ScriptedNode listener("Listener");
@@ -466,7 +466,7 @@ void tst_TakeOver::listenerHearsNothingElse()
     QCOMPARE(heard.mid(begin), QVector<double>(heard.size() - begin, -3.0));
 }
 
-void tst_TakeOver::resultsAreTheSameBitForBitWithoutALease()
+void tst_TakeOver::releasedLeaseLeavesResultsIdentical()
 {
     quint64 digests[2];
     for (const bool isTaken : {false, true}) {
@@ -489,7 +489,7 @@ void tst_TakeOver::resultsAreTheSameBitForBitWithoutALease()
     QCOMPARE(digests[0], digests[1]);
 }
 
-void tst_TakeOver::changesAreShownToWhoOffersTheFeature()
+void tst_TakeOver::leaseChangesArePushedToToolsWithTheFeature()
 {
     ScriptedTool viewer("Viewer");
     QVERIFY(viewer.connectTo(m_master->serverPort()));

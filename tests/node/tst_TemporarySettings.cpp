@@ -10,15 +10,15 @@ class tst_TemporarySettings : public QObject
 
 private Q_SLOTS:
     void init();
-    void formerValueComesBackAfterTheDuration_data();
-    void formerValueComesBackAfterTheDuration();
-    void formerValueComesBackWhenTheConnectionEnds_data();
-    void formerValueComesBackWhenTheConnectionEnds();
-    void setForGoodEndsWhatWasSetForAWhile();
-    void formerValueIsTheOneJustSetEvenBeforeACycleTookIt();
+    void formerValueIsRestoredAfterTheDuration_data();
+    void formerValueIsRestoredAfterTheDuration();
+    void formerValueIsRestoredWhenTheConnectionEnds_data();
+    void formerValueIsRestoredWhenTheConnectionEnds();
+    void permanentSettingEndsATemporaryOne();
+    void formerValueIsTheNewestSettingEvenBeforeACycle();
     void renewedValueStaysUntilTheLastDuration();
-    void nothingComesBackOverTheValuesOfANode();
-    void moreSignalsThanACycleTakesComeBack();
+    void restoringDoesNotOverwriteTheValuesOfANode();
+    void moreSignalsThanFitIntoOneCycleAreRestored();
     void badDurationsAreRefused_data();
     void badDurationsAreRefused();
 
@@ -54,14 +54,14 @@ void tst_TemporarySettings::init()
     QVERIFY(m_tool->greetAt(m_master->serverPort()));
 }
 
-void tst_TemporarySettings::formerValueComesBackAfterTheDuration_data()
+void tst_TemporarySettings::formerValueIsRestoredAfterTheDuration_data()
 {
     QTest::addColumn<bool>("running");
     QTest::newRow("off") << false;
     QTest::newRow("running") << true;
 }
 
-void tst_TemporarySettings::formerValueComesBackAfterTheDuration()
+void tst_TemporarySettings::formerValueIsRestoredAfterTheDuration()
 {
     QFETCH(bool, running);
     QCOMPARE(set(*m_tool, "1.5").kind(), QPlcMessage::Done);
@@ -76,12 +76,12 @@ void tst_TemporarySettings::formerValueComesBackAfterTheDuration()
     m_master->stop();
 }
 
-void tst_TemporarySettings::formerValueComesBackWhenTheConnectionEnds_data()
+void tst_TemporarySettings::formerValueIsRestoredWhenTheConnectionEnds_data()
 {
-    formerValueComesBackAfterTheDuration_data();
+    formerValueIsRestoredAfterTheDuration_data();
 }
 
-void tst_TemporarySettings::formerValueComesBackWhenTheConnectionEnds()
+void tst_TemporarySettings::formerValueIsRestoredWhenTheConnectionEnds()
 {
     QFETCH(bool, running);
     QVERIFY(startIf(running));
@@ -98,7 +98,7 @@ void tst_TemporarySettings::formerValueComesBackWhenTheConnectionEnds()
     m_master->stop();
 }
 
-void tst_TemporarySettings::setForGoodEndsWhatWasSetForAWhile()
+void tst_TemporarySettings::permanentSettingEndsATemporaryOne()
 {
     set(*m_tool, "5", forLong);
     set(*m_tool, "6");
@@ -116,7 +116,7 @@ void tst_TemporarySettings::setForGoodEndsWhatWasSetForAWhile()
     QCOMPARE(setpoint(), QString("7"));
 }
 
-void tst_TemporarySettings::formerValueIsTheOneJustSetEvenBeforeACycleTookIt()
+void tst_TemporarySettings::formerValueIsTheNewestSettingEvenBeforeACycle()
 {
     m_master->setInterval(0.2);
     QVERIFY(startIf(true));
@@ -139,7 +139,7 @@ void tst_TemporarySettings::renewedValueStaysUntilTheLastDuration()
     QTRY_COMPARE(setpoint(), QString("0"));
 }
 
-void tst_TemporarySettings::nothingComesBackOverTheValuesOfANode()
+void tst_TemporarySettings::restoringDoesNotOverwriteTheValuesOfANode()
 {
     CounterNode counter;
     QVERIFY(m_master->setSignalValue("sum", 3.0));
@@ -157,7 +157,7 @@ void tst_TemporarySettings::nothingComesBackOverTheValuesOfANode()
     m_master->stop();
 }
 
-void tst_TemporarySettings::moreSignalsThanACycleTakesComeBack()
+void tst_TemporarySettings::moreSignalsThanFitIntoOneCycleAreRestored()
 {
     QByteArray ini;
     QJsonObject some[2];

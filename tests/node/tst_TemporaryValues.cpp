@@ -14,10 +14,10 @@ class tst_TemporaryValues : public QObject
 private Q_SLOTS:
     void init() { m_values = TemporaryValues(); }
     void nothingIsDueWhereNothingWasSet();
-    void groundComesBackAtItsDeadlineAndNotBefore();
-    void groundComesBackWhenItsOwnerEnds();
-    void layersComeBackOneBelowTheOther();
-    void lowerLayerEndsWithoutATrace();
+    void baseValueIsRestoredExactlyAtTheDeadline();
+    void baseValueIsRestoredWhenTheOwnerEnds();
+    void layersAreRestoredInOrder();
+    void expiredLowerLayerChangesNoValue();
     void laterLayerOfTheSameOwnerReplacesTheFormerOne();
     void forgottenSignalKeepsItsValue();
     void signalsOfOneOwnerEndTogether();
@@ -48,7 +48,7 @@ void tst_TemporaryValues::nothingIsDueWhereNothingWasSet()
     m_values.forget(3);
 }
 
-void tst_TemporaryValues::groundComesBackAtItsDeadlineAndNotBefore()
+void tst_TemporaryValues::baseValueIsRestoredExactlyAtTheDeadline()
 {
     m_values.set(a, setting(3, 5.0), 1.5, 100);
     QVERIFY(m_values.contains(3));
@@ -59,7 +59,7 @@ void tst_TemporaryValues::groundComesBackAtItsDeadlineAndNotBefore()
     QCOMPARE(text(m_values.endDue(never)), QString());  // once
 }
 
-void tst_TemporaryValues::groundComesBackWhenItsOwnerEnds()
+void tst_TemporaryValues::baseValueIsRestoredWhenTheOwnerEnds()
 {
     m_values.set(a, setting(3, 5.0), 1.5, 100);
     QCOMPARE(text(m_values.endAllOf(b)), QString());
@@ -67,7 +67,7 @@ void tst_TemporaryValues::groundComesBackWhenItsOwnerEnds()
     QVERIFY(!m_values.nextDeadline());
 }
 
-void tst_TemporaryValues::layersComeBackOneBelowTheOther()
+void tst_TemporaryValues::layersAreRestoredInOrder()
 {
     m_values.set(a, setting(3, 5.0), 1.5, 200);
     m_values.set(b, setting(3, 6.0), 5.0, 100);
@@ -76,7 +76,7 @@ void tst_TemporaryValues::layersComeBackOneBelowTheOther()
     QCOMPARE(text(m_values.endDue(200)), QStringLiteral("3 = 1.5"));
 }
 
-void tst_TemporaryValues::lowerLayerEndsWithoutATrace()
+void tst_TemporaryValues::expiredLowerLayerChangesNoValue()
 {
     m_values.set(a, setting(3, 5.0), 1.5, 100);
     m_values.set(b, setting(3, 6.0), 5.0, 200);

@@ -26,16 +26,16 @@ class tst_TransportRegistry : public QObject
 private Q_SLOTS:
     void initTestCase();
     void init() { QPlcSignalIndexTable::setCurrent({}); }
-    void rowsHaveTheNumbersOfTheKinds();
-    void anAddressNamesATransportThatHasJoined();
-    void masterAndNodeRunOverATransportThatHasJoined_data();
-    void masterAndNodeRunOverATransportThatHasJoined();
-    void aNodeIsToldWhyItsTransportIsNotForIt();
-    void anUnknownAddressGetsAListOfThoseThatAreKnown();
-    void anUnknownChannelGetsAListOfThoseThatAreKnown();
-    void aNameIsTakenOnce_data();
-    void aNameIsTakenOnce();
-    void theDocumentNamesWhatTransportsAdd();
+    void registryNumbersMatchTheTransportKinds();
+    void addressesAcceptAddedTransports();
+    void masterAndNodeRunOverAnAddedTransport_data();
+    void masterAndNodeRunOverAnAddedTransport();
+    void unsuitableTransportIsRefusedWithTheReason();
+    void unknownAddressErrorListsKnownTransports();
+    void unknownChannelErrorListsKnownTransports();
+    void usedOrInvalidTransportNameIsRefused_data();
+    void usedOrInvalidTransportNameIsRefused();
+    void documentNamesTheFieldsOfEachTransport();
 };
 
 namespace {
@@ -68,7 +68,7 @@ void tst_TransportRegistry::initTestCase()
     QVERIFY2(TransportRegistry::instance().add(std::make_unique<PairKind>(), &error), qPrintable(error));
 }
 
-void tst_TransportRegistry::rowsHaveTheNumbersOfTheKinds()
+void tst_TransportRegistry::registryNumbersMatchTheTransportKinds()
 {
     const TransportRegistry &registry = TransportRegistry::instance();
     QCOMPARE(registry.numberOf("tcp"), int(QPlcUnderlyingProtocol::Tcp));
@@ -80,7 +80,7 @@ void tst_TransportRegistry::rowsHaveTheNumbersOfTheKinds()
     QVERIFY(!registry.at(0) && !registry.at(6) && !registry.named("invalid"));
 }
 
-void tst_TransportRegistry::anAddressNamesATransportThatHasJoined()
+void tst_TransportRegistry::addressesAcceptAddedTransports()
 {
     const auto pair = QPlcUnderlyingProtocol::fromString(QStringLiteral("pair://localhost:4711"));
     QVERIFY(pair.isValid());
@@ -89,7 +89,7 @@ void tst_TransportRegistry::anAddressNamesATransportThatHasJoined()
     QVERIFY(pair != QPlcUnderlyingProtocol::udp(QHostAddress::LocalHost, 4711));
 }
 
-void tst_TransportRegistry::masterAndNodeRunOverATransportThatHasJoined_data()
+void tst_TransportRegistry::masterAndNodeRunOverAnAddedTransport_data()
 {
     QTest::addColumn<QString>("counterKind");
     QTest::addColumn<QString>("echoKind");
@@ -103,7 +103,7 @@ void tst_TransportRegistry::masterAndNodeRunOverATransportThatHasJoined_data()
                                           << "pair";
 }
 
-void tst_TransportRegistry::masterAndNodeRunOverATransportThatHasJoined()
+void tst_TransportRegistry::masterAndNodeRunOverAnAddedTransport()
 {
     QFETCH(QString, counterKind);
     QFETCH(QString, echoKind);
@@ -132,7 +132,7 @@ void tst_TransportRegistry::masterAndNodeRunOverATransportThatHasJoined()
     QCOMPARE(digest, digestOver("tcp", "tcp"));
 }
 
-void tst_TransportRegistry::aNodeIsToldWhyItsTransportIsNotForIt()
+void tst_TransportRegistry::unsuitableTransportIsRefusedWithTheReason()
 {
     TestMaster master;
     QVERIFY(master.listen());
@@ -147,7 +147,7 @@ void tst_TransportRegistry::aNodeIsToldWhyItsTransportIsNotForIt()
     QCOMPARE(answer.text("text"), QString("this master has no multicast group; give it one, or use udp"));
 }
 
-void tst_TransportRegistry::anUnknownAddressGetsAListOfThoseThatAreKnown()
+void tst_TransportRegistry::unknownAddressErrorListsKnownTransports()
 {
     QString error;
     QVERIFY(!QPlcUnderlyingProtocol::fromString("pigeon://127.0.0.1", QPlcUnderlyingProtocol::Tcp, &error).isValid());
@@ -155,7 +155,7 @@ void tst_TransportRegistry::anUnknownAddressGetsAListOfThoseThatAreKnown()
              QString("unknown transport 'pigeon://'; use tcp://, udp://, udp-multicast://, local:// or pair://"));
 }
 
-void tst_TransportRegistry::anUnknownChannelGetsAListOfThoseThatAreKnown()
+void tst_TransportRegistry::unknownChannelErrorListsKnownTransports()
 {
     TestMaster master;
     QVERIFY(master.listen());
@@ -171,7 +171,7 @@ void tst_TransportRegistry::anUnknownChannelGetsAListOfThoseThatAreKnown()
              QString("unknown cyclic channel 'pigeon'; use tcp, udp, udp-multicast, local or pair"));
 }
 
-void tst_TransportRegistry::aNameIsTakenOnce_data()
+void tst_TransportRegistry::usedOrInvalidTransportNameIsRefused_data()
 {
     QTest::addColumn<QString>("name");
     QTest::addColumn<QString>("expected");
@@ -188,7 +188,7 @@ void tst_TransportRegistry::aNameIsTakenOnce_data()
         << "'my:bus' is not a valid name of a transport; use small letters, digits and '-'";
 }
 
-void tst_TransportRegistry::aNameIsTakenOnce()
+void tst_TransportRegistry::usedOrInvalidTransportNameIsRefused()
 {
     QFETCH(QString, name);
     QFETCH(QString, expected);
@@ -199,7 +199,7 @@ void tst_TransportRegistry::aNameIsTakenOnce()
     QCOMPARE(TransportRegistry::instance().kinds().size(), before);
 }
 
-void tst_TransportRegistry::theDocumentNamesWhatTransportsAdd()
+void tst_TransportRegistry::documentNamesTheFieldsOfEachTransport()
 {
     QFile file(QStringLiteral(PROTOCOL_DOCUMENT));
     QVERIFY(file.open(QIODevice::ReadOnly));

@@ -21,13 +21,13 @@ private Q_SLOTS:
     void init() { QPlcSignalIndexTable::setCurrent({}); }
     void sameDigestOverEveryTransport_data();
     void sameDigestOverEveryTransport();
-    void nodesOfBothKindsLiveTogether();
+    void udpAndTcpNodesRunTogether();
     void manyNodesRunTogether();
     void aMasterOnThisMachineIsFoundByItsName();
     void spinningChangesNoValue_data();
     void spinningChangesNoValue();
-    void aPortInUseIsSaid();
-    void theNetworkIsClosedUnlessSaidLoudly();
+    void portInUseIsReported();
+    void masterListensOnLoopbackUnlessOpenedExplicitly();
     void theServerStopsAndStartsAgain();
 };
 
@@ -134,7 +134,7 @@ void tst_Transports::sameDigestOverEveryTransport()
     echo.disconnectFromMaster();
 }
 
-void tst_Transports::nodesOfBothKindsLiveTogether()
+void tst_Transports::udpAndTcpNodesRunTogether()
 {
     TestMaster master(QPlcClock::realTime());
     master.setInterval(0.002);
@@ -242,7 +242,7 @@ void tst_Transports::spinningChangesNoValue()
     echo.disconnectFromMaster();
 }
 
-void tst_Transports::aPortInUseIsSaid()
+void tst_Transports::portInUseIsReported()
 {
     TestMaster first;
     QVERIFY(first.listen());
@@ -262,7 +262,7 @@ void tst_Transports::aPortInUseIsSaid()
     QVERIFY(third.listen());
 }
 
-void tst_Transports::theNetworkIsClosedUnlessSaidLoudly()
+void tst_Transports::masterListensOnLoopbackUnlessOpenedExplicitly()
 {
     LogCapture log;
     TestMaster master;

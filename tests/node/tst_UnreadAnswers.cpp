@@ -13,8 +13,8 @@ class tst_UnreadAnswers : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void whoReadsNothingIsNotListenedTo();
-    void whoReadsAgainGetsAllAnswers();
+    void peerThatReadsNothingIsNotServed();
+    void peerThatResumesReadingGetsAllAnswers();
 
 private:
     static constexpr int Requests = 300;
@@ -51,7 +51,7 @@ bool tst_UnreadAnswers::Ends::connectEnds()
     return true;
 }
 
-void tst_UnreadAnswers::whoReadsNothingIsNotListenedTo()
+void tst_UnreadAnswers::peerThatReadsNothingIsNotServed()
 {
     Ends ends;
     QVERIFY(ends.connectEnds());
@@ -62,7 +62,7 @@ void tst_UnreadAnswers::whoReadsNothingIsNotListenedTo()
     QVERIFY2(ends.asked < Requests / 2, QByteArray::number(ends.asked).constData());
 }
 
-void tst_UnreadAnswers::whoReadsAgainGetsAllAnswers()
+void tst_UnreadAnswers::peerThatResumesReadingGetsAllAnswers()
 {
     Ends ends;
     QVERIFY(ends.connectEnds());

@@ -15,8 +15,8 @@ class tst_ViewerPushes : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void stoppedViewerMakesNothingGrowAndSeesTheGap();
-    void nothingIsSentWithoutTheFeature();
+    void stoppedViewerCostsNoMemoryAndSeesTheGap();
+    void viewerWithoutTheFeatureGetsNoPushes();
 };
 
 namespace {
@@ -90,7 +90,7 @@ private:
 
 }  // namespace
 
-void tst_ViewerPushes::stoppedViewerMakesNothingGrowAndSeesTheGap()
+void tst_ViewerPushes::stoppedViewerCostsNoMemoryAndSeesTheGap()
 {
     Master master;
     QVERIFY(master.server.listen(QHostAddress::LocalHost, 0, {}, {}));
@@ -136,7 +136,7 @@ void tst_ViewerPushes::stoppedViewerMakesNothingGrowAndSeesTheGap()
     QVERIFY2(pictures >= 1 && pictures < 5, qPrintable(QString::number(pictures)));
 }
 
-void tst_ViewerPushes::nothingIsSentWithoutTheFeature()
+void tst_ViewerPushes::viewerWithoutTheFeatureGetsNoPushes()
 {
     Master master;
     QVERIFY(master.server.listen(QHostAddress::LocalHost, 0, {}, {}));

@@ -56,13 +56,13 @@ class tst_Writers : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void aNodeThatIsNotNamedIsRefused();
+    void unlistedWriterIsRefused();
     void theFirstWriterThatIsFreshIsTheSource();
-    void aWriterWithNonsenseLosesItsClaimAtOnce();
+    void writerWithInvalidValuesIsReplacedImmediately();
     void viewersSeeQualityAndSource();
 };
 
-void tst_Writers::aNodeThatIsNotNamedIsRefused()
+void tst_Writers::unlistedWriterIsRefused()
 {
     class Writer : public QPlcCompactSlaveNode
     {
@@ -125,7 +125,7 @@ void tst_Writers::theFirstWriterThatIsFreshIsTheSource()
     QCOMPARE(log.matching("speed: its source is now B, instead of A").size(), 1);
 }
 
-void tst_Writers::aWriterWithNonsenseLosesItsClaimAtOnce()
+void tst_Writers::writerWithInvalidValuesIsReplacedImmediately()
 {
     TestMaster master(QPlcClock::lockstep(), writersTable());
     Pilot a("A", 1.0);

@@ -16,13 +16,13 @@ class tst_PlantFaults : public QObject
 private Q_SLOTS:
     void init() { m_plant = std::make_unique<ProcessPlant>(); }
     void cleanup() { m_plant.reset(); }
-    void aStoppedNodeIsLateAndGoesOn_data();
-    void aStoppedNodeIsLateAndGoesOn();
-    void aStoppedMasterLeavesOutWhatIsOver_data();
-    void aStoppedMasterLeavesOutWhatIsOver();
-    void aKilledNodeIsToldAndAnotherOneTakesItsPlace();
+    void stoppedNodeIsLateAndResumes_data();
+    void stoppedNodeIsLateAndResumes();
+    void stoppedMasterSkipsMissedCycles_data();
+    void stoppedMasterSkipsMissedCycles();
+    void killedNodeIsReportedAndReplaced();
     void garbageOnEveryPortChangesNothing();
-    void faultsOnPurposeAreSeenByEverybody();
+    void injectedFaultsAreReportedByAllPrograms();
 
 private:
     bool start(const QStringList &autopilotOptions = {}, const QStringList &masterOptions = {})
@@ -60,14 +60,14 @@ private:
     std::unique_ptr<ProcessPlant> m_plant;
 };
 
-void tst_PlantFaults::aStoppedNodeIsLateAndGoesOn_data()
+void tst_PlantFaults::stoppedNodeIsLateAndResumes_data()
 {
     QTest::addColumn<int>("milliseconds");
     QTest::newRow("0.3 s") << 300;
     QTest::newRow("2 s") << 2000;
 }
 
-void tst_PlantFaults::aStoppedNodeIsLateAndGoesOn()
+void tst_PlantFaults::stoppedNodeIsLateAndResumes()
 {
     QFETCH(int, milliseconds);
     QVERIFY(start());
@@ -89,7 +89,7 @@ void tst_PlantFaults::aStoppedNodeIsLateAndGoesOn()
     QVERIFY(hasBothNodes());
 }
 
-void tst_PlantFaults::aStoppedMasterLeavesOutWhatIsOver_data()
+void tst_PlantFaults::stoppedMasterSkipsMissedCycles_data()
 {
     QTest::addColumn<QString>("profile");
     QTest::addColumn<QString>("endsIn");
@@ -99,7 +99,7 @@ void tst_PlantFaults::aStoppedMasterLeavesOutWhatIsOver_data()
                            << "SafeStop";
 }
 
-void tst_PlantFaults::aStoppedMasterLeavesOutWhatIsOver()
+void tst_PlantFaults::stoppedMasterSkipsMissedCycles()
 {
     QFETCH(QString, profile);
     QFETCH(QString, endsIn);
@@ -122,7 +122,7 @@ void tst_PlantFaults::aStoppedMasterLeavesOutWhatIsOver()
     QTRY_VERIFY_WITH_TIMEOUT(hasBothNodes(), Program::patience);  // those of a plant have left and come back
 }
 
-void tst_PlantFaults::aKilledNodeIsToldAndAnotherOneTakesItsPlace()
+void tst_PlantFaults::killedNodeIsReportedAndReplaced()
 {
     QVERIFY(start());
     m_plant->autopilot().sendSignal(SIGKILL);
@@ -170,7 +170,7 @@ void tst_PlantFaults::garbageOnEveryPortChangesNothing()
     QVERIFY(!udp.hasPendingDatagrams());  // nobody is told that somebody is there
 }
 
-void tst_PlantFaults::faultsOnPurposeAreSeenByEverybody()
+void tst_PlantFaults::injectedFaultsAreReportedByAllPrograms()
 {
     const QString enabled = QStringLiteral("--enable-fault-injection");
     QVERIFY(m_plant->start({enabled, QStringLiteral("--faults=delay=100us")}));

@@ -14,12 +14,12 @@ class tst_SafeProcesses : public QObject
 
 private Q_SLOTS:
     void aKilledMasterLeavesItsNodesSafe();
-    void aStoppedMasterIsNoticedByTheWatchdogAndStopsSafelyItself();
+    void stoppedMasterTripsWatchdogsAndStopsSafely();
     void aKilledCriticalNodeStopsThePlantSafely();
-    void aRestartedNodeIsBackAndTheOtherDoesNotNotice();
+    void restartedNodeReturnsWithoutDisturbingOthers();
     void aRestartedMasterFindsItsNodesAndStartsNothing();
-    void whoIsToldToEndDoesSoInItsSafeState_data();
-    void whoIsToldToEndDoesSoInItsSafeState();
+    void terminatedProgramEndsInItsSafeState_data();
+    void terminatedProgramEndsInItsSafeState();
     void cleanup()
     {
         a.reset();
@@ -82,7 +82,7 @@ void tst_SafeProcesses::aKilledMasterLeavesItsNodesSafe()
     }
 }
 
-void tst_SafeProcesses::aStoppedMasterIsNoticedByTheWatchdogAndStopsSafelyItself()
+void tst_SafeProcesses::stoppedMasterTripsWatchdogsAndStopsSafely()
 {
     QVERIFY(startPlant(Watchdog, "plain"));
     master->sendSignal(SIGSTOP);
@@ -111,7 +111,7 @@ void tst_SafeProcesses::aKilledCriticalNodeStopsThePlantSafely()
     QVERIFY(!a->output().contains("runs"));  // not by itself
 }
 
-void tst_SafeProcesses::aRestartedNodeIsBackAndTheOtherDoesNotNotice()
+void tst_SafeProcesses::restartedNodeReturnsWithoutDisturbingOthers()
 {
     QVERIFY(startPlant(0, "plain"));
     a->sendSignal(SIGKILL);
@@ -140,14 +140,14 @@ void tst_SafeProcesses::aRestartedMasterFindsItsNodesAndStartsNothing()
     QVERIFY2(!master->output().contains("RealTime"), qPrintable(master->output()));
 }
 
-void tst_SafeProcesses::whoIsToldToEndDoesSoInItsSafeState_data()
+void tst_SafeProcesses::terminatedProgramEndsInItsSafeState_data()
 {
     QTest::addColumn<bool>("isMaster");
     QTest::newRow("a node") << false;
     QTest::newRow("the master") << true;
 }
 
-void tst_SafeProcesses::whoIsToldToEndDoesSoInItsSafeState()
+void tst_SafeProcesses::terminatedProgramEndsInItsSafeState()
 {
     QFETCH(bool, isMaster);
     QVERIFY(startPlant(0, "plain"));

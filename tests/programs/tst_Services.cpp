@@ -16,8 +16,8 @@ private Q_SLOTS:
     void aMasterIsReadyWhenItListens();
     void aNodeIsReadyWhenItIsRegistered();
     void aNodeThatStaysIsReadyWithoutItsMaster();
-    void aPlantThatRunsIsFed();
-    void aProgramThatStandsStillIsNotFed();
+    void runningPlantFeedsTheWatchdogs();
+    void stoppedProgramDoesNotFeedTheWatchdog();
 
 private:
     /// A program of the example with a service manager of its own.
@@ -73,7 +73,7 @@ void tst_Services::aNodeThatStaysIsReadyWithoutItsMaster()
     QCOMPARE(model.program->waitForEnd(), 0);
 }
 
-void tst_Services::aPlantThatRunsIsFed()
+void tst_Services::runningPlantFeedsTheWatchdogs()
 {
     Service master("awe_master", {"--port", "0"});
     const QString address = "localhost:" + portOf(master);
@@ -89,7 +89,7 @@ void tst_Services::aPlantThatRunsIsFed()
     }
 }
 
-void tst_Services::aProgramThatStandsStillIsNotFed()
+void tst_Services::stoppedProgramDoesNotFeedTheWatchdog()
 {
     Service master("awe_master", {"--port", "0"});
     QVERIFY(master.listener.waitFor("WATCHDOG=1"));

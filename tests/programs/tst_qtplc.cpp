@@ -19,27 +19,27 @@ private Q_SLOTS:
     void badUseIsRefusedWithOneSentence_data();
     void badUseIsRefusedWithOneSentence();
     void helpShowsEveryCommand();
-    void whoIsNoMasterIsSaidSo_data();
-    void whoIsNoMasterIsSaidSo();
-    void masterThatSaysNothingTimesOut();
+    void otherServersAreReported_data();
+    void otherServersAreReported();
+    void silentMasterTimesOut();
     void masterMayRefuseTheGreeting();
 
     void init();
     void cleanup();
     void stateNamesTheNodes();
     void listShowsEverySignal();
-    void flightByHand();
+    void commandsRunACompleteFlight();
     void startEndsAfterItsCycles();
     void refusedCommandsKeepTheMasterAsItIs();
-    void setChangesWhatNobodyWrites();
+    void setChangesSignalsWithoutWriter();
     void setRefusesBadValues_data();
     void setRefusesBadValues();
     void echoBeforeTheFlightShowsPresentValuesOnce();
     void echoPrintsLinesAtItsRate();
-    void echoStartedBeforeTheFlightSeesIt();
-    void echoOfAPhaseThatEndsMeanwhileShowsWhatIsLeft();
-    void echoEndsWellOnSignal_data();
-    void echoEndsWellOnSignal();
+    void echoStartedBeforeTheFlightShowsItsCycles();
+    void echoJoiningAnEndingPhaseShowsRemainingValues();
+    void echoEndsCleanlyOnUnixSignals_data();
+    void echoEndsCleanlyOnUnixSignals();
     void echoEndsWithTheMaster_data();
     void echoEndsWithTheMaster();
     void unknownSignalNamesCloseOnes();
@@ -152,7 +152,7 @@ void tst_qtplc::helpShowsEveryCommand()
 
 // ---- what is no master ----
 
-void tst_qtplc::whoIsNoMasterIsSaidSo_data()
+void tst_qtplc::otherServersAreReported_data()
 {
     QTest::addColumn<QByteArray>("greeting");
     QTest::addColumn<QString>("message");
@@ -165,7 +165,7 @@ void tst_qtplc::whoIsNoMasterIsSaidSo_data()
     QTest::newRow("other version") << QByteArray("\x0f\x00\x00\x00", 4) + hello << QStringLiteral("protocol version 9");
 }
 
-void tst_qtplc::whoIsNoMasterIsSaidSo()
+void tst_qtplc::otherServersAreReported()
 {
     QFETCH(QByteArray, greeting);
     QFETCH(QString, message);
@@ -184,7 +184,7 @@ void tst_qtplc::whoIsNoMasterIsSaidSo()
     QCOMPARE(program.output(), QString());
 }
 
-void tst_qtplc::masterThatSaysNothingTimesOut()
+void tst_qtplc::silentMasterTimesOut()
 {
     QTcpServer server;
     QVERIFY(server.listen(QHostAddress::LocalHost));
@@ -257,7 +257,7 @@ void tst_qtplc::listShowsEverySignal()
                 .output.contains(QLatin1String("  speed of the winch, > 0 reels out\n")));
 }
 
-void tst_qtplc::flightByHand()
+void tst_qtplc::commandsRunACompleteFlight()
 {
     QVERIFY(startNodes());
     const Outcome initialized = qtplc(QStringLiteral("init"));
@@ -309,7 +309,7 @@ void tst_qtplc::refusedCommandsKeepTheMasterAsItIs()
     QVERIFY(qtplc(QStringLiteral("state")).output.startsWith(QLatin1String("state     Real time\n")));
 }
 
-void tst_qtplc::setChangesWhatNobodyWrites()
+void tst_qtplc::setChangesSignalsWithoutWriter()
 {
     const Outcome outcome
         = qtplc(QStringLiteral("set tetherSpeed -1.5 bodyControlYawSpeed 30 windVelocity_earth 5,-3,0"));
@@ -398,7 +398,7 @@ void tst_qtplc::echoPrintsLinesAtItsRate()
         QCOMPARE(qtplc(QStringLiteral("echo power %1").arg(QLatin1String(option))).exitCode, 2);
 }
 
-void tst_qtplc::echoStartedBeforeTheFlightSeesIt()
+void tst_qtplc::echoStartedBeforeTheFlightShowsItsCycles()
 {
     QVERIFY(startNodes());
     Program echo(path("qtplc"), withMaster(QStringLiteral("echo tetherLength --count 3")));
@@ -411,7 +411,7 @@ void tst_qtplc::echoStartedBeforeTheFlightSeesIt()
     QVERIFY(!echo.output().contains(QLatin1Char('\033')));
 }
 
-void tst_qtplc::echoOfAPhaseThatEndsMeanwhileShowsWhatIsLeft()
+void tst_qtplc::echoJoiningAnEndingPhaseShowsRemainingValues()
 {
     QVERIFY(startNodes());
     for (unsigned long pause = 0; pause < 8000;
@@ -426,14 +426,14 @@ void tst_qtplc::echoOfAPhaseThatEndsMeanwhileShowsWhatIsLeft()
     }
 }
 
-void tst_qtplc::echoEndsWellOnSignal_data()
+void tst_qtplc::echoEndsCleanlyOnUnixSignals_data()
 {
     QTest::addColumn<int>("signal");
     QTest::newRow("Ctrl-C") << SIGINT;
     QTest::newRow("SIGTERM") << SIGTERM;
 }
 
-void tst_qtplc::echoEndsWellOnSignal()
+void tst_qtplc::echoEndsCleanlyOnUnixSignals()
 {
     QFETCH(int, signal);
     QCOMPARE(qtplc(QStringLiteral("start")).exitCode, 0);

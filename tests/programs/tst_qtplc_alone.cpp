@@ -12,18 +12,18 @@ class tst_qtplc_alone : public QObject
 private Q_SLOTS:
     void helpOfEveryCommandHasExamplesAndFits_data();
     void helpOfEveryCommandHasExamplesAndFits();
-    void helpOfAllFits();
-    void completesCommandsAndOptions_data();
-    void completesCommandsAndOptions();
-    void completesSignalsOfTheLiveMaster_data();
-    void completesSignalsOfTheLiveMaster();
+    void generalHelpFitsTheTerminal();
+    void completionOffersCommandsAndOptions_data();
+    void completionOffersCommandsAndOptions();
+    void completionOffersSignalsOfTheRunningMaster_data();
+    void completionOffersSignalsOfTheRunningMaster();
     void completionWithoutAMasterIsSilent();
     void bashCompletes_data();
     void bashCompletes();
     void doctorExaminesThisComputer();
     void doctorEndsWithAVerdictInOneLine();
-    void findsMastersWithoutAnAddress();
-    void findingNoneIsSaid();
+    void findListsMastersWithoutAnAddress();
+    void findReportsThatThereIsNoMaster();
 
 private:
     static Outcome qtplc(const QStringList &arguments) { return runProgram(programPath("qtplc"), arguments); }
@@ -64,7 +64,7 @@ void tst_qtplc_alone::helpOfEveryCommandHasExamplesAndFits()
         QVERIFY2(option == "--help" || outcome.output.contains("\n  " + option), qPrintable(option));
 }
 
-void tst_qtplc_alone::helpOfAllFits()
+void tst_qtplc_alone::generalHelpFitsTheTerminal()
 {
     const QString text = qtplc({"help"}).output;
     QCOMPARE(qtplc({"--help"}).output, text);
@@ -74,7 +74,7 @@ void tst_qtplc_alone::helpOfAllFits()
 
 // ---- completion ----
 
-void tst_qtplc_alone::completesCommandsAndOptions_data()
+void tst_qtplc_alone::completionOffersCommandsAndOptions_data()
 {
     QTest::addColumn<QStringList>("words");
     QTest::addColumn<QStringList>("candidates");
@@ -92,13 +92,13 @@ void tst_qtplc_alone::completesCommandsAndOptions_data()
     QTest::newRow("no argument") << QStringList{"stop", ""} << QStringList();
 }
 
-void tst_qtplc_alone::completesCommandsAndOptions()
+void tst_qtplc_alone::completionOffersCommandsAndOptions()
 {
     QFETCH(QStringList, words);
     QTEST(complete(words), "candidates");
 }
 
-void tst_qtplc_alone::completesSignalsOfTheLiveMaster_data()
+void tst_qtplc_alone::completionOffersSignalsOfTheRunningMaster_data()
 {
     QTest::addColumn<QString>("words");
     QTest::addColumn<QStringList>("candidates");
@@ -111,7 +111,7 @@ void tst_qtplc_alone::completesSignalsOfTheLiveMaster_data()
     QTest::newRow("set: the next name") << "set power 1 --for 3 tether" << QStringList{"tetherSpeed"};
 }
 
-void tst_qtplc_alone::completesSignalsOfTheLiveMaster()
+void tst_qtplc_alone::completionOffersSignalsOfTheRunningMaster()
 {
     QFETCH(QString, words);
     QFETCH(QStringList, candidates);
@@ -205,7 +205,7 @@ void tst_qtplc_alone::doctorExaminesThisComputer()
 
 // ---- find ----
 
-void tst_qtplc_alone::findsMastersWithoutAnAddress()
+void tst_qtplc_alone::findListsMastersWithoutAnAddress()
 {
     const RuntimeFolder folder;
     ProcessPlant here;
@@ -230,7 +230,7 @@ void tst_qtplc_alone::findsMastersWithoutAnAddress()
     QVERIFY(!heard.output.contains(address));
 }
 
-void tst_qtplc_alone::findingNoneIsSaid()
+void tst_qtplc_alone::findReportsThatThereIsNoMaster()
 {
     const RuntimeFolder folder;
     const Outcome none = qtplc({"find", "--seconds=0.3"});

@@ -124,23 +124,23 @@ private Q_SLOTS:
     void jitterNamesCountersAndWorstCycles();
     void jitterDrawsHistograms();
     void jitterAsksForHistogramsOnlyWhenTheyAreWanted();
-    void jitterOfNothingSaysSo();
+    void jitterReportsMissingStatistics();
     void scheduleShowsStagesAndLinks();
-    void scheduleOfNothingSaysSo();
+    void scheduleReportsAnEmptySchedule();
     void leasesShowHoldersAndLostOnes();
-    void leasesOfNobodySaySo();
+    void leasesReportsThatThereAreNone();
     void eventsArePrintedInTheirOrder();
     void eventsAreAskedForUntilThereAreNoMore();
     void anEndlessListOfEventsEnds();
     void eventsAsJsonAreALineEach();
-    void jsonIsWhatTheMasterSaid_data();
-    void jsonIsWhatTheMasterSaid();
-    void olderMasterIsSaidSo_data();
-    void olderMasterIsSaidSo();
+    void jsonIsTheAnswerOfTheMaster_data();
+    void jsonIsTheAnswerOfTheMaster();
+    void olderMasterIsReported_data();
+    void olderMasterIsReported();
     void otherRefusalIsShownAsItIs();
     void answerOfAnotherKindIsRefused();
-    void nonsenseInAnswersIsHarmless_data();
-    void nonsenseInAnswersIsHarmless();
+    void malformedAnswersDoNotCrash_data();
+    void malformedAnswersDoNotCrash();
 
 private:
     QScopedPointer<AnsweringMaster> m_master;
@@ -200,7 +200,7 @@ void tst_qtplc_answers::jitterAsksForHistogramsOnlyWhenTheyAreWanted()
     QCOMPARE(m_master->requests.at(1).fields().value("histograms").toBool(), true);
 }
 
-void tst_qtplc_answers::jitterOfNothingSaysSo()
+void tst_qtplc_answers::jitterReportsMissingStatistics()
 {
     m_master->answers.insert(QPlcMessage::GetStatistics, QPlcMessage(QPlcMessage::Statistics));
     QVERIFY(m_master->qtplc("jitter").output.contains("no statistics yet"));
@@ -231,7 +231,7 @@ void tst_qtplc_answers::scheduleShowsStagesAndLinks()
                      "free    -          Model             1  -\n"));
 }
 
-void tst_qtplc_answers::scheduleOfNothingSaysSo()
+void tst_qtplc_answers::scheduleReportsAnEmptySchedule()
 {
     m_master->answers.insert(QPlcMessage::GetSchedule, QPlcMessage(QPlcMessage::Schedule));
     QCOMPARE(m_master->qtplc("schedule").output, QString("no nodes\n"));
@@ -248,7 +248,7 @@ void tst_qtplc_answers::leasesShowHoldersAndLostOnes()
                      "speed   An\\x1bna  lost           0.5\n"));
 }
 
-void tst_qtplc_answers::leasesOfNobodySaySo()
+void tst_qtplc_answers::leasesReportsThatThereAreNone()
 {
     m_master->answers.insert(QPlcMessage::GetLeases, QPlcMessage(QPlcMessage::Leases));
     QCOMPARE(m_master->qtplc("leases").output, QString("no leases\n"));
@@ -300,7 +300,7 @@ void tst_qtplc_answers::eventsAsJsonAreALineEach()
                  answer.fields().value("events").toArray().at(i).toObject());
 }
 
-void tst_qtplc_answers::jsonIsWhatTheMasterSaid_data()
+void tst_qtplc_answers::jsonIsTheAnswerOfTheMaster_data()
 {
     QTest::addColumn<QString>("command");
     QTest::addColumn<int>("request");
@@ -311,7 +311,7 @@ void tst_qtplc_answers::jsonIsWhatTheMasterSaid_data()
                               << QPlcMessage(QPlcMessage::Schedule, {{"stages", QJsonArray()}, {"later", 1}});
 }
 
-void tst_qtplc_answers::jsonIsWhatTheMasterSaid()
+void tst_qtplc_answers::jsonIsTheAnswerOfTheMaster()
 {
     QFETCH(QString, command);
     QFETCH(int, request);
@@ -322,7 +322,7 @@ void tst_qtplc_answers::jsonIsWhatTheMasterSaid()
     QCOMPARE(jsonOf(outcome.output).object(), answer.fields());
 }
 
-void tst_qtplc_answers::olderMasterIsSaidSo_data()
+void tst_qtplc_answers::olderMasterIsReported_data()
 {
     QTest::addColumn<QString>("command");
     QTest::addColumn<QString>("kind");
@@ -340,7 +340,7 @@ void tst_qtplc_answers::olderMasterIsSaidSo_data()
                                << "GetEvents";
 }
 
-void tst_qtplc_answers::olderMasterIsSaidSo()
+void tst_qtplc_answers::olderMasterIsReported()
 {
     QFETCH(QString, command);
     QFETCH(QString, kind);
@@ -367,7 +367,7 @@ void tst_qtplc_answers::answerOfAnotherKindIsRefused()
     QCOMPARE(m_master->qtplc("schedule").exitCode, 1);
 }
 
-void tst_qtplc_answers::nonsenseInAnswersIsHarmless_data()
+void tst_qtplc_answers::malformedAnswersDoNotCrash_data()
 {
     QTest::addColumn<QJsonObject>("fields");
     QTest::newRow("texts") << QJsonObject{{"master", "x"}, {"nodes", "y"},  {"worst", "z"}, {"stages", "a"},
@@ -387,7 +387,7 @@ void tst_qtplc_answers::nonsenseInAnswersIsHarmless_data()
              {"lateness", QJsonObject{{"sinceStart", QJsonObject{{"bins", QJsonArray{1, "x", QJsonArray{-1, 3}}}}}}}}}};
 }
 
-void tst_qtplc_answers::nonsenseInAnswersIsHarmless()
+void tst_qtplc_answers::malformedAnswersDoNotCrash()
 {
     QFETCH(QJsonObject, fields);
     m_master->answers.insert(QPlcMessage::GetStatistics, QPlcMessage(QPlcMessage::Statistics, fields));

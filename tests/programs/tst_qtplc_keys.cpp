@@ -13,11 +13,11 @@ private Q_SLOTS:
     void init() { m_folder.reset(new QTemporaryDir); }
     void keysAreMadeShownAndRevoked();
     void otherLinesOfTheFileStay();
-    void mistakesAreSentences_data();
-    void mistakesAreSentences();
-    void aFileForOthersIsRefused();
-    void programsFlyWithKeys();
-    void startsAreArmedUnlessSaidOtherwise();
+    void mistakesAreReportedInOneSentence_data();
+    void mistakesAreReportedInOneSentence();
+    void keysFileReadableByOthersIsRefused();
+    void programsRunWithKeys();
+    void startsNeedArmingUnlessDisabled();
     void aSecuredFlightStartsWithItsNodes();
     void optionsThatDoNotFitAreRefused_data();
     void optionsThatDoNotFitAreRefused();
@@ -79,7 +79,7 @@ void tst_qtplc_keys::otherLinesOfTheFileStay()
     QCOMPARE(content("keys.ini"), "; keys of the north plant\n" + first + "; the others\n");
 }
 
-void tst_qtplc_keys::mistakesAreSentences_data()
+void tst_qtplc_keys::mistakesAreReportedInOneSentence_data()
 {
     QTest::addColumn<QStringList>("arguments");
     QTest::addColumn<int>("exitCode");
@@ -95,7 +95,7 @@ void tst_qtplc_keys::mistakesAreSentences_data()
                                << "cannot write /nowhere/a.ini";
 }
 
-void tst_qtplc_keys::mistakesAreSentences()
+void tst_qtplc_keys::mistakesAreReportedInOneSentence()
 {
     QFETCH(QStringList, arguments);
     QFETCH(int, exitCode);
@@ -106,7 +106,7 @@ void tst_qtplc_keys::mistakesAreSentences()
     QCOMPARE(outcome.errors.count('\n'), 1);
 }
 
-void tst_qtplc_keys::aFileForOthersIsRefused()
+void tst_qtplc_keys::keysFileReadableByOthersIsRefused()
 {
     QCOMPARE(keys({"new", "a"}).exitCode, 0);
     QVERIFY(QFile::setPermissions(path("keys.ini"), QFile::ReadOwner | QFile::WriteOwner | QFile::ReadOther));
@@ -117,7 +117,7 @@ void tst_qtplc_keys::aFileForOthersIsRefused()
     }
 }
 
-void tst_qtplc_keys::programsFlyWithKeys()
+void tst_qtplc_keys::programsRunWithKeys()
 {
     for (const char *name : {"Model", "Autopilot"})
         QCOMPARE(keys({"new", name, "--copy", path(name)}).exitCode, 0);
@@ -153,7 +153,7 @@ void tst_qtplc_keys::programsFlyWithKeys()
     QVERIFY2(master.waitForErrors("unknown identity 'anna'"), qPrintable(master.errors()));
 }
 
-void tst_qtplc_keys::startsAreArmedUnlessSaidOtherwise()
+void tst_qtplc_keys::startsNeedArmingUnlessDisabled()
 {
     QCOMPARE(keys({"new", "anna", "--role", "Operator"}).exitCode, 0);
     for (const bool isArming : {true, false}) {

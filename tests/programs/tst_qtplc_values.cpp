@@ -100,31 +100,31 @@ class tst_qtplc_values : public QObject
 private Q_SLOTS:
     void init() { QVERIFY(m_plant.start()); }
     void getPrintsNameValueAndUnit();
-    void namesOfValuesAreForPeopleAndNumbersForPrograms();
+    void valueNamesAreShownExceptInPlainAndJsonOutput();
     void valuesAreSetByNameAndWrongNamesAreRefused();
-    void getForScripts();
-    void getTakesPatterns();
+    void getPrintsPlainAndJsonValues();
+    void getAcceptsPatterns();
     void unmatchedPatternIsRefused_data();
     void unmatchedPatternIsRefused();
-    void listTakesPatterns();
+    void listAcceptsPatterns();
     void jsonIsOneDocument_data();
     void jsonIsOneDocument();
     void echoAndWatchPrintAnObjectPerLine_data();
     void echoAndWatchPrintAnObjectPerLine();
-    void oneOfSoManyCyclesIsHeard();
-    void watchIsEchoWithoutATerminal();
-    void watchTakesAndGivesBackTheTerminal_data();
-    void watchTakesAndGivesBackTheTerminal();
+    void echoEveryShowsOneCyclePerInterval();
+    void watchWithoutATerminalPrintsLikeEcho();
+    void watchRestoresTheTerminal_data();
+    void watchRestoresTheTerminal();
     void watchScrolls();
-    void formerValueComesBackAfterSetFor();
-    void formerValueComesBackWhenSetForIsEnded_data();
-    void formerValueComesBackWhenSetForIsEnded();
+    void setForRestoresTheFormerValueAfterItsTime();
+    void endedSetForRestoresTheFormerValue_data();
+    void endedSetForRestoresTheFormerValue();
     void setForTellsThatTheMasterIsLost();
     void hzMeasuresTheCycle();
     void hzNeedsARunningPlant();
-    void hzToldToStopTellsWhatItHas();
-    void coloursAreForTerminalsThatWantThem_data();
-    void coloursAreForTerminalsThatWantThem();
+    void interruptedHzPrintsItsResult();
+    void coloursNeedATerminalThatSupportsThem_data();
+    void coloursNeedATerminalThatSupportsThem();
 
 private:
     QString value(const QString &signal) const
@@ -136,7 +136,7 @@ private:
 
 // ---- get, list ----
 
-void tst_qtplc_values::coloursAreForTerminalsThatWantThem_data()
+void tst_qtplc_values::coloursNeedATerminalThatSupportsThem_data()
 {
     QTest::addColumn<QByteArray>("term");
     QTest::addColumn<QByteArray>("noColor");
@@ -146,7 +146,7 @@ void tst_qtplc_values::coloursAreForTerminalsThatWantThem_data()
     QTest::newRow("a terminal without colours") << QByteArray("dumb") << QByteArray() << false;
 }
 
-void tst_qtplc_values::coloursAreForTerminalsThatWantThem()
+void tst_qtplc_values::coloursNeedATerminalThatSupportsThem()
 {
     QFETCH(QByteArray, term);
     QFETCH(QByteArray, noColor);
@@ -175,7 +175,7 @@ void tst_qtplc_values::getPrintsNameValueAndUnit()
              QString("windVelocity_earth = 5, -3, 0 m/s\ntetherSpeed = -1.5 m/s\nflightPhase = Launch  (invalid)\n"));
 }
 
-void tst_qtplc_values::namesOfValuesAreForPeopleAndNumbersForPrograms()
+void tst_qtplc_values::valueNamesAreShownExceptInPlainAndJsonOutput()
 {
     m_plant.qtplc("set flightPhase 2");
     QCOMPARE(m_plant.qtplc("get flightPhase").output, QString("flightPhase = ReelOut\n"));
@@ -202,7 +202,7 @@ void tst_qtplc_values::valuesAreSetByNameAndWrongNamesAreRefused()
              qPrintable(refused.errors));
 }
 
-void tst_qtplc_values::getForScripts()
+void tst_qtplc_values::getPrintsPlainAndJsonValues()
 {
     m_plant.qtplc("set tetherSpeed 0.1 windVelocity_earth 5,-3,0");
     QCOMPARE(m_plant.qtplc("get --plain tetherSpeed windVelocity_earth").output, QString("0.1\n5, -3, 0\n"));
@@ -210,7 +210,7 @@ void tst_qtplc_values::getForScripts()
     QCOMPARE(values, (QJsonObject{{"tetherSpeed", 0.1}, {"windVelocity_earth", QJsonArray{5, -3, 0}}}));
 }
 
-void tst_qtplc_values::getTakesPatterns()
+void tst_qtplc_values::getAcceptsPatterns()
 {
     const Outcome outcome = m_plant.qtplc("get tether* tetherLength p?wer");
     QCOMPARE(outcome.exitCode, 0);
@@ -237,7 +237,7 @@ void tst_qtplc_values::unmatchedPatternIsRefused()
     QCOMPARE(outcome.errors.count('\n'), 1);
 }
 
-void tst_qtplc_values::listTakesPatterns()
+void tst_qtplc_values::listAcceptsPatterns()
 {
     const Outcome outcome = m_plant.qtplc("list tether*");
     QCOMPARE(outcome.exitCode, 0);
@@ -302,7 +302,7 @@ void tst_qtplc_values::echoAndWatchPrintAnObjectPerLine()
     }
 }
 
-void tst_qtplc_values::oneOfSoManyCyclesIsHeard()
+void tst_qtplc_values::echoEveryShowsOneCyclePerInterval()
 {
     Program program(programPath("qtplc"), m_plant.withMaster("echo power --json --rate 1000 --every 7"));
     QVERIFY(program.waitForOutput("\n"));
@@ -321,7 +321,7 @@ void tst_qtplc_values::oneOfSoManyCyclesIsHeard()
 
 // ---- watch ----
 
-void tst_qtplc_values::watchIsEchoWithoutATerminal()
+void tst_qtplc_values::watchWithoutATerminalPrintsLikeEcho()
 {
     Program program(programPath("qtplc"), m_plant.withMaster("watch power tetherL*"));
     QVERIFY(program.waitForOutput("\n-\t"));
@@ -331,7 +331,7 @@ void tst_qtplc_values::watchIsEchoWithoutATerminal()
              qPrintable(program.output()));
 }
 
-void tst_qtplc_values::watchTakesAndGivesBackTheTerminal_data()
+void tst_qtplc_values::watchRestoresTheTerminal_data()
 {
     QTest::addColumn<QByteArray>("keys");
     QTest::addColumn<int>("signal");
@@ -343,7 +343,7 @@ void tst_qtplc_values::watchTakesAndGivesBackTheTerminal_data()
     QTest::newRow("the master crashes") << QByteArray() << -SIGKILL << 1;
 }
 
-void tst_qtplc_values::watchTakesAndGivesBackTheTerminal()
+void tst_qtplc_values::watchRestoresTheTerminal()
 {
     QFETCH(QByteArray, keys);
     QFETCH(int, signal);
@@ -383,7 +383,7 @@ void tst_qtplc_values::watchScrolls()
 
 // ---- set --for ----
 
-void tst_qtplc_values::formerValueComesBackAfterSetFor()
+void tst_qtplc_values::setForRestoresTheFormerValueAfterItsTime()
 {
     m_plant.qtplc("set tetherSpeed 1.5");
     Program set(programPath("qtplc"), m_plant.withMaster("set tetherSpeed 5 --for 1"));
@@ -394,7 +394,7 @@ void tst_qtplc_values::formerValueComesBackAfterSetFor()
     QCOMPARE(set.errors(), QString());
 }
 
-void tst_qtplc_values::formerValueComesBackWhenSetForIsEnded_data()
+void tst_qtplc_values::endedSetForRestoresTheFormerValue_data()
 {
     QTest::addColumn<int>("signal");
     QTest::addColumn<int>("exitCode");
@@ -402,7 +402,7 @@ void tst_qtplc_values::formerValueComesBackWhenSetForIsEnded_data()
     QTest::newRow("killed") << SIGKILL << -1;
 }
 
-void tst_qtplc_values::formerValueComesBackWhenSetForIsEnded()
+void tst_qtplc_values::endedSetForRestoresTheFormerValue()
 {
     QFETCH(int, signal);
     QFETCH(int, exitCode);
@@ -456,7 +456,7 @@ void tst_qtplc_values::hzNeedsARunningPlant()
     QCOMPARE(outcome.errors, QString("qtplc: the master is in state Off and has no cycles; start it: qtplc start\n"));
 }
 
-void tst_qtplc_values::hzToldToStopTellsWhatItHas()
+void tst_qtplc_values::interruptedHzPrintsItsResult()
 {
     QCOMPARE(m_plant.qtplc("start").exitCode, 0);
     Program hz(programPath("qtplc"), m_plant.withMaster("hz --for 1000"));

@@ -12,10 +12,10 @@ class tst_Beacon : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void goodOnesAreThoseOfTheVectors_data() { addRows(QStringLiteral("good")); }
-    void goodOnesAreThoseOfTheVectors();
-    void badOnesAreDropped_data() { addRows(QStringLiteral("bad")); }
-    void badOnesAreDropped();
+    void validBeaconsMatchTheVectors_data() { addRows(QStringLiteral("good")); }
+    void validBeaconsMatchTheVectors();
+    void invalidBeaconsAreDropped_data() { addRows(QStringLiteral("bad")); }
+    void invalidBeaconsAreDropped();
     void everyWrongBitIsFound();
     void everyOtherLengthIsDropped();
     void longNamesAreCutBetweenCharacters_data();
@@ -37,7 +37,7 @@ private:
     }
 };
 
-void tst_Beacon::goodOnesAreThoseOfTheVectors()
+void tst_Beacon::validBeaconsMatchTheVectors()
 {
     QFETCH(QJsonObject, row);
     const Beacon beacon{quint16(row[QStringLiteral("port")].toInt()), row[QStringLiteral("secured")].toBool(),
@@ -50,7 +50,7 @@ void tst_Beacon::goodOnesAreThoseOfTheVectors()
     QVERIFY(*read == beacon);
 }
 
-void tst_Beacon::badOnesAreDropped()
+void tst_Beacon::invalidBeaconsAreDropped()
 {
     QFETCH(QJsonObject, row);
     QVERIFY(!decode(vectors::bytes(row[QStringLiteral("hex")])));

@@ -16,19 +16,19 @@ class tst_ControlFrame : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void readsTheGoodVectors_data();
-    void readsTheGoodVectors();
+    void readerAcceptsTheValidVectors_data();
+    void readerAcceptsTheValidVectors();
     void vectorsHaveEveryKind();
-    void refusesTheBadVectors_data();
-    void refusesTheBadVectors();
+    void readerRefusesTheInvalidVectors_data();
+    void readerRefusesTheInvalidVectors();
     void streamMayBeCutAtEveryByte();
     void streamMayArriveByteByByte();
-    void beginOfAMessageIsNoError();
-    void tellsWhereAndWhatIsWrong();
-    void readsNothingBehindAnError();
-    void takesTheLongestFrameAndNoLongerOne();
-    void sendsNothingThatNoReceiverTakes();
-    void handsOutTheRestOfTheStream();
+    void incompleteMessageCausesNoError();
+    void errorsNamePositionAndReason();
+    void readerStopsAfterAnError();
+    void readerAcceptsFramesUpToTheMaximumLength();
+    void encoderRefusesMessagesThatNoReceiverAccepts();
+    void readerReturnsTheRestOfTheStream();
     void manyMessagesInOnePieceAreFast();
     void doubledNamesAreFoundWhateverIsBetween();
     void flippedBitsNeverCrash();
@@ -72,7 +72,7 @@ static QByteArray stream(const QVector<QPlcMessage> &messages)
     return bytes;
 }
 
-void tst_ControlFrame::readsTheGoodVectors_data()
+void tst_ControlFrame::readerAcceptsTheValidVectors_data()
 {
     QTest::addColumn<QJsonObject>("row");
     const QJsonArray rows = controlVectors()[QStringLiteral("good")].toArray();
@@ -81,7 +81,7 @@ void tst_ControlFrame::readsTheGoodVectors_data()
         QTest::newRow(qPrintable(row[QStringLiteral("name")].toString())) << row.toObject();
 }
 
-void tst_ControlFrame::readsTheGoodVectors()
+void tst_ControlFrame::readerAcceptsTheValidVectors()
 {
     QFETCH(QJsonObject, row);
     const QByteArray frame = vectors::bytes(row[QStringLiteral("hex")]);
@@ -109,7 +109,7 @@ void tst_ControlFrame::vectorsHaveEveryKind()
         QVERIFY2(kinds.contains(all.value(i)) || all.value(i) == QPlcMessage::Invalid, all.key(i));
 }
 
-void tst_ControlFrame::refusesTheBadVectors_data()
+void tst_ControlFrame::readerRefusesTheInvalidVectors_data()
 {
     QTest::addColumn<QByteArray>("frame");
     QTest::addColumn<ControlFrameReader::Error>("error");
@@ -127,7 +127,7 @@ void tst_ControlFrame::refusesTheBadVectors_data()
     }
 }
 
-void tst_ControlFrame::refusesTheBadVectors()
+void tst_ControlFrame::readerRefusesTheInvalidVectors()
 {
     QFETCH(QByteArray, frame);
     QFETCH(ControlFrameReader::Error, error);
@@ -166,7 +166,7 @@ void tst_ControlFrame::streamMayArriveByteByByte()
     QCOMPARE(messages, threeMessages());
 }
 
-void tst_ControlFrame::beginOfAMessageIsNoError()
+void tst_ControlFrame::incompleteMessageCausesNoError()
 {
     const QByteArray frame = encodeControlFrame(threeMessages().at(2));
     for (int size = 0; size < frame.size(); ++size) {
@@ -177,7 +177,7 @@ void tst_ControlFrame::beginOfAMessageIsNoError()
     }
 }
 
-void tst_ControlFrame::tellsWhereAndWhatIsWrong()
+void tst_ControlFrame::errorsNamePositionAndReason()
 {
     ControlFrameReader tooLong;
     tooLong.append(rawFrame(QPlcMessage::Stop, "{}") + QByteArray(4, '\xff'));
@@ -204,7 +204,7 @@ void tst_ControlFrame::tellsWhereAndWhatIsWrong()
                             "arrays and objects 20 deep; at most 16 are allowed"));
 }
 
-void tst_ControlFrame::readsNothingBehindAnError()
+void tst_ControlFrame::readerStopsAfterAnError()
 {
     ControlFrameReader reader;
     reader.append(rawFrame(QPlcMessage::Stop, "?"));
@@ -217,7 +217,7 @@ void tst_ControlFrame::readsNothingBehindAnError()
     QCOMPARE(reader.takeRest(), rawFrame(QPlcMessage::Stop, "?"));  // and nothing has been collected
 }
 
-void tst_ControlFrame::takesTheLongestFrameAndNoLongerOne()
+void tst_ControlFrame::readerAcceptsFramesUpToTheMaximumLength()
 {
     const int room = int(MaximumControlFrame) - 1 - int(qstrlen("{\"text\":\"\"}"));
     const QPlcMessage longest(QPlcMessage::NodeFault, {{QStringLiteral("text"), QString(room, QLatin1Char('x'))}});
@@ -230,7 +230,7 @@ void tst_ControlFrame::takesTheLongestFrameAndNoLongerOne()
     QCOMPARE(takeAll(reader), QVector<QPlcMessage>{longest});
 }
 
-void tst_ControlFrame::sendsNothingThatNoReceiverTakes()
+void tst_ControlFrame::encoderRefusesMessagesThatNoReceiverAccepts()
 {
     const int room = int(MaximumControlFrame) - 1 - int(qstrlen("{\"text\":\"\"}"));
     const QString text(room + 1, QLatin1Char('x'));
@@ -244,7 +244,7 @@ void tst_ControlFrame::sendsNothingThatNoReceiverTakes()
     QVERIFY(encodeControlFrame(QPlcMessage(QPlcMessage::Stop, {{QStringLiteral("a"), deepest}})).isEmpty());
 }
 
-void tst_ControlFrame::handsOutTheRestOfTheStream()
+void tst_ControlFrame::readerReturnsTheRestOfTheStream()
 {
     const QByteArray cyclic("\x11\x00\x97\xb0 begin of a cyclic frame", 29);
     const QPlcMessage attached(QPlcMessage::CyclicChannelAttached);

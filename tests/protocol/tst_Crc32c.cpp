@@ -12,14 +12,14 @@ class tst_Crc32c : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void givesTheChecksumsOfTheVectors_data();
-    void givesTheChecksumsOfTheVectors();
+    void checksumsMatchTheVectors_data();
+    void checksumsMatchTheVectors();
     void instructionAndTableAgreeAtEveryLengthAndAlignment();
     void checksumOfTwoPiecesIsThatOfTheWhole();
-    void noBytesNeedNoAddress();
+    void emptyInputMayHaveANullAddress();
 };
 
-void tst_Crc32c::givesTheChecksumsOfTheVectors_data()
+void tst_Crc32c::checksumsMatchTheVectors_data()
 {
     QTest::addColumn<QByteArray>("bytes");
     QTest::addColumn<quint32>("crc");
@@ -31,7 +31,7 @@ void tst_Crc32c::givesTheChecksumsOfTheVectors_data()
     }
 }
 
-void tst_Crc32c::givesTheChecksumsOfTheVectors()
+void tst_Crc32c::checksumsMatchTheVectors()
 {
     QFETCH(QByteArray, bytes);
     QFETCH(quint32, crc);
@@ -63,7 +63,7 @@ void tst_Crc32c::checksumOfTwoPiecesIsThatOfTheWhole()
     }
 }
 
-void tst_Crc32c::noBytesNeedNoAddress()
+void tst_Crc32c::emptyInputMayHaveANullAddress()
 {
     QCOMPARE(crc32c(0, nullptr, 0), 0u);
     QCOMPARE(crc32c(0x12345678, nullptr, 0), 0x12345678u);

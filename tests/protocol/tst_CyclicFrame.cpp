@@ -12,24 +12,24 @@ class tst_CyclicFrame : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void encodesTheVectors_data() { goodFrames(); }
-    void encodesTheVectors();
-    void decodesTheVectors_data() { goodFrames(); }
-    void decodesTheVectors();
-    void refusesTheBadVectors_data();
-    void refusesTheBadVectors();
-    void followsTheSequences_data();
-    void followsTheSequences();
+    void encoderReproducesTheVectors_data() { goodFrames(); }
+    void encoderReproducesTheVectors();
+    void decoderAcceptsTheValidVectors_data() { goodFrames(); }
+    void decoderAcceptsTheValidVectors();
+    void decoderRefusesTheInvalidVectors_data();
+    void decoderRefusesTheInvalidVectors();
+    void decoderFollowsTheRecordedSequences_data();
+    void decoderFollowsTheRecordedSequences();
     void noFlippedBitGoesUnnoticed_data() { goodFrames(); }
     void noFlippedBitGoesUnnoticed();
-    void noFrameCutShortIsTaken_data() { goodFrames(); }
-    void noFrameCutShortIsTaken();
+    void truncatedFramesAreRefused_data() { goodFrames(); }
+    void truncatedFramesAreRefused();
     void sizeOfAFrameIsReadFromItsHeader_data() { goodFrames(); }
     void sizeOfAFrameIsReadFromItsHeader();
-    void strangersHeaderHasNoSize();
+    void headerOfAnotherChannelHasNoSize();
     void defaultDecoderRefusesEverything();
-    void encoderSetsWhatIsNotTheCallersToSet();
-    void randomBytesAreNeverTaken();
+    void encoderSetsItsOwnHeaderFields();
+    void randomBytesAreNeverAccepted();
 
 private:
     static void goodFrames();
@@ -69,7 +69,7 @@ void tst_CyclicFrame::goodFrames()
     addRows(QStringLiteral("frames"));
 }
 
-void tst_CyclicFrame::encodesTheVectors()
+void tst_CyclicFrame::encoderReproducesTheVectors()
 {
     QFETCH(QJsonObject, row);
     const FrameEncoder encoder = vectors::Channel(row[QStringLiteral("channel")]).encoder();
@@ -86,7 +86,7 @@ void tst_CyclicFrame::encodesTheVectors()
     QCOMPARE(encoder.totalSize(), total);
 }
 
-void tst_CyclicFrame::decodesTheVectors()
+void tst_CyclicFrame::decoderAcceptsTheValidVectors()
 {
     QFETCH(QJsonObject, row);
     const vectors::Channel channel(row[QStringLiteral("channel")]);
@@ -107,7 +107,7 @@ void tst_CyclicFrame::decodesTheVectors()
     QCOMPARE(decoder.header().info, header.info);
 }
 
-void tst_CyclicFrame::refusesTheBadVectors_data()
+void tst_CyclicFrame::decoderRefusesTheInvalidVectors_data()
 {
     QTest::addColumn<QJsonValue>("channelOfAll");
     QTest::addColumn<QByteArray>("frame");
@@ -123,7 +123,7 @@ void tst_CyclicFrame::refusesTheBadVectors_data()
     }
 }
 
-void tst_CyclicFrame::refusesTheBadVectors()
+void tst_CyclicFrame::decoderRefusesTheInvalidVectors()
 {
     QFETCH(QJsonValue, channelOfAll);
     QFETCH(QByteArray, frame);
@@ -141,12 +141,12 @@ void tst_CyclicFrame::refusesTheBadVectors()
     QCOMPARE(channel.payload(decoder), payload);
 }
 
-void tst_CyclicFrame::followsTheSequences_data()
+void tst_CyclicFrame::decoderFollowsTheRecordedSequences_data()
 {
     addRows(QStringLiteral("sequences"));
 }
 
-void tst_CyclicFrame::followsTheSequences()
+void tst_CyclicFrame::decoderFollowsTheRecordedSequences()
 {
     QFETCH(QJsonObject, row);
     const vectors::Channel channel(row[QStringLiteral("channel")]);
@@ -179,7 +179,7 @@ void tst_CyclicFrame::noFlippedBitGoesUnnoticed()
     QCOMPARE(channel.payload(decoder), QByteArray(int(channel.borders.back()), '\0'));
 }
 
-void tst_CyclicFrame::noFrameCutShortIsTaken()
+void tst_CyclicFrame::truncatedFramesAreRefused()
 {
     QFETCH(QJsonObject, row);
     FrameDecoder decoder = vectors::Channel(row[QStringLiteral("channel")]).decoder();
@@ -204,7 +204,7 @@ void tst_CyclicFrame::sizeOfAFrameIsReadFromItsHeader()
     }
 }
 
-void tst_CyclicFrame::strangersHeaderHasNoSize()
+void tst_CyclicFrame::headerOfAnotherChannelHasNoSize()
 {
     const FrameSeed seed{0x1234, 1, 2};
     const FrameDecoder decoder(FrameKind::Inputs, seed, {0, 8, 12});
@@ -233,7 +233,7 @@ void tst_CyclicFrame::defaultDecoderRefusesEverything()
     QVERIFY(decoder.payload() == nullptr);
 }
 
-void tst_CyclicFrame::encoderSetsWhatIsNotTheCallersToSet()
+void tst_CyclicFrame::encoderSetsItsOwnHeaderFields()
 {
     const FrameSeed seed{1, 2, 3};
     const FrameEncoder encoder(FrameKind::Outputs, seed, {0, 4, 8});
@@ -252,7 +252,7 @@ void tst_CyclicFrame::encoderSetsWhatIsNotTheCallersToSet()
     QCOMPARE(decoder.header().info, 99u);
 }
 
-void tst_CyclicFrame::randomBytesAreNeverTaken()
+void tst_CyclicFrame::randomBytesAreNeverAccepted()
 {
     std::mt19937 random(4);
     const FrameSeed seed{random(), 3, random()};

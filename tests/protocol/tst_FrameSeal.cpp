@@ -17,16 +17,16 @@ class tst_FrameSeal : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void everyKeyIsAnotherOne();
-    void aKeyIsWipedWhenItGoes();
+    void everyRandomKeyIsDifferent();
+    void destructorWipesTheKey();
     void aSealedFrameShowsNothingOfItsPayload();
     void everyFlippedBitBehindTheFirstChecksCountsAsForged();
-    void noPlaceInTheOrderIsSealedTwice_data();
-    void noPlaceInTheOrderIsSealedTwice();
-    void whatIsRefusedToBeSealedIsNotWritten();
-    void aPayloadIsSealedWhereItLies();
-    void aForgedPartLeavesTheGoodOnesAlone();
-    void cyclesBeyond32BitsAreTheirOwn();
+    void noSequencePositionIsSealedTwice_data();
+    void noSequencePositionIsSealedTwice();
+    void refusedFrameLeavesTheBufferUnchanged();
+    void payloadCanBeSealedInPlace();
+    void forgedPartKeepsTheValidParts();
+    void sealedCyclesBeyond32BitsAreDistinct();
     void workNeedsNoHeap();
 };
 
@@ -58,7 +58,7 @@ static FrameHeader headerOf(std::uint64_t cycle, std::uint8_t flags = 0)
     return header;
 }
 
-void tst_FrameSeal::everyKeyIsAnotherOne()
+void tst_FrameSeal::everyRandomKeyIsDifferent()
 {
     QSet<QByteArray> seen;
     for (int i = 0; i < 100; ++i) {
@@ -68,7 +68,7 @@ void tst_FrameSeal::everyKeyIsAnotherOne()
     QCOMPARE(seen.size(), 200);
 }
 
-void tst_FrameSeal::aKeyIsWipedWhenItGoes()
+void tst_FrameSeal::destructorWipesTheKey()
 {
     alignas(SealKey) char memory[sizeof(SealKey)];
     auto *placed = new (memory) SealKey(key());
@@ -109,7 +109,7 @@ void tst_FrameSeal::everyFlippedBitBehindTheFirstChecksCountsAsForged()
     QCOMPARE(vectors::decode(decoder, good), FrameStatus::Complete);
 }
 
-void tst_FrameSeal::noPlaceInTheOrderIsSealedTwice_data()
+void tst_FrameSeal::noSequencePositionIsSealedTwice_data()
 {
     QTest::addColumn<quint64>("cycle");
     QTest::addColumn<int>("flags");
@@ -129,7 +129,7 @@ void tst_FrameSeal::noPlaceInTheOrderIsSealedTwice_data()
     QTest::newRow("the last cycle of all") << ~Q_UINT64_C(0) << 0 << 0 << true;
 }
 
-void tst_FrameSeal::noPlaceInTheOrderIsSealedTwice()
+void tst_FrameSeal::noSequencePositionIsSealedTwice()
 {
     QFETCH(quint64, cycle);
     QFETCH(int, flags);
@@ -144,7 +144,7 @@ void tst_FrameSeal::noPlaceInTheOrderIsSealedTwice()
              isSealed);
 }
 
-void tst_FrameSeal::whatIsRefusedToBeSealedIsNotWritten()
+void tst_FrameSeal::refusedFrameLeavesTheBufferUnchanged()
 {
     const FrameEncoder encoder = encoderOf({0, 8});
     QByteArray frame = vectors::encode(encoder, 0, headerOf(5), QByteArray(8, 'a'));
@@ -153,7 +153,7 @@ void tst_FrameSeal::whatIsRefusedToBeSealedIsNotWritten()
     QCOMPARE(frame, sent);
 }
 
-void tst_FrameSeal::aPayloadIsSealedWhereItLies()
+void tst_FrameSeal::payloadCanBeSealedInPlace()
 {
     QByteArray frame(int(SealedOverhead) + 8, '\0');
     frame.replace(int(CyclicHeaderSize), 8, "12345678");
@@ -161,7 +161,7 @@ void tst_FrameSeal::aPayloadIsSealedWhereItLies()
     QCOMPARE(frame, vectors::encode(encoderOf({0, 8}), 0, headerOf(1), "12345678"));
 }
 
-void tst_FrameSeal::aForgedPartLeavesTheGoodOnesAlone()
+void tst_FrameSeal::forgedPartKeepsTheValidParts()
 {
     const QByteArray payload("0123456789abcdef");
     const FrameEncoder encoder = encoderOf({0, 8, 16});
@@ -176,7 +176,7 @@ void tst_FrameSeal::aForgedPartLeavesTheGoodOnesAlone()
     QCOMPARE(QByteArray(decoder.payload(), 16), payload);
 }
 
-void tst_FrameSeal::cyclesBeyond32BitsAreTheirOwn()
+void tst_FrameSeal::sealedCyclesBeyond32BitsAreDistinct()
 {
     const std::uint64_t first = 0xFFFFFFF0;
     const FrameEncoder encoder = encoderOf({0, 4});

@@ -19,14 +19,14 @@ private Q_SLOTS:
     void cycleIsExtendedToTheNearest_data();
     void cycleIsExtendedToTheNearest();
     void cyclesRunOnBeyond32Bits();
-    void restartWelcomesCyclesFromTheFirstOn();
+    void restartAcceptsCyclesFromTheFirstCycle();
     void restartForgetsTheIncompleteCycle();
-    void nothingIsWelcomeBelowCycleZero();
-    void whatIsNotDueYetChangesNothing_data();
-    void whatIsNotDueYetChangesNothing();
+    void cyclesBelowZeroAreRejected();
+    void earlyFramesChangeNothing_data();
+    void earlyFramesChangeNothing();
     void lastPayloadStaysWholeWhilePartsArrive();
-    void resentFrameOfTheCurrentCycleIsTellable();
-    void movedDecoderGoesOn();
+    void resentFrameOfTheCurrentCycleIsRecognized();
+    void movedDecoderKeepsItsState();
     void moreThan64PartsComplete();
     void anyOrderLossAndDuplicationGivesWholeCyclesInOrder();
     void workNeedsNoHeap();
@@ -92,7 +92,7 @@ void tst_FrameSequence::cyclesRunOnBeyond32Bits()
     }
 }
 
-void tst_FrameSequence::restartWelcomesCyclesFromTheFirstOn()
+void tst_FrameSequence::restartAcceptsCyclesFromTheFirstCycle()
 {
     const std::vector<std::uint32_t> borders{0, 4};
     FrameDecoder decoder(FrameKind::Inputs, Seed, borders);
@@ -119,14 +119,14 @@ void tst_FrameSequence::restartForgetsTheIncompleteCycle()
     QCOMPARE(vectors::decode(decoder, frameOf(borders, 0, 5)), FrameStatus::Complete);
 }
 
-void tst_FrameSequence::nothingIsWelcomeBelowCycleZero()
+void tst_FrameSequence::cyclesBelowZeroAreRejected()
 {
     FrameDecoder decoder(FrameKind::Inputs, Seed, {0, 4});
     QCOMPARE(vectors::decode(decoder, frameOf({0, 4}, 0, 0xFFFFFFFF)), FrameStatus::Old);
     QCOMPARE(vectors::decode(decoder, frameOf({0, 4}, 0, 0)), FrameStatus::Complete);
 }
 
-void tst_FrameSequence::whatIsNotDueYetChangesNothing_data()
+void tst_FrameSequence::earlyFramesChangeNothing_data()
 {
     QTest::addColumn<quint64>("first");
     QTest::newRow("from the first cycle on") << Q_UINT64_C(0);
@@ -134,7 +134,7 @@ void tst_FrameSequence::whatIsNotDueYetChangesNothing_data()
     QTest::newRow("far on") << Q_UINT64_C(0x7FFFFFFFF);
 }
 
-void tst_FrameSequence::whatIsNotDueYetChangesNothing()
+void tst_FrameSequence::earlyFramesChangeNothing()
 {
     QFETCH(quint64, first);
     const std::vector<std::uint32_t> borders{0, 4, 8};
@@ -173,7 +173,7 @@ void tst_FrameSequence::lastPayloadStaysWholeWhilePartsArrive()
     QVERIFY(shows(decoder, 24, 2));
 }
 
-void tst_FrameSequence::resentFrameOfTheCurrentCycleIsTellable()
+void tst_FrameSequence::resentFrameOfTheCurrentCycleIsRecognized()
 {
     const std::vector<std::uint32_t> borders{0, 4, 8};
     FrameDecoder decoder(FrameKind::Inputs, Seed, borders);
@@ -189,7 +189,7 @@ void tst_FrameSequence::resentFrameOfTheCurrentCycleIsTellable()
     QCOMPARE(decoder.received().flags, std::uint8_t(ResentFlag | PartFlag));
 }
 
-void tst_FrameSequence::movedDecoderGoesOn()
+void tst_FrameSequence::movedDecoderKeepsItsState()
 {
     const std::vector<std::uint32_t> borders{0, 4, 8};
     FrameDecoder first(FrameKind::Inputs, Seed, borders);

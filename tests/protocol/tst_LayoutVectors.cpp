@@ -11,10 +11,10 @@ class tst_LayoutVectors : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void layoutsAreThoseOfTheVectors_data();
-    void layoutsAreThoseOfTheVectors();
-    void valuesAreThoseOfTheVectors_data();
-    void valuesAreThoseOfTheVectors();
+    void layoutsMatchTheVectors_data();
+    void layoutsMatchTheVectors();
+    void valuesMatchTheVectors_data();
+    void valuesMatchTheVectors();
 };
 
 static void addRows(const QString &list)
@@ -26,12 +26,12 @@ static void addRows(const QString &list)
         QTest::addRow("%d", i) << rows.at(i).toObject();
 }
 
-void tst_LayoutVectors::layoutsAreThoseOfTheVectors_data()
+void tst_LayoutVectors::layoutsMatchTheVectors_data()
 {
     addRows(QStringLiteral("layouts"));
 }
 
-void tst_LayoutVectors::layoutsAreThoseOfTheVectors()
+void tst_LayoutVectors::layoutsMatchTheVectors()
 {
     QFETCH(QJsonObject, row);
     const QPlcSignalTable table = QPlcSignalTable::fromIni(row[QStringLiteral("table")].toString().toUtf8());
@@ -57,12 +57,12 @@ void tst_LayoutVectors::layoutsAreThoseOfTheVectors()
     QCOMPARE(borders, row[QStringLiteral("borders")].toArray());
 }
 
-void tst_LayoutVectors::valuesAreThoseOfTheVectors_data()
+void tst_LayoutVectors::valuesMatchTheVectors_data()
 {
     addRows(QStringLiteral("values"));
 }
 
-void tst_LayoutVectors::valuesAreThoseOfTheVectors()
+void tst_LayoutVectors::valuesMatchTheVectors()
 {
     QFETCH(QJsonObject, row);
     const QPlcSignalType type = QPlcSignalType::fromName(row[QStringLiteral("type")].toString());

@@ -104,17 +104,17 @@ class tst_Messages : public QObject
     Q_OBJECT
 private Q_SLOTS:
     void everyKindHasAStruct();
-    void everyVectorComesBackAsItWas_data();
-    void everyVectorComesBackAsItWas();
+    void everyVectorIsReproducedUnchanged_data();
+    void everyVectorIsReproducedUnchanged();
     void theDocumentNamesEveryField();
     void documentListsEveryErrorWord();
-    void whatIsNeededAndCannotBeUsedIsNamed_data();
-    void whatIsNeededAndCannotBeUsedIsNamed();
-    void aStopWithABadFieldStops();
+    void invalidRequiredFieldsAreReported_data();
+    void invalidRequiredFieldsAreReported();
+    void stopWithAnInvalidFieldIsAccepted();
     void aFieldWithoutAValueIsNotSent();
     void unknownFieldsAreIgnored();
     void eachMessageGoesToItsHandler();
-    void largestWholeNumbersComeBack();
+    void largestWholeNumbersSurviveTheRoundTrip();
 };
 
 void tst_Messages::everyKindHasAStruct()
@@ -127,7 +127,7 @@ void tst_Messages::everyKindHasAStruct()
     }
 }
 
-void tst_Messages::everyVectorComesBackAsItWas_data()
+void tst_Messages::everyVectorIsReproducedUnchanged_data()
 {
     QTest::addColumn<int>("kind");
     QTest::addColumn<QJsonObject>("fields");
@@ -140,7 +140,7 @@ void tst_Messages::everyVectorComesBackAsItWas_data()
     }
 }
 
-void tst_Messages::everyVectorComesBackAsItWas()
+void tst_Messages::everyVectorIsReproducedUnchanged()
 {
     QFETCH(int, kind);
     QFETCH(QJsonObject, fields);
@@ -181,7 +181,7 @@ void tst_Messages::documentListsEveryErrorWord()
     QCOMPARE(documented, words);
 }
 
-void tst_Messages::whatIsNeededAndCannotBeUsedIsNamed_data()
+void tst_Messages::invalidRequiredFieldsAreReported_data()
 {
     QTest::addColumn<QString>("error");
     QTest::addColumn<QString>("expected");
@@ -209,14 +209,14 @@ void tst_Messages::whatIsNeededAndCannotBeUsedIsNamed_data()
                                  << "field 'seal' is missing or not of type object";
 }
 
-void tst_Messages::whatIsNeededAndCannotBeUsedIsNamed()
+void tst_Messages::invalidRequiredFieldsAreReported()
 {
     QFETCH(QString, error);
     QFETCH(QString, expected);
     QCOMPARE(error, expected);
 }
 
-void tst_Messages::aStopWithABadFieldStops()
+void tst_Messages::stopWithAnInvalidFieldIsAccepted()
 {
     Stop stop;
     QString error;
@@ -257,7 +257,7 @@ void tst_Messages::eachMessageGoesToItsHandler()
     QVERIFY(!error.isEmpty());
 }
 
-void tst_Messages::largestWholeNumbersComeBack()
+void tst_Messages::largestWholeNumbersSurviveTheRoundTrip()
 {
     EventEntry event;
     event.sequence = 9007199254740992;  // 2^53

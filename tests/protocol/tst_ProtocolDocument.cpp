@@ -13,10 +13,10 @@ class tst_ProtocolDocument : public QObject
 
 private Q_SLOTS:
     void initTestCase();
-    void listsEveryKindWithItsNumber();
-    void describesTheFieldsOfEveryExample();
-    void worksOutTheExampleOfTheVectors();
-    void worksOutTheSealedExampleOfTheVectors();
+    void documentListsEveryKindWithItsNumber();
+    void documentDescribesTheFieldsOfEveryExample();
+    void documentContainsTheExampleOfTheVectors();
+    void documentContainsTheSealedExampleOfTheVectors();
 
 private:
     QString m_text;
@@ -28,7 +28,7 @@ void tst_ProtocolDocument::initTestCase()
     QVERIFY(!m_text.isEmpty());
 }
 
-void tst_ProtocolDocument::listsEveryKindWithItsNumber()
+void tst_ProtocolDocument::documentListsEveryKindWithItsNumber()
 {
     const QMetaEnum kinds = QMetaEnum::fromType<QPlcMessage::Kind>();
     for (int i = 0; i < kinds.keyCount(); ++i) {
@@ -37,7 +37,7 @@ void tst_ProtocolDocument::listsEveryKindWithItsNumber()
     }
 }
 
-void tst_ProtocolDocument::describesTheFieldsOfEveryExample()
+void tst_ProtocolDocument::documentDescribesTheFieldsOfEveryExample()
 {
     for (const QJsonValue row :
          vectors::file(QStringLiteral("control_frames.json"))[QStringLiteral("good")].toArray()) {
@@ -48,7 +48,7 @@ void tst_ProtocolDocument::describesTheFieldsOfEveryExample()
     }
 }
 
-void tst_ProtocolDocument::worksOutTheExampleOfTheVectors()
+void tst_ProtocolDocument::documentContainsTheExampleOfTheVectors()
 {
     const QJsonObject example
         = vectors::file(QStringLiteral("cyclic_frames.json"))[QStringLiteral("frames")].toArray().at(0).toObject();
@@ -59,7 +59,7 @@ void tst_ProtocolDocument::worksOutTheExampleOfTheVectors()
         QVERIFY2(m_text.contains(hex.toString()), qPrintable(hex.toString()));
 }
 
-void tst_ProtocolDocument::worksOutTheSealedExampleOfTheVectors()
+void tst_ProtocolDocument::documentContainsTheSealedExampleOfTheVectors()
 {
     const QJsonObject example
         = vectors::file(QStringLiteral("sealed_frames.json"))[QStringLiteral("frames")].toArray().at(0).toObject();

@@ -10,18 +10,18 @@ class tst_QPlcMessage : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void isInvalidAndEmptyAtFirst();
-    void namesItsKind();
+    void defaultMessageIsInvalidAndEmpty();
+    void messageNamesItsKind();
     void numberOf64BitsSurvives_data();
     void numberOf64BitsSurvives();
     void malformedNumberIsZero_data();
     void malformedNumberIsZero();
     void bytesSurvive_data();
     void bytesSurvive();
-    void malformedBytesAreNone_data();
-    void malformedBytesAreNone();
+    void malformedBytesGiveAnEmptyArray_data();
+    void malformedBytesGiveAnEmptyArray();
     void textOfAnotherTypeIsEmpty();
-    void equalsByKindAndFields();
+    void messagesAreEqualByKindAndFields();
 };
 
 static QPlcMessage withField(const QJsonValue &value)
@@ -29,14 +29,14 @@ static QPlcMessage withField(const QJsonValue &value)
     return QPlcMessage(QPlcMessage::State, {{QStringLiteral("x"), value}});
 }
 
-void tst_QPlcMessage::isInvalidAndEmptyAtFirst()
+void tst_QPlcMessage::defaultMessageIsInvalidAndEmpty()
 {
     const QPlcMessage message;
     QCOMPARE(message.kind(), QPlcMessage::Invalid);
     QVERIFY(message.fields().isEmpty());
 }
 
-void tst_QPlcMessage::namesItsKind()
+void tst_QPlcMessage::messageNamesItsKind()
 {
     QCOMPARE(QPlcMessage(QPlcMessage::Register).kindName(), QStringLiteral("Register"));
     QCOMPARE(QPlcMessage::kindName(QPlcMessage::SendYourInitialOutputStates),
@@ -104,7 +104,7 @@ void tst_QPlcMessage::bytesSurvive()
     QCOMPARE(withField(text).bytes(QStringLiteral("x")), bytes);
 }
 
-void tst_QPlcMessage::malformedBytesAreNone_data()
+void tst_QPlcMessage::malformedBytesGiveAnEmptyArray_data()
 {
     QTest::addColumn<QJsonValue>("value");
     QTest::newRow("missing") << QJsonValue(QJsonValue::Undefined);
@@ -117,7 +117,7 @@ void tst_QPlcMessage::malformedBytesAreNone_data()
     QTest::newRow("not Latin") << QJsonValue(QStringLiteral("YWJ\u0441"));
 }
 
-void tst_QPlcMessage::malformedBytesAreNone()
+void tst_QPlcMessage::malformedBytesGiveAnEmptyArray()
 {
     QFETCH(QJsonValue, value);
     QVERIFY(withField(value).bytes(QStringLiteral("x")).isEmpty());
@@ -131,7 +131,7 @@ void tst_QPlcMessage::textOfAnotherTypeIsEmpty()
     QVERIFY(withField(1).text(QStringLiteral("y")).isEmpty());
 }
 
-void tst_QPlcMessage::equalsByKindAndFields()
+void tst_QPlcMessage::messagesAreEqualByKindAndFields()
 {
     QCOMPARE(withField(1), withField(1));
     QVERIFY(withField(1) != withField(2));

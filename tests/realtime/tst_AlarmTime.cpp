@@ -46,11 +46,11 @@ class tst_AlarmTime : public QObject
 private Q_SLOTS:
     void sleepsEndOnTheGrid();
     void theAlarmRingsAtItsTimeAndNotBefore();
-    void theAlarmOfTheSleepIsThatOfTheWaitBefore();
+    void sleepAndWaitShareTheSameAlarm();
     void aGridThatMovesIsFollowed();
     void aMissedAlarmDoesNotEndTheNextSleep();
-    void withoutAPeriodItSleepsAsWell();
-    void withoutATimerItSleepsAndHasNoAlarm();
+    void sleepWorksWithoutAPeriod();
+    void sleepWorksWithoutATimer();
 };
 
 void tst_AlarmTime::sleepsEndOnTheGrid()
@@ -80,7 +80,7 @@ void tst_AlarmTime::theAlarmRingsAtItsTimeAndNotBefore()
     QVERIFY(isReadable(alarm, 0));  // it stays so
 }
 
-void tst_AlarmTime::theAlarmOfTheSleepIsThatOfTheWaitBefore()
+void tst_AlarmTime::sleepAndWaitShareTheSameAlarm()
 {
     AlarmTime time;
     time.setPeriod(Period);
@@ -122,7 +122,7 @@ void tst_AlarmTime::aMissedAlarmDoesNotEndTheNextSleep()
     QVERIFY(time.now() >= next + Period);
 }
 
-void tst_AlarmTime::withoutAPeriodItSleepsAsWell()
+void tst_AlarmTime::sleepWorksWithoutAPeriod()
 {
     AlarmTime time;
     for (const std::int64_t pause : {Period, 2 * Period, Period}) {
@@ -132,7 +132,7 @@ void tst_AlarmTime::withoutAPeriodItSleepsAsWell()
     }
 }
 
-void tst_AlarmTime::withoutATimerItSleepsAndHasNoAlarm()
+void tst_AlarmTime::sleepWorksWithoutATimer()
 {
     const NoDescriptors exhausted;
     AlarmTime time;

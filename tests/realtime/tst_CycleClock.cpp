@@ -23,8 +23,8 @@ class tst_CycleClock : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void firstCycleIsDueAtOnce();
-    void cyclesFollowTheGridWhenAllIsWell();
+    void firstCycleIsDueImmediately();
+    void punctualCyclesFollowTheGrid();
     void lateWakeUpSkipsWholePeriods_data();
     void lateWakeUpSkipsWholePeriods();
     void seededDelaysAndInterruptionsAreCountedExactly_data();
@@ -32,16 +32,16 @@ private Q_SLOTS:
     void gridDoesNotDriftInAYear();
     void interruptedSleepIsResumed();
     void stopEndsTheWaitAndConsumesNoCycle();
-    void stopIsAskedAtLeastEach50Milliseconds();
-    void stopIsNotAskedWhenTheCycleIsDue();
+    void stopIsPolledAtLeastEvery50Milliseconds();
+    void stopIsNotPolledWhenTheCycleIsDue();
     void periodZeroNeverLooksAtTheClock();
     void negativePeriodCountsAsZero();
     void shiftMovesTheGridAndNotTheNumber();
     void startBeginsANewGrid();
-    void clockThatStandsBeforeItsStartIsNotLate();
+    void negativeClockTimeCausesNoLateness();
 };
 
-void tst_CycleClock::firstCycleIsDueAtOnce()
+void tst_CycleClock::firstCycleIsDueImmediately()
 {
     FakeTime time;
     time.time = 123'456'789;
@@ -56,7 +56,7 @@ void tst_CycleClock::firstCycleIsDueAtOnce()
     QCOMPARE(clock.nominal(0), std::int64_t(123'456'789));
 }
 
-void tst_CycleClock::cyclesFollowTheGridWhenAllIsWell()
+void tst_CycleClock::punctualCyclesFollowTheGrid()
 {
     FakeTime time;
     CycleClock clock(time, 10 * Millisecond);
@@ -211,7 +211,7 @@ void tst_CycleClock::stopEndsTheWaitAndConsumesNoCycle()
     QCOMPARE(time.time, 10 * Millisecond);
 }
 
-void tst_CycleClock::stopIsAskedAtLeastEach50Milliseconds()
+void tst_CycleClock::stopIsPolledAtLeastEvery50Milliseconds()
 {
     FakeTime time;
     CycleClock clock(time, 10 * Second);
@@ -224,7 +224,7 @@ void tst_CycleClock::stopIsAskedAtLeastEach50Milliseconds()
     QCOMPARE(time.time, 10 * Second);
 }
 
-void tst_CycleClock::stopIsNotAskedWhenTheCycleIsDue()
+void tst_CycleClock::stopIsNotPolledWhenTheCycleIsDue()
 {
     FakeTime time;
     CycleClock clock(time, Millisecond);
@@ -290,7 +290,7 @@ void tst_CycleClock::startBeginsANewGrid()
     QCOMPARE(clock.nominal(0), 5 * Second + 11);
 }
 
-void tst_CycleClock::clockThatStandsBeforeItsStartIsNotLate()
+void tst_CycleClock::negativeClockTimeCausesNoLateness()
 {
     FakeTime time;
     time.time = -5 * Second;  // nothing in the arithmetic asks for a positive clock

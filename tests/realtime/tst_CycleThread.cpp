@@ -102,7 +102,7 @@ private Q_SLOTS:
     void threadCanBeStartedAgain();
     void destructorWaitsForTheBody();
     void secondStartIsRefusedWhileItRuns();
-    void nonsenseIsRefusedBeforeAThreadIsMade();
+    void invalidOptionsAreRefusedBeforeThreadCreation();
     void missingBodyIsRefused();
     void nameIsCutAtAWholeCharacter_data();
     void nameIsCutAtAWholeCharacter();
@@ -116,7 +116,7 @@ private Q_SLOTS:
     void processorsStayAwakeWhileTheThreadRuns();
     void memoryLockIsReadBack();
     void chrtIsInherited();
-    void chrtGivesWayToTheOptions();
+    void optionsOverrideChrt();
     void fifoIsReadBack();
     void resetOnForkIsReported();
     void refusalsNameTheirRemedies();
@@ -188,7 +188,7 @@ void tst_CycleThread::secondStartIsRefusedWhileItRuns()
     QVERIFY(thread.errorString().isEmpty());
 }
 
-void tst_CycleThread::nonsenseIsRefusedBeforeAThreadIsMade()
+void tst_CycleThread::invalidOptionsAreRefusedBeforeThreadCreation()
 {
     QPlcRealTimeOptions options;
     options.policy = QPlcRealTimeOptions::Fifo;
@@ -379,7 +379,7 @@ void tst_CycleThread::chrtIsInherited()
     QVERIFY2(outcome.output.contains(QLatin1String("seen SCHED_FIFO 49\n")), qPrintable(outcome.output));
 }
 
-void tst_CycleThread::chrtGivesWayToTheOptions()
+void tst_CycleThread::optionsOverrideChrt()
 {
     const QByteArray refusal = chrtRefusal();
     if (!refusal.isEmpty())

@@ -31,8 +31,8 @@ private Q_SLOTS:
     void manyValuesFoldByThemselves();
     void noValueWaitsForLong();
     void eachValueCountsInItsOwnSecond();
-    void clearedValuesNeverCome();
-    void readersSeeWholeValuesMeanwhile();
+    void clearDiscardsPendingValues();
+    void concurrentReadersSeeConsistentValues();
 };
 
 void tst_DurationGroup::valuesAreSeenWhenTheyAreFolded()
@@ -90,7 +90,7 @@ void tst_DurationGroup::eachValueCountsInItsOwnSecond()
     QCOMPARE((*group)[First].read(tenSecondsOn, QPlcDistribution::FiguresOnly).last10s.maximum, std::int64_t(2));
 }
 
-void tst_DurationGroup::clearedValuesNeverCome()
+void tst_DurationGroup::clearDiscardsPendingValues()
 {
     const auto group = std::make_unique<Group>();
     group->record(0, {1, 1});
@@ -99,7 +99,7 @@ void tst_DurationGroup::clearedValuesNeverCome()
     QCOMPARE(countOf(*group, First), std::uint64_t(0));
 }
 
-void tst_DurationGroup::readersSeeWholeValuesMeanwhile()
+void tst_DurationGroup::concurrentReadersSeeConsistentValues()
 {
     const auto group = std::make_unique<Group>();
     std::atomic<bool> ended{false};

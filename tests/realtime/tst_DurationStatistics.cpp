@@ -79,10 +79,10 @@ class tst_DurationStatistics : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void nothingIsZero();
-    void agreesWithAnExactSortAtAnyTime_data();
-    void agreesWithAnExactSortAtAnyTime();
-    void windowEndsTenSecondsBack();
+    void emptyStatisticsAreZero();
+    void figuresAgreeWithAnExactSortAtAnyTime_data();
+    void figuresAgreeWithAnExactSortAtAnyTime();
+    void windowCoversTheLastTenSeconds();
     void pausesEmptyTheWindow();
     void hugeValuesKeepTheirMaximum();
     void valuesBeforeTheClockBeganCount();
@@ -91,7 +91,7 @@ private Q_SLOTS:
     void readerSeesWholeSecondsWhileTheWindowSlides();
 };
 
-void tst_DurationStatistics::nothingIsZero()
+void tst_DurationStatistics::emptyStatisticsAreZero()
 {
     const DurationStatistics statistics;
     const QPlcDurationStatistics figures = statistics.read(5 * Second, QPlcDistribution::WithBins);
@@ -100,7 +100,7 @@ void tst_DurationStatistics::nothingIsZero()
     QVERIFY(figures.last10s.bins.isEmpty());
 }
 
-void tst_DurationStatistics::agreesWithAnExactSortAtAnyTime_data()
+void tst_DurationStatistics::figuresAgreeWithAnExactSortAtAnyTime_data()
 {
     QTest::addColumn<qint64>("period");
     QTest::newRow("1 ms") << qint64(1'000'000);
@@ -109,7 +109,7 @@ void tst_DurationStatistics::agreesWithAnExactSortAtAnyTime_data()
     QTest::newRow("longer than the window") << qint64(11 * Second);
 }
 
-void tst_DurationStatistics::agreesWithAnExactSortAtAnyTime()
+void tst_DurationStatistics::figuresAgreeWithAnExactSortAtAnyTime()
 {
     QFETCH(qint64, period);
     std::mt19937_64 random{quint64(period)};
@@ -133,7 +133,7 @@ void tst_DurationStatistics::agreesWithAnExactSortAtAnyTime()
     }
 }
 
-void tst_DurationStatistics::windowEndsTenSecondsBack()
+void tst_DurationStatistics::windowCoversTheLastTenSeconds()
 {
     SlidingHistogram histogram;
     for (std::int64_t second = 0; second < 25; ++second)

@@ -111,13 +111,13 @@ class tst_HeapReserve : public QObject
 
 private Q_SLOTS:
     void initTestCase();
-    void withoutAReserveFreedMemoryGoesAndComesAgain();
+    void freedMemoryIsReturnedWithoutAReserve();
     void memoryThatIsNotLockedHasNoReserve();
     void lockedMemoryHasAReserve();
     void theReserveIsFreeAndInMemory();
-    void whatFitsIntoTheReserveMeetsNoNewPage();
-    void aLargeBlockMeetsNoNewPageEither();
-    void theReserveIsTakenOnce();
+    void allocationsWithinTheReserveCauseNoPageFault();
+    void largeBlockWithinTheReserveCausesNoPageFault();
+    void reserveIsAllocatedOnce();
     void aHeapThatMayNotGrowIsReported();
 };
 
@@ -127,7 +127,7 @@ void tst_HeapReserve::initTestCase()
         QSKIP("the sanitizer has its own heap, and there is no reserve", "");
 }
 
-void tst_HeapReserve::withoutAReserveFreedMemoryGoesAndComesAgain()
+void tst_HeapReserve::freedMemoryIsReturnedWithoutAReserve()
 {
     QVERIFY(spentBy(SmallBlocks).pageFaults > 20);  // or the next ones show nothing
 }
@@ -162,7 +162,7 @@ void tst_HeapReserve::theReserveIsFreeAndInMemory()
         QVERIFY((pages[i] & 1) != 0);
 }
 
-void tst_HeapReserve::whatFitsIntoTheReserveMeetsNoNewPage()
+void tst_HeapReserve::allocationsWithinTheReserveCauseNoPageFault()
 {
     const Spent spent = spentBy(SmallBlocks);
     QCOMPARE(spent.pageFaults, std::uint64_t(0));
@@ -170,7 +170,7 @@ void tst_HeapReserve::whatFitsIntoTheReserveMeetsNoNewPage()
     QCOMPARE(spent.resident, 0L);
 }
 
-void tst_HeapReserve::aLargeBlockMeetsNoNewPageEither()
+void tst_HeapReserve::largeBlockWithinTheReserveCausesNoPageFault()
 {
     const Spent spent = spentBy(LargeBlock);
     QCOMPARE(spent.pageFaults, std::uint64_t(0));
@@ -178,7 +178,7 @@ void tst_HeapReserve::aLargeBlockMeetsNoNewPageEither()
     QCOMPARE(spent.resident, 0L);
 }
 
-void tst_HeapReserve::theReserveIsTakenOnce()
+void tst_HeapReserve::reserveIsAllocatedOnce()
 {
     volatile char *const kept = static_cast<char *>(std::malloc(MiB));  // half of the reserve is in use
     *kept = 1;                                                          // or the compiler leaves it out

@@ -49,18 +49,18 @@ class tst_Histogram : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void emptyHistogramSaysZero();
-    void agreesWithAnExactSort_data();
-    void agreesWithAnExactSort();
-    void everyPowerOfTwoKeepsItsBorder();
-    void quantileTakesAnyFraction_data();
-    void quantileTakesAnyFraction();
+    void emptyHistogramReturnsZero();
+    void quantilesAgreeWithAnExactSort_data();
+    void quantilesAgreeWithAnExactSort();
+    void valuesAroundPowersOfTwoKeepTheirPrecision();
+    void quantileAcceptsAnyFraction_data();
+    void quantileAcceptsAnyFraction();
     void clearForgetsEverything();
     void sumOfHugeValuesStaysAtItsLimit();
     void readerSeesAConsistentStateWhileItIsRecorded();
 };
 
-void tst_Histogram::emptyHistogramSaysZero()
+void tst_Histogram::emptyHistogramReturnsZero()
 {
     const Histogram histogram;
     QCOMPARE(histogram.count(), std::uint64_t(0));
@@ -70,7 +70,7 @@ void tst_Histogram::emptyHistogramSaysZero()
     QCOMPARE(histogram.quantile(0.5), std::int64_t(0));
 }
 
-void tst_Histogram::agreesWithAnExactSort_data()
+void tst_Histogram::quantilesAgreeWithAnExactSort_data()
 {
     using Random = std::mt19937_64;
     QTest::addColumn<Values>("recorded");
@@ -88,7 +88,7 @@ void tst_Histogram::agreesWithAnExactSort_data()
                                          [](Random &r) { return std::int64_t(r() % 100 < 99 ? 10'000 : 28'305'000); });
 }
 
-void tst_Histogram::agreesWithAnExactSort()
+void tst_Histogram::quantilesAgreeWithAnExactSort()
 {
     QFETCH(Values, recorded);
     const auto histogram = std::make_unique<Histogram>();
@@ -113,7 +113,7 @@ void tst_Histogram::agreesWithAnExactSort()
     }
 }
 
-void tst_Histogram::everyPowerOfTwoKeepsItsBorder()
+void tst_Histogram::valuesAroundPowersOfTwoKeepTheirPrecision()
 {
     for (int exponent = 0; exponent < 63; ++exponent) {
         for (const std::int64_t offset : {-1, 0, 1}) {
@@ -127,7 +127,7 @@ void tst_Histogram::everyPowerOfTwoKeepsItsBorder()
     }
 }
 
-void tst_Histogram::quantileTakesAnyFraction_data()
+void tst_Histogram::quantileAcceptsAnyFraction_data()
 {
     QTest::addColumn<double>("q");
     QTest::addColumn<qint64>("expected");  // of 1, 2, 3, 4
@@ -142,7 +142,7 @@ void tst_Histogram::quantileTakesAnyFraction_data()
     QTest::newRow("infinite") << double(qInf()) << qint64(4);
 }
 
-void tst_Histogram::quantileTakesAnyFraction()
+void tst_Histogram::quantileAcceptsAnyFraction()
 {
     QFETCH(double, q);
     Histogram histogram;

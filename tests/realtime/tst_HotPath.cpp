@@ -64,18 +64,18 @@ class tst_HotPath : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void thousandCyclesAllocateNothingLockNothingAndMeetNoNewPage_data();
-    void thousandCyclesAllocateNothingLockNothingAndMeetNoNewPage();
+    void cyclesCauseNoAllocationNoLockAndNoPageFault_data();
+    void cyclesCauseNoAllocationNoLockAndNoPageFault();
 };
 
-void tst_HotPath::thousandCyclesAllocateNothingLockNothingAndMeetNoNewPage_data()
+void tst_HotPath::cyclesCauseNoAllocationNoLockAndNoPageFault_data()
 {
     QTest::addColumn<bool>("lockMemory");
     QTest::newRow("memory not locked: all was touched before") << false;
     QTest::newRow("memory locked") << true;  // the last one: what it leaves to the heap stays in memory
 }
 
-void tst_HotPath::thousandCyclesAllocateNothingLockNothingAndMeetNoNewPage()
+void tst_HotPath::cyclesCauseNoAllocationNoLockAndNoPageFault()
 {
     QFETCH(bool, lockMemory);
     const auto engine = std::make_unique<Engine>();

@@ -20,11 +20,11 @@ class tst_InterruptibleWaits : public QObject
 
 private Q_SLOTS:
     void aWaitEndsEachPeriod();
-    void aWaitEndsAtAnInstantAndAgainUntilAnotherOneIsSet();
-    void onlyTheThreadThatWantsItIsInterrupted();
-    void nothingComesAfterwards();
+    void waitIsInterruptedAtTheInstantAndRepeatedly();
+    void onlyTheRequestingThreadIsInterrupted();
+    void destructorEndsTheInterruptions();
     void anotherThreadEndsAWait();
-    void aHandlerOfTheProgramStays();
+    void usableSignalHandlerIsInstalled();
 
 private:
     /// Waits for input that never comes. \return errno; 0 when the time was over before
@@ -44,7 +44,7 @@ void tst_InterruptibleWaits::aWaitEndsEachPeriod()
         QCOMPARE(waitInVain(20'000), EINTR);
 }
 
-void tst_InterruptibleWaits::aWaitEndsAtAnInstantAndAgainUntilAnotherOneIsSet()
+void tst_InterruptibleWaits::waitIsInterruptedAtTheInstantAndRepeatedly()
 {
     TimeSource &clock = TimeSource::monotonic();
     InterruptibleWaits interrupt;
@@ -64,7 +64,7 @@ void tst_InterruptibleWaits::aWaitEndsAtAnInstantAndAgainUntilAnotherOneIsSet()
     QCOMPARE(waitInVain(20'000), EINTR);
 }
 
-void tst_InterruptibleWaits::onlyTheThreadThatWantsItIsInterrupted()
+void tst_InterruptibleWaits::onlyTheRequestingThreadIsInterrupted()
 {
     const InterruptibleWaits interrupt(1'000'000'000);
     int other = -1;
@@ -77,7 +77,7 @@ void tst_InterruptibleWaits::onlyTheThreadThatWantsItIsInterrupted()
     QCOMPARE(other, EINTR);
 }
 
-void tst_InterruptibleWaits::nothingComesAfterwards()
+void tst_InterruptibleWaits::destructorEndsTheInterruptions()
 {
     {
         const InterruptibleWaits interrupt(1'000'000);
@@ -102,7 +102,7 @@ void tst_InterruptibleWaits::anotherThreadEndsAWait()
     QCOMPARE(result, EINTR);
 }
 
-void tst_InterruptibleWaits::aHandlerOfTheProgramStays()
+void tst_InterruptibleWaits::usableSignalHandlerIsInstalled()
 {
     struct sigaction handler = {};
     ::sigaction(SIGURG, nullptr, &handler);

@@ -91,21 +91,21 @@ class tst_OverrunPolicies : public QObject
 private Q_SLOTS:
     void everyPolicyRunsACycleThatIsLateByLessThanAPeriod_data() { everyPolicy(); }
     void everyPolicyRunsACycleThatIsLateByLessThanAPeriod();
-    void skipToGridLeavesOutWhatIsOver();
+    void skipToGridSkipsMissedCycles();
     void catchUpRunsTheNewestMissedCyclesInARow_data();
     void catchUpRunsTheNewestMissedCyclesInARow();
     void catchUpGivesUpAfterItsLimitWhenEveryCycleIsTooLong();
     void caughtUpCycleHasAPeriodOfItsOwn();
     void shiftMovesTheGridByTheOverrun();
     void stopNamesTheCycleAndConsumesNone();
-    void lockstepKnowsNoOverrun_data() { everyPolicy(); }
-    void lockstepKnowsNoOverrun();
+    void lockstepHasNoOverruns_data() { everyPolicy(); }
+    void lockstepHasNoOverruns();
     void tenThousandInjectedDelaysAreFoundExactly_data() { everyPolicy(); }
     void tenThousandInjectedDelaysAreFoundExactly();
     void policiesReadAndWriteTheirTexts_data();
     void policiesReadAndWriteTheirTexts();
-    void textsThatCannotBeMeantAreRefused_data();
-    void textsThatCannotBeMeantAreRefused();
+    void invalidTextsAreRefused_data();
+    void invalidTextsAreRefused();
 
 private:
     static void everyPolicy();
@@ -134,7 +134,7 @@ void tst_OverrunPolicies::everyPolicyRunsACycleThatIsLateByLessThanAPeriod()
     QCOMPARE(late.clock.nominal(5), 5 * Period);
 }
 
-void tst_OverrunPolicies::skipToGridLeavesOutWhatIsOver()
+void tst_OverrunPolicies::skipToGridSkipsMissedCycles()
 {
     LateClock late(QPlcOverrunPolicy::skipToGrid(), 3 * Period + 7);
     const Tick tick = late.next();
@@ -248,7 +248,7 @@ void tst_OverrunPolicies::stopNamesTheCycleAndConsumesNone()
     }
 }
 
-void tst_OverrunPolicies::lockstepKnowsNoOverrun()
+void tst_OverrunPolicies::lockstepHasNoOverruns()
 {
     QFETCH(QPlcOverrunPolicy, policy);
     FakeTime time;
@@ -342,7 +342,7 @@ void tst_OverrunPolicies::policiesReadAndWriteTheirTexts()
     QVERIFY(policy.isValid());
 }
 
-void tst_OverrunPolicies::textsThatCannotBeMeantAreRefused_data()
+void tst_OverrunPolicies::invalidTextsAreRefused_data()
 {
     QTest::addColumn<QString>("text");
     for (const char *text : {"", "Skip", "catch-up", "catch-up:", "catch-up:0", "catch-up:-1", "catch-up:1000001",
@@ -350,7 +350,7 @@ void tst_OverrunPolicies::textsThatCannotBeMeantAreRefused_data()
         QTest::newRow(text) << QString::fromLatin1(text);
 }
 
-void tst_OverrunPolicies::textsThatCannotBeMeantAreRefused()
+void tst_OverrunPolicies::invalidTextsAreRefused()
 {
     QFETCH(QString, text);
     QString error;

@@ -26,14 +26,14 @@ class tst_QPlcRealTimeOptions : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void nonsenseIsNamedWithItsRange_data();
-    void nonsenseIsNamedWithItsRange();
+    void invalidOptionsAreReportedWithTheirRange_data();
+    void invalidOptionsAreReportedWithTheirRange();
     void settingReadsAsASentence();
     void cycleTimeIsExactAfterAYear();
     void clockTellsItsKindAndLimits();
 };
 
-void tst_QPlcRealTimeOptions::nonsenseIsNamedWithItsRange_data()
+void tst_QPlcRealTimeOptions::invalidOptionsAreReportedWithTheirRange_data()
 {
     using O = QPlcRealTimeOptions;
     QTest::addColumn<O>("wanted");
@@ -96,7 +96,7 @@ void tst_QPlcRealTimeOptions::nonsenseIsNamedWithItsRange_data()
         "timerSlack 1000000001: use 1 ... 1000000000 ns");
 }
 
-void tst_QPlcRealTimeOptions::nonsenseIsNamedWithItsRange()
+void tst_QPlcRealTimeOptions::invalidOptionsAreReportedWithTheirRange()
 {
     QFETCH(QPlcRealTimeOptions, wanted);
     QTEST(wanted.errorString(), "error");

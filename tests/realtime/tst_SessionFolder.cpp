@@ -16,10 +16,10 @@ class tst_SessionFolder : public QObject
 private Q_SLOTS:
     void init();
     void cleanup();
-    void isInTheSessionOfTheUser();
-    void isInTmpWithTheUsersNumberWithoutASession();
-    void isMadeForThisUserAlone();
-    void onesThatOthersMayWriteAreRefused();
+    void folderIsInTheSessionOfTheUser();
+    void folderIsInTmpWithTheUserIdWithoutASession();
+    void folderIsPrivateToTheUser();
+    void foldersWritableByOthersAreRefused();
     void linksAndFilesAreRefused();
     void foldersThatCannotBeMadeAreRefused();
 
@@ -43,13 +43,13 @@ void tst_SessionFolder::cleanup()
         qputenv("XDG_RUNTIME_DIR", m_before);
 }
 
-void tst_SessionFolder::isInTheSessionOfTheUser()
+void tst_SessionFolder::folderIsInTheSessionOfTheUser()
 {
     qputenv("XDG_RUNTIME_DIR", "/run/user/7");
     QCOMPARE(SessionFolder::path("x"), QByteArray("/run/user/7/x"));
 }
 
-void tst_SessionFolder::isInTmpWithTheUsersNumberWithoutASession()
+void tst_SessionFolder::folderIsInTmpWithTheUserIdWithoutASession()
 {
     const QByteArray expected = "/tmp/x-" + QByteArray::number(quint64(::getuid()));
     qunsetenv("XDG_RUNTIME_DIR");
@@ -58,7 +58,7 @@ void tst_SessionFolder::isInTmpWithTheUsersNumberWithoutASession()
     QCOMPARE(SessionFolder::path("x"), expected);
 }
 
-void tst_SessionFolder::isMadeForThisUserAlone()
+void tst_SessionFolder::folderIsPrivateToTheUser()
 {
     QVERIFY(SessionFolder::make(folder()));
     const QFile::Permissions others = QFile::ReadGroup | QFile::WriteGroup | QFile::ReadOther | QFile::WriteOther;
@@ -67,7 +67,7 @@ void tst_SessionFolder::isMadeForThisUserAlone()
     QVERIFY(SessionFolder::make(folder()));  // it is there
 }
 
-void tst_SessionFolder::onesThatOthersMayWriteAreRefused()
+void tst_SessionFolder::foldersWritableByOthersAreRefused()
 {
     QVERIFY(SessionFolder::make(folder()));
     for (const auto who : {QFile::WriteGroup, QFile::WriteOther}) {

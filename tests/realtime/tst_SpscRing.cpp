@@ -46,14 +46,14 @@ private Q_SLOTS:
     void capacityIsRoundedUpToAPowerOfTwo();
     void emptyRingGivesNothing();
     void fullRingRefusesAndOverwritesNothing();
-    void whoLeavesAReserveFindsItFullEarlier();
-    void valuesComeOutInOrderRoundAfterRound();
-    void placeIsFilledBeforeItIsCommitted();
+    void pushWithReserveIsRefusedEarlier();
+    void valuesKeepTheirOrderAfterWrapAround();
+    void valueIsVisibleOnlyAfterCommit();
     void frontStaysUntilItIsPopped();
-    void behavesLikeABoundedQueue();
+    void ringBehavesLikeABoundedQueue();
     void nothingIsLostOrTornBetweenTwoThreads_data();
     void nothingIsLostOrTornBetweenTwoThreads();
-    void refusedAndTakenAddUpWhenTheConsumerIsSlow();
+    void refusedAndConsumedValuesAddUp();
 };
 
 void tst_SpscRing::capacityIsRoundedUpToAPowerOfTwo_data()
@@ -88,7 +88,7 @@ void tst_SpscRing::emptyRingGivesNothing()
     QCOMPARE(value, 42);
 }
 
-void tst_SpscRing::whoLeavesAReserveFindsItFullEarlier()
+void tst_SpscRing::pushWithReserveIsRefusedEarlier()
 {
     SpscRing<int> ring(8);
     int pushed = 0;
@@ -123,7 +123,7 @@ void tst_SpscRing::fullRingRefusesAndOverwritesNothing()
     QVERIFY(!ring.pop(&value));
 }
 
-void tst_SpscRing::valuesComeOutInOrderRoundAfterRound()
+void tst_SpscRing::valuesKeepTheirOrderAfterWrapAround()
 {
     SpscRing<int> ring(8);
     int written = 0;
@@ -138,7 +138,7 @@ void tst_SpscRing::valuesComeOutInOrderRoundAfterRound()
     }
 }
 
-void tst_SpscRing::placeIsFilledBeforeItIsCommitted()
+void tst_SpscRing::valueIsVisibleOnlyAfterCommit()
 {
     SpscRing<Message> ring(2);
     Message *place = ring.beginPush();
@@ -164,7 +164,7 @@ void tst_SpscRing::frontStaysUntilItIsPopped()
     QVERIFY(!ring.front());
 }
 
-void tst_SpscRing::behavesLikeABoundedQueue()
+void tst_SpscRing::ringBehavesLikeABoundedQueue()
 {
     std::mt19937 random(11);
     SpscRing<std::uint32_t> ring(16);
@@ -219,7 +219,7 @@ void tst_SpscRing::nothingIsLostOrTornBetweenTwoThreads()
     QVERIFY(!ring.front());
 }
 
-void tst_SpscRing::refusedAndTakenAddUpWhenTheConsumerIsSlow()
+void tst_SpscRing::refusedAndConsumedValuesAddUp()
 {
     constexpr std::uint64_t count = 100'000;
     SpscRing<std::uint64_t> ring(8);

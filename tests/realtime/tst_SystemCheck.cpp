@@ -18,17 +18,17 @@ class tst_SystemCheck : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void fitComputerHasNothingToCure();
-    void nothingKnownIsNothingToCure();
-    void findingsNameWhatThereIs_data();
-    void findingsNameWhatThereIs();
+    void suitableComputerNeedsNoRemedy();
+    void unknownFactsNeedNoRemedy();
+    void findingsNameTheActualSetting_data();
+    void findingsNameTheActualSetting();
     void deepestEnabledIdleStateCounts();
-    void refusedSchedulingIsToCureAndNotMeasured();
-    void refusedMemoryLockIsToCure();
+    void refusedSchedulingNeedsARemedyAndIsNotMeasured();
+    void refusedMemoryLockNeedsARemedy();
     void swapMattersWhereMemoryCannotBeLocked();
-    void wakeUpsAreJudgedByTheirNinetyNinePercent_data();
-    void wakeUpsAreJudgedByTheirNinetyNinePercent();
-    void loopbackIsJudgedByWhatCameBack();
+    void wakeUpsAreJudgedByTheir99thPercentile_data();
+    void wakeUpsAreJudgedByTheir99thPercentile();
+    void loopbackIsJudgedByItsRoundTrips();
     void versionsAreNamed();
 
 private:
@@ -77,7 +77,7 @@ private:
     }
 };
 
-void tst_SystemCheck::fitComputerHasNothingToCure()
+void tst_SystemCheck::suitableComputerNeedsNoRemedy()
 {
     const SystemFacts facts = fitFacts();
     const QVector<Finding> findings
@@ -90,7 +90,7 @@ void tst_SystemCheck::fitComputerHasNothingToCure()
     }
 }
 
-void tst_SystemCheck::nothingKnownIsNothingToCure()
+void tst_SystemCheck::unknownFactsNeedNoRemedy()
 {
     for (const Finding &finding : qplc::judgeFacts(SystemFacts())) {
         QVERIFY2(finding.verdict == Finding::Unknown, qPrintable(finding.subject));
@@ -98,7 +98,7 @@ void tst_SystemCheck::nothingKnownIsNothingToCure()
     }
 }
 
-void tst_SystemCheck::findingsNameWhatThereIs_data()
+void tst_SystemCheck::findingsNameTheActualSetting_data()
 {
     QTest::addColumn<SystemFacts>("facts");
     QTest::addColumn<QString>("subject");
@@ -140,7 +140,7 @@ void tst_SystemCheck::findingsNameWhatThereIs_data()
                                 << "sudo cpupower idle-set";
 }
 
-void tst_SystemCheck::findingsNameWhatThereIs()
+void tst_SystemCheck::findingsNameTheActualSetting()
 {
     QFETCH(SystemFacts, facts);
     QFETCH(QString, subject);
@@ -161,7 +161,7 @@ void tst_SystemCheck::deepestEnabledIdleStateCounts()
     QCOMPARE(find(qplc::judgeFacts(facts), "idle states").found, QString("all disabled"));
 }
 
-void tst_SystemCheck::refusedSchedulingIsToCureAndNotMeasured()
+void tst_SystemCheck::refusedSchedulingNeedsARemedyAndIsNotMeasured()
 {
     SystemFacts facts = fitFacts();
     facts.priorityLimit = "0";
@@ -175,7 +175,7 @@ void tst_SystemCheck::refusedSchedulingIsToCureAndNotMeasured()
     QCOMPARE(find(findings, "wake-up").verdict, Finding::Ok);
 }
 
-void tst_SystemCheck::refusedMemoryLockIsToCure()
+void tst_SystemCheck::refusedMemoryLockNeedsARemedy()
 {
     SystemFacts facts = fitFacts();
     facts.memoryLimit = "8388608";
@@ -198,7 +198,7 @@ void tst_SystemCheck::swapMattersWhereMemoryCannotBeLocked()
     QCOMPARE(find(qplc::judgeEffects(facts, wakeUps(1), refused()), "swap").verdict, Finding::Unknown);
 }
 
-void tst_SystemCheck::wakeUpsAreJudgedByTheirNinetyNinePercent_data()
+void tst_SystemCheck::wakeUpsAreJudgedByTheir99thPercentile_data()
 {
     QTest::addColumn<qint64>("ordinary");
     QTest::addColumn<qint64>("realTime");
@@ -210,7 +210,7 @@ void tst_SystemCheck::wakeUpsAreJudgedByTheirNinetyNinePercent_data()
     QTest::newRow("real time is late") << qint64(50'000) << qint64(110'000) << true << false;
 }
 
-void tst_SystemCheck::wakeUpsAreJudgedByTheirNinetyNinePercent()
+void tst_SystemCheck::wakeUpsAreJudgedByTheir99thPercentile()
 {
     QFETCH(qint64, ordinary);
     QFETCH(qint64, realTime);
@@ -222,7 +222,7 @@ void tst_SystemCheck::wakeUpsAreJudgedByTheirNinetyNinePercent()
     QVERIFY(find(findings, "wake-up").found.contains("p50 1 µs"));
 }
 
-void tst_SystemCheck::loopbackIsJudgedByWhatCameBack()
+void tst_SystemCheck::loopbackIsJudgedByItsRoundTrips()
 {
     Histogram roundTrips;
     QCOMPARE(qplc::judgeLoopback(roundTrips).verdict, Finding::ToCure);

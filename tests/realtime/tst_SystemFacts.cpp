@@ -15,15 +15,15 @@ class tst_SystemFacts : public QObject
 
 private Q_SLOTS:
     void init();
-    void nothingIsKnownOfAnEmptyRoot();
+    void emptyRootGivesNoFacts();
     void preemptionIsReadFromTheVersion_data();
     void preemptionIsReadFromTheVersion();
-    void oldRealTimeKernelsHaveAFile();
-    void isolatedNothingDiffersFromUnknown();
+    void oldRealTimeKernelsAreDetectedByTheirFile();
+    void noIsolatedProcessorsDiffersFromUnknown();
     void governorsAreNamedOnce();
     void swapSpacesAddUp();
     void idleStatesTellTheirLatency();
-    void limitsAreTheSoftOnes();
+    void softLimitsAreRead();
     void clockSourcesAreListed();
     void thisMachineCanBeRead();
 
@@ -46,7 +46,7 @@ void tst_SystemFacts::init()
     QVERIFY(m_root->isValid());
 }
 
-void tst_SystemFacts::nothingIsKnownOfAnEmptyRoot()
+void tst_SystemFacts::emptyRootGivesNoFacts()
 {
     const SystemFacts facts = read();
     QVERIFY(facts.kernel.isEmpty() && facts.preemption.isEmpty() && facts.processors.isEmpty());
@@ -83,7 +83,7 @@ void tst_SystemFacts::preemptionIsReadFromTheVersion()
     QTEST(read().preemption, "preemption");
 }
 
-void tst_SystemFacts::oldRealTimeKernelsHaveAFile()
+void tst_SystemFacts::oldRealTimeKernelsAreDetectedByTheirFile()
 {
     write("proc/version", "Linux version 4.19.0-5-rt-amd64 (x@y) #1 SMP PREEMPT RT Debian 4.19.37-5\n");
     write("sys/kernel/realtime", "1\n");
@@ -92,7 +92,7 @@ void tst_SystemFacts::oldRealTimeKernelsHaveAFile()
     QCOMPARE(read().preemption, QString("PREEMPT"));
 }
 
-void tst_SystemFacts::isolatedNothingDiffersFromUnknown()
+void tst_SystemFacts::noIsolatedProcessorsDiffersFromUnknown()
 {
     write("sys/devices/system/cpu/online", "0-3\n");
     QVERIFY(!read().isolated);
@@ -139,7 +139,7 @@ void tst_SystemFacts::idleStatesTellTheirLatency()
     QVERIFY(facts.idleStates.at(0).isEnabled && !facts.idleStates.at(1).isEnabled);
 }
 
-void tst_SystemFacts::limitsAreTheSoftOnes()
+void tst_SystemFacts::softLimitsAreRead()
 {
     write("proc/self/limits",
           "Limit                     Soft Limit           Hard Limit           Units     \n"

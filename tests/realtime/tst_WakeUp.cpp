@@ -39,10 +39,10 @@ class tst_WakeUp : public QObject
 private Q_SLOTS:
     void notifyIsSilentUntilTheReaderArms();
     void oneArmingGivesOneWakeUp();
-    void consumeTakesTheWakeUpBack();
+    void consumeClearsTheWakeUp();
     void readerMayArmAgainBeforeItConsumes();
-    void lackOfDescriptorsIsTold();
-    void valueIsSeenOrWakesUpWhenBothSidesMeet();
+    void lackOfDescriptorsIsReported();
+    void concurrentValueIsSeenOrWakesTheReader();
     void noWakeUpIsLost_data();
     void noWakeUpIsLost();
 };
@@ -73,7 +73,7 @@ void tst_WakeUp::oneArmingGivesOneWakeUp()
     QVERIFY(!isReadable(wakeUp));
 }
 
-void tst_WakeUp::consumeTakesTheWakeUpBack()
+void tst_WakeUp::consumeClearsTheWakeUp()
 {
     WakeUp wakeUp;
     wakeUp.arm();
@@ -94,7 +94,7 @@ void tst_WakeUp::readerMayArmAgainBeforeItConsumes()
     QVERIFY(!wakeUp.consume());
 }
 
-void tst_WakeUp::lackOfDescriptorsIsTold()
+void tst_WakeUp::lackOfDescriptorsIsReported()
 {
     rlimit before{};
     getrlimit(RLIMIT_NOFILE, &before);
@@ -112,7 +112,7 @@ void tst_WakeUp::lackOfDescriptorsIsTold()
 
 // Each round both sides do their two steps at the same instant: the case in which a plain store or
 // load would be overtaken and the value be left lying without a wake-up.
-void tst_WakeUp::valueIsSeenOrWakesUpWhenBothSidesMeet()
+void tst_WakeUp::concurrentValueIsSeenOrWakesTheReader()
 {
     constexpr int rounds = 100'000;
     SpscRing<int> ring(4);

@@ -14,8 +14,8 @@ class tst_WakeUpProbe : public QObject
 
 private Q_SLOTS:
     void everyWakeUpIsRecorded();
-    void latenessIsThatOfTheGrid();
-    void interruptedSleepGoesOn();
+    void latenessIsMeasuredAgainstTheGrid();
+    void interruptedSleepIsResumed();
     void ordinaryThreadIsMeasured();
     void onlyGrantedSchedulingIsMeasured();
     void memoryIsUnlockedAfterwards();
@@ -42,7 +42,7 @@ void tst_WakeUpProbe::everyWakeUpIsRecorded()
     QCOMPARE(time.time, qint64(1'000'000'000));
 }
 
-void tst_WakeUpProbe::latenessIsThatOfTheGrid()
+void tst_WakeUpProbe::latenessIsMeasuredAgainstTheGrid()
 {
     FakeTime time;
     time.target = 5'000'000;
@@ -54,7 +54,7 @@ void tst_WakeUpProbe::latenessIsThatOfTheGrid()
     QCOMPARE(time.time, qint64(10'000'000));
 }
 
-void tst_WakeUpProbe::interruptedSleepGoesOn()
+void tst_WakeUpProbe::interruptedSleepIsResumed()
 {
     FakeTime time;
     time.interruptions = 3;

@@ -42,21 +42,21 @@ class tst_WorstCycles : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void nothingIsKeptOfNothing();
-    void agreesWithAFullSort_data();
-    void agreesWithAFullSort();
-    void ofEqualCostsTheFirstStay();
+    void newListOfWorstCyclesIsEmpty();
+    void worstCyclesAgreeWithAFullSort_data();
+    void worstCyclesAgreeWithAFullSort();
+    void earlierCycleIsKeptAtEqualCost();
     void clearForgetsEverything();
     void readerSeesWholeRecordsWhileTheyAreReplaced();
 };
 
-void tst_WorstCycles::nothingIsKeptOfNothing()
+void tst_WorstCycles::newListOfWorstCyclesIsEmpty()
 {
     const WorstCycles worst;
     QVERIFY(worst.read().empty());
 }
 
-void tst_WorstCycles::agreesWithAFullSort_data()
+void tst_WorstCycles::worstCyclesAgreeWithAFullSort_data()
 {
     QTest::addColumn<int>("count");
     QTest::addColumn<quint64>("range");
@@ -66,7 +66,7 @@ void tst_WorstCycles::agreesWithAFullSort_data()
     QTest::newRow("all equal") << 1000 << quint64(1);
 }
 
-void tst_WorstCycles::agreesWithAFullSort()
+void tst_WorstCycles::worstCyclesAgreeWithAFullSort()
 {
     QFETCH(int, count);
     QFETCH(quint64, range);
@@ -91,7 +91,7 @@ void tst_WorstCycles::agreesWithAFullSort()
     }
 }
 
-void tst_WorstCycles::ofEqualCostsTheFirstStay()
+void tst_WorstCycles::earlierCycleIsKeptAtEqualCost()
 {
     WorstCycles worst;
     for (std::uint64_t cycle = 0; cycle < 100; ++cycle)

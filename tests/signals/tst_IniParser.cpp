@@ -13,8 +13,8 @@ class tst_IniParser : public QObject
 
 private Q_SLOTS:
     void positionsCountFromOneInCharacters();
-    void blankLinesAndCommentsSayNothing_data();
-    void blankLinesAndCommentsSayNothing();
+    void blankLinesAndCommentsAreIgnored_data();
+    void blankLinesAndCommentsAreIgnored();
     void valueEndsAtTheComment_data();
     void valueEndsAtTheComment();
     void valueTextIsReadBack_data();
@@ -45,14 +45,14 @@ void tst_IniParser::positionsCountFromOneInCharacters()
     QCOMPARE(parser.next().kind, IniItem::End);
 }
 
-void tst_IniParser::blankLinesAndCommentsSayNothing_data()
+void tst_IniParser::blankLinesAndCommentsAreIgnored_data()
 {
     QTest::addColumn<QByteArray>("text");
     for (const char *text : {"", "\n", "\r\n", " \t ", "; [a]", "# a = b", "  ; c\n\n  # d\r\n", "\xEF\xBB\xBF", ";"})
         QTest::newRow(text) << QByteArray(text);
 }
 
-void tst_IniParser::blankLinesAndCommentsSayNothing()
+void tst_IniParser::blankLinesAndCommentsAreIgnored()
 {
     QFETCH(QByteArray, text);
     QCOMPARE(IniParser(text).next().kind, IniItem::End);

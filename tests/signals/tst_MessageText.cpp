@@ -9,12 +9,12 @@ class tst_MessageText : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void textsAreFitToBeShown_data();
-    void textsAreFitToBeShown();
-    void aLongTextIsFitToBeShownInTime();
+    void textsAreSanitizedForDisplay_data();
+    void textsAreSanitizedForDisplay();
+    void longTextIsSanitizedInLinearTime();
 };
 
-void tst_MessageText::textsAreFitToBeShown_data()
+void tst_MessageText::textsAreSanitizedForDisplay_data()
 {
     QTest::addColumn<QString>("text");
     QTest::addColumn<QString>("shown");
@@ -37,7 +37,7 @@ void tst_MessageText::textsAreFitToBeShown_data()
     row("halves in the wrong order", QString(QChar(0xDE81)) + QChar(0xD83E), QStringLiteral("??"));
 }
 
-void tst_MessageText::textsAreFitToBeShown()
+void tst_MessageText::textsAreSanitizedForDisplay()
 {
     QFETCH(QString, text);
     QFETCH(QString, shown);
@@ -45,7 +45,7 @@ void tst_MessageText::textsAreFitToBeShown()
     QCOMPARE(qplc::quoted(text), QLatin1Char('\'') + shown + QLatin1Char('\''));
 }
 
-void tst_MessageText::aLongTextIsFitToBeShownInTime()
+void tst_MessageText::longTextIsSanitizedInLinearTime()
 {
     const QString pair = QStringLiteral(u"\U000E0041");
     QCOMPARE(qplc::printable(pair.repeated(1'000'000)), QString(1'000'000, QLatin1Char('?')));

@@ -52,17 +52,17 @@ class tst_PayloadRules : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void numbersAreHeldAgainstTheirLimits_data();
-    void numbersAreHeldAgainstTheirLimits();
+    void numbersAreCheckedAgainstTheirLimits_data();
+    void numbersAreCheckedAgainstTheirLimits();
     void realsHaveToBeFinite_data();
     void realsHaveToBeFinite();
-    void whereNanIsAllowedInfinityIsNot();
-    void everyElementCounts();
+    void allowingNanDoesNotAllowInfinity();
+    void everyElementIsChecked();
     void integersTextsAndTimesMayHaveAnyBits();
     void aPayloadWithoutValuesIsAllowed();
 };
 
-void tst_PayloadRules::numbersAreHeldAgainstTheirLimits_data()
+void tst_PayloadRules::numbersAreCheckedAgainstTheirLimits_data()
 {
     QTest::addColumn<QByteArray>("type");
     QTest::addColumn<QByteArray>("limits");
@@ -104,7 +104,7 @@ void tst_PayloadRules::numbersAreHeldAgainstTheirLimits_data()
     row("Real32", "max = 1e30\n", double(std::numeric_limits<float>::max()), ValueFault::AboveMaximum);
 }
 
-void tst_PayloadRules::numbersAreHeldAgainstTheirLimits()
+void tst_PayloadRules::numbersAreCheckedAgainstTheirLimits()
 {
     QFETCH(QByteArray, type);
     QFETCH(QByteArray, limits);
@@ -147,7 +147,7 @@ void tst_PayloadRules::realsHaveToBeFinite()
     QVERIFY(!c.rules.fault(0, c.payload.data()) && !c.rules.fault(2, c.payload.data()));
 }
 
-void tst_PayloadRules::whereNanIsAllowedInfinityIsNot()
+void tst_PayloadRules::allowingNanDoesNotAllowInfinity()
 {
     for (const char *type : {"Real32", "Real64"}) {
         Case c(type, "nan = allowed\nmax = 5\n");
@@ -162,7 +162,7 @@ void tst_PayloadRules::whereNanIsAllowedInfinityIsNot()
     }
 }
 
-void tst_PayloadRules::everyElementCounts()
+void tst_PayloadRules::everyElementIsChecked()
 {
     for (int element = 0; element < 3; ++element) {
         Case c("Real32Triple", "max = 5\n");

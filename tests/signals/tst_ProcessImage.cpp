@@ -23,7 +23,7 @@ private Q_SLOTS:
     void imageBeginsWithTheInitialValues();
     void imageIsAlignedAndPacked();
     void valueOfAnotherTypeIsConvertedOrRefused();
-    void imageWithoutSignalsIsAnImage();
+    void imageWithoutSignalsIsValid();
     void neighboursAreCopiedInOneRun();
     void gatheredFrameIsScatteredBack();
     void everyBitChangesTheDigest();
@@ -152,7 +152,7 @@ void tst_ProcessImage::valueOfAnotherTypeIsConvertedOrRefused()
     QCOMPARE(image.digest(0), before);
 }
 
-void tst_ProcessImage::imageWithoutSignalsIsAnImage()
+void tst_ProcessImage::imageWithoutSignalsIsValid()
 {
     ProcessImage empty;
     empty.reset();

@@ -9,7 +9,7 @@ class tst_QPlcQuality : public QObject
 
 private Q_SLOTS:
     void everyByteIsAQuality();
-    void nothingIsKnownAtFirst();
+    void defaultQualityIsInvalid();
     void ageOfAHeldValueIsCut();
 };
 
@@ -34,7 +34,7 @@ void tst_QPlcQuality::everyByteIsAQuality()
     }
 }
 
-void tst_QPlcQuality::nothingIsKnownAtFirst()
+void tst_QPlcQuality::defaultQualityIsInvalid()
 {
     QCOMPARE(QPlcQuality().kind(), QPlcQuality::Invalid);
     for (const QPlcQuality::Kind kind : {QPlcQuality::Good, QPlcQuality::Safe, QPlcQuality::Invalid})

@@ -14,13 +14,13 @@ class tst_QPlcSignalIndexTable : public QObject
 private Q_SLOTS:
     void init();
     void tableOutlivesItsReader();
-    void wrongTableLeavesTheOldOne();
-    void readsAFile();
+    void invalidTableKeepsThePreviousOne();
+    void tableIsReadFromAFile();
     void indexBehindTheTableHasNoName();
-    void readersAndWritersMayMeet();
+    void concurrentReadersAndWritersAreSafe();
     void indexListHoldsEachSignalOnce();
     void indexListRemembersUnknownNames();
-    void lastValueOfASignalCounts();
+    void lastInsertedValueOfASignalIsKept();
     void valueOfAMissingSignalIsInvalid();
     void listsCompareByContent();
 };
@@ -39,7 +39,7 @@ void tst_QPlcSignalIndexTable::tableOutlivesItsReader()
     QCOMPARE(QPlcSignalIndexTable::type(1), QPlcSignalType(QPlcSignalType::Int32));
 }
 
-void tst_QPlcSignalIndexTable::wrongTableLeavesTheOldOne()
+void tst_QPlcSignalIndexTable::invalidTableKeepsThePreviousOne()
 {
     QPlcSignalIndexTable reader;
     QVERIFY(!reader.initializeFromIni("[x]\ntype = Rael\nunits = m\n", QStringLiteral("x.ini")));
@@ -52,7 +52,7 @@ void tst_QPlcSignalIndexTable::wrongTableLeavesTheOldOne()
     QCOMPARE(QPlcSignalIndexTable::current().size(), 1);
 }
 
-void tst_QPlcSignalIndexTable::readsAFile()
+void tst_QPlcSignalIndexTable::tableIsReadFromAFile()
 {
     const QTemporaryDir directory;
     const QString name = directory.filePath(QStringLiteral("SignalIndexTable.ini"));
@@ -76,7 +76,7 @@ void tst_QPlcSignalIndexTable::indexBehindTheTableHasNoName()
     QCOMPARE(QPlcSignalIndexTable::index(QStringLiteral("a")), QPlcInvalidSignalIndex);
 }
 
-void tst_QPlcSignalIndexTable::readersAndWritersMayMeet()
+void tst_QPlcSignalIndexTable::concurrentReadersAndWritersAreSafe()
 {
     const QPlcSignalTable small = QPlcSignalTable::fromIni("[a]\ntype = Real\n");
     const QPlcSignalTable large = QPlcSignalIndexTable::current();
@@ -117,7 +117,7 @@ void tst_QPlcSignalIndexTable::indexListRemembersUnknownNames()
     QCOMPARE(list.unknownNames(), (QStringList{QStringLiteral("x"), QStringLiteral("index 65535")}));
 }
 
-void tst_QPlcSignalIndexTable::lastValueOfASignalCounts()
+void tst_QPlcSignalIndexTable::lastInsertedValueOfASignalIsKept()
 {
     QPlcSignalList list;
     list.reserve(2);

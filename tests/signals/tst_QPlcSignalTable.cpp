@@ -11,9 +11,9 @@ class tst_QPlcSignalTable : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void readsTheTableOfTheThesis();
-    void readsEveryKey();
-    void initialIsZeroUnlessSaid();
+    void tableOfTheThesisIsRead();
+    void everyKeyIsRead();
+    void initialValueIsZeroByDefault();
     void safeValueIsSafeOrZeroOrTheLimitNearestToIt_data();
     void safeValueIsSafeOrZeroOrTheLimitNearestToIt();
     void writersAreReadInTheirOrder();
@@ -22,7 +22,7 @@ private Q_SLOTS:
     void iniIsReadBackAsAnEqualTable();
     void exampleTableHasTheSignalsOfTheThesisFirst();
     void fileThatCannotBeReadIsOneError();
-    void readsTheMostSignalsInTime();
+    void largestTableIsReadInTime();
     void oneSignalTooManyIsAnError();
     void appendCompletesTheDefinition();
     void appendRefusesWhatATableCannotHold_data();
@@ -77,7 +77,7 @@ void compareTables(const QPlcSignalTable &a, const QPlcSignalTable &b)
 
 }  // namespace
 
-void tst_QPlcSignalTable::readsTheTableOfTheThesis()
+void tst_QPlcSignalTable::tableOfTheThesisIsRead()
 {
     const QPlcSignalTable table
         = read(";NETWORK NODES\n\n[masterTime]\ntype = DateTime\n\n[masterJitter]\ntype = Real\n\n\n\n"
@@ -94,7 +94,7 @@ void tst_QPlcSignalTable::readsTheTableOfTheThesis()
     QCOMPARE(int(table.indexOf(QStringLiteral("nonsense"))), int(QPlcInvalidSignalIndex));
 }
 
-void tst_QPlcSignalTable::readsEveryKey()
+void tst_QPlcSignalTable::everyKeyIsRead()
 {
     const QPlcSignalTable table
         = read("[wind.speed_2]\nhold = 5 ; cycles\nslope = 2.5 per second\nwriter = Mast\nnan = allowed\nsafe = "
@@ -115,7 +115,7 @@ void tst_QPlcSignalTable::readsEveryKey()
     QCOMPARE(signal.slope, 2.5);
 }
 
-void tst_QPlcSignalTable::initialIsZeroUnlessSaid()
+void tst_QPlcSignalTable::initialValueIsZeroByDefault()
 {
     const QPlcSignalTable table = read("[a]\ntype = Real\n[b]\ntype = String(3)\n[c]\ntype = UInt16[40]\n");
     for (const QPlcSignalDefinition &signal : table) {
@@ -260,7 +260,7 @@ void tst_QPlcSignalTable::fileThatCannotBeReadIsOneError()
              QStringLiteral("the name of the file is empty; give the path of a signal table"));
 }
 
-void tst_QPlcSignalTable::readsTheMostSignalsInTime()
+void tst_QPlcSignalTable::largestTableIsReadInTime()
 {
     const QByteArray text = manySignals(QPlcSignalTable::MaximumSignals);
     QElapsedTimer timer;

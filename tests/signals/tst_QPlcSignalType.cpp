@@ -8,15 +8,15 @@ class tst_QPlcSignalType : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void knowsEveryTypeName_data();
-    void knowsEveryTypeName();
-    void refusesWrongNamesWithTheRemedy_data();
-    void refusesWrongNamesWithTheRemedy();
+    void everyTypeNameIsKnown_data();
+    void everyTypeNameIsKnown();
+    void wrongTypeNamesAreRefusedWithARemedy_data();
+    void wrongTypeNamesAreRefusedWithARemedy();
     void canonicalNameIsReadBack();
     void typeLargerThanTheMaximumIsInvalid();
 };
 
-void tst_QPlcSignalType::knowsEveryTypeName_data()
+void tst_QPlcSignalType::everyTypeNameIsKnown_data()
 {
     QTest::addColumn<QString>("canonical");
     QTest::addColumn<int>("count");
@@ -53,7 +53,7 @@ void tst_QPlcSignalType::knowsEveryTypeName_data()
     row("String(1438)", "String(1438)", 1, 1440);
 }
 
-void tst_QPlcSignalType::knowsEveryTypeName()
+void tst_QPlcSignalType::everyTypeNameIsKnown()
 {
     QFETCH(QString, canonical);
     QFETCH(int, count);
@@ -68,7 +68,7 @@ void tst_QPlcSignalType::knowsEveryTypeName()
     QCOMPARE(QPlcSignalType::fromName(canonical), type);
 }
 
-void tst_QPlcSignalType::refusesWrongNamesWithTheRemedy_data()
+void tst_QPlcSignalType::wrongTypeNamesAreRefusedWithARemedy_data()
 {
     QTest::addColumn<QString>("remedy");  // part of the message
 
@@ -103,7 +103,7 @@ void tst_QPlcSignalType::refusesWrongNamesWithTheRemedy_data()
     row("[3]", "unknown type ''");
 }
 
-void tst_QPlcSignalType::refusesWrongNamesWithTheRemedy()
+void tst_QPlcSignalType::wrongTypeNamesAreRefusedWithARemedy()
 {
     QFETCH(QString, remedy);
     QString error;

@@ -30,11 +30,11 @@ private Q_SLOTS:
     void textIsNeverCut();
     void malformedBytesOfATextAreInvalid();
     void numbersRoundAndSaturate();
-    void thereIsNoNumberBehindTheLastElement();
+    void elementBeyondTheLastHasNoNumber();
     void conversionKeepsTheQuantityOrFails_data();
     void conversionKeepsTheQuantityOrFails();
     void equalMeansSameTypeAndBytes();
-    void movedFromValueIsStillAValue();
+    void movedFromValueStaysUnchanged();
     void largestValueOfEachKindIsCopied();
     void variantHasTheNaturalType();
     void splitPrimitiveIsLittleEndian();
@@ -337,7 +337,7 @@ void tst_QPlcValue::numbersRoundAndSaturate()
     QVERIFY(!QPlcValue(false).toBool());
 }
 
-void tst_QPlcValue::thereIsNoNumberBehindTheLastElement()
+void tst_QPlcValue::elementBeyondTheLastHasNoNumber()
 {
     const QPlcValue triple({1.0, 2.0, 3.0});
     bool ok = true;
@@ -413,7 +413,7 @@ void tst_QPlcValue::equalMeansSameTypeAndBytes()
     QVERIFY(QPlcValue("nan").isFinite());
 }
 
-void tst_QPlcValue::movedFromValueIsStillAValue()
+void tst_QPlcValue::movedFromValueStaysUnchanged()
 {
     QPlcValue text(QStringLiteral("kite"));
     const QPlcValue moved = std::move(text);

@@ -15,7 +15,7 @@ private Q_SLOTS:
     void tableRefusesNamesThatNoValueCanHave_data();
     void tableRefusesNamesThatNoValueCanHave();
     void tableKeepsNamesWhenItIsWrittenAndRead();
-    void tableOfANewerMasterIsReadWithoutWhatIsUnknown();
+    void unknownFieldsOfANewerTableAreIgnored();
     void valuesOfASignalAreWrittenAndReadByName();
     void valuesWithoutANameAreNumbers();
 };
@@ -139,7 +139,7 @@ void tst_QPlcValueNames::tableKeepsNamesWhenItIsWrittenAndRead()
     QCOMPARE(table.hash(), QPlcSignalTable::fromIni("[a]\ntype = Bool\n").hash());
 }
 
-void tst_QPlcValueNames::tableOfANewerMasterIsReadWithoutWhatIsUnknown()
+void tst_QPlcValueNames::unknownFieldsOfANewerTableAreIgnored()
 {
     QVector<QPlcParseError> errors;
     const QPlcSignalTable table

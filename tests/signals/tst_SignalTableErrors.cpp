@@ -17,8 +17,8 @@ private Q_SLOTS:
     void oneMistakeIsOneError();
     void errorsBehindTheHundredthAreCounted();
     void longestLineIsRead();
-    void errorTextLeavesOutWhatIsNotKnown();
-    void noBytesMakeATableThatCannotBeWritten();
+    void errorTextOmitsAnUnknownPosition();
+    void everyReadableTableCanBeWritten();
 };
 
 namespace {
@@ -187,7 +187,7 @@ void tst_SignalTableErrors::longestLineIsRead()
     QVERIFY(table.toIni().endsWith(line + '\n'));
 }
 
-void tst_SignalTableErrors::errorTextLeavesOutWhatIsNotKnown()
+void tst_SignalTableErrors::errorTextOmitsAnUnknownPosition()
 {
     QPlcParseError error;
     error.message = QStringLiteral("wrong");
@@ -206,7 +206,7 @@ void tst_SignalTableErrors::errorTextLeavesOutWhatIsNotKnown()
 
 // Random pieces of tables and garbage: never a crash, and what is read can be written and read
 // again.
-void tst_SignalTableErrors::noBytesMakeATableThatCannotBeWritten()
+void tst_SignalTableErrors::everyReadableTableCanBeWritten()
 {
     const QByteArray pieces[] = {"[a]\n",
                                  "[b.c]\r\n",

@@ -11,12 +11,12 @@ class tst_IntruderGates : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void aPlantWithoutIntrudersIsNotAsked();
+    void plantWithoutIntrudersIsNotJudged();
     void attemptsThatAreRefusedAndCountedPass();
-    void anAttemptThatIsNotAsItShouldBeIsFound_data();
-    void anAttemptThatIsNotAsItShouldBeIsFound();
-    void whatWasCountedBeforeTheFirstAttemptIsOfSomebodyElse();
-    void aNodeThatDoesNotComeInAtOnceIsNoIntruder();
+    void attemptWithWrongCountersIsFound_data();
+    void attemptWithWrongCountersIsFound();
+    void countsBeforeTheFirstAttemptAreIgnored();
+    void delayedNodeIsNotCountedAsIntruder();
 };
 
 namespace {
@@ -40,7 +40,7 @@ HandMade withIntruders(quint64 ended, quint64 failedHandshakes, quint64 denials,
 
 }  // namespace
 
-void tst_IntruderGates::aPlantWithoutIntrudersIsNotAsked()
+void tst_IntruderGates::plantWithoutIntrudersIsNotJudged()
 {
     QVERIFY(!HandMade().judge(&soak::attemptsAreRefused).isAsked);
     QVERIFY(!HandMade().judge(&soak::commandsAreDenied).isAsked);
@@ -56,7 +56,7 @@ void tst_IntruderGates::attemptsThatAreRefusedAndCountedPass()
     QCOMPARE(commands.looked, qint64(7));
 }
 
-void tst_IntruderGates::anAttemptThatIsNotAsItShouldBeIsFound_data()
+void tst_IntruderGates::attemptWithWrongCountersIsFound_data()
 {
     QTest::addColumn<int>("ended");
     QTest::addColumn<int>("failedHandshakes");
@@ -69,7 +69,7 @@ void tst_IntruderGates::anAttemptThatIsNotAsItShouldBeIsFound_data()
     QTest::newRow("a denial is not counted") << 5 << 4 << 7 << 6;
 }
 
-void tst_IntruderGates::anAttemptThatIsNotAsItShouldBeIsFound()
+void tst_IntruderGates::attemptWithWrongCountersIsFound()
 {
     QFETCH(int, ended);
     QFETCH(int, failedHandshakes);
@@ -83,14 +83,14 @@ void tst_IntruderGates::anAttemptThatIsNotAsItShouldBeIsFound()
     QCOMPARE(failures, qint64(1));
 }
 
-void tst_IntruderGates::whatWasCountedBeforeTheFirstAttemptIsOfSomebodyElse()
+void tst_IntruderGates::countsBeforeTheFirstAttemptAreIgnored()
 {
     HandMade plant = withIntruders(5, 4, 7, 7);
     HandMade::add(plant.master(), Record::Refused, -1, HandMade::at(10));
     QVERIFY(plant.judge(&soak::attemptsAreRefused).passed());
 }
 
-void tst_IntruderGates::aNodeThatDoesNotComeInAtOnceIsNoIntruder()
+void tst_IntruderGates::delayedNodeIsNotCountedAsIntruder()
 {
     HandMade plant = withIntruders(5, 5, 7, 7);
     HandMade::add(plant.node(1), Record::KeptOut, 1, HandMade::at(56));

@@ -16,15 +16,15 @@ class tst_LinkGates : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void whatIsDoneAndCountedPasses_data();
-    void whatIsDoneAndCountedPasses();
-    void oneTooManyOrTooFewIsFound_data() { whatIsDoneAndCountedPasses_data(); }
-    void oneTooManyOrTooFewIsFound();
+    void countedLinkFaultsPass_data();
+    void countedLinkFaultsPass();
+    void wrongFaultCountIsFound_data() { countedLinkFaultsPass_data(); }
+    void wrongFaultCountIsFound();
     void cyclesThatTheNodeMissedMayBeAmongTheLost();
     void framesUnderWayMayBeCountedOrNot();
     void countersOfTwoPhasesAreNotJudged();
     void aNodeThatRegisteredTwiceIsNotJudged();
-    void countersOfALaterLifeAreNotThoseOfTheLifeWithTheFault();
+    void countersOfALaterLifeAreNotUsedForAnEarlierFault();
 
 private:
     static constexpr int Frames = 80;
@@ -59,7 +59,7 @@ private:
     }
 };
 
-void tst_LinkGates::whatIsDoneAndCountedPasses_data()
+void tst_LinkGates::countedLinkFaultsPass_data()
 {
     QTest::addColumn<int>("fault");
     QTest::addColumn<int>("what");
@@ -73,7 +73,7 @@ void tst_LinkGates::whatIsDoneAndCountedPasses_data()
                                << int(Record::Rejected);
 }
 
-void tst_LinkGates::whatIsDoneAndCountedPasses()
+void tst_LinkGates::countedLinkFaultsPass()
 {
     QFETCH(int, fault);
     QFETCH(int, what);
@@ -86,7 +86,7 @@ void tst_LinkGates::whatIsDoneAndCountedPasses()
     QCOMPARE(gate.looked, qint64(1));
 }
 
-void tst_LinkGates::oneTooManyOrTooFewIsFound()
+void tst_LinkGates::wrongFaultCountIsFound()
 {
     QFETCH(int, fault);
     QFETCH(int, what);
@@ -146,7 +146,7 @@ void tst_LinkGates::countersOfTwoPhasesAreNotJudged()
     QVERIFY(gate.isAsked && !gate.passed());
 }
 
-void tst_LinkGates::countersOfALaterLifeAreNotThoseOfTheLifeWithTheFault()
+void tst_LinkGates::countersOfALaterLifeAreNotUsedForAnEarlierFault()
 {
     HandMade plant = badLink(FaultKind::CorruptFrames, Record::Rejected,
                              done(FaultKind::CorruptFrames, FaultInjector::Corrupted, Frames));

@@ -17,35 +17,35 @@ private Q_SLOTS:
     void skippedCyclesThatAreNotCountedAreFound();
     void aCycleThatWasCountedAndNeverComputedIsFound();
     void aGridThatDriftsIsFound();
-    void aCycleInWhichTheMasterIsStoppedIsWrittenLate();
+    void lateCycleRecordOfAStoppedMasterIsAccepted();
     void aPhaseThatWasCutOffIsJudgedByItsGridAlone();
-    void aFaultThatIsToldInTimePasses();
-    void aFaultThatIsToldTooLateIsFound();
-    void aProcessThatEndsSlowlyIsToldInTimeAfterItsEnd();
-    void aCutIsOneOfTheLifeThatHasIt();
-    void aFaultThatNobodyIsToldOfIsFound();
-    void aFaultThatIsToldLateBecauseOfTheMachineIsExcused();
-    void aNodeThatTheMachineHadTakenBeforeIsExcused();
-    void aNodeThatIsBackInTimePasses();
-    void aNodeThatIsBackTooLateIsFound();
-    void aNodeThatNeverComesBackIsFound();
+    void faultReportedInTimePasses();
+    void faultReportedTooLateIsFound();
+    void lossReportIsTimedFromTheEndOfTheProcess();
+    void cutLinkIsJudgedInTheLifeThatIsCut();
+    void unreportedFaultIsFound();
+    void lateReportDuringAMachineStallIsExcused();
+    void nodeStalledByTheMachineBeforeIsExcused();
+    void nodeThatReturnsInTimePasses();
+    void nodeThatReturnsTooLateIsFound();
+    void nodeThatNeverReturnsIsFound();
     void aPlantThatNeverRunsAgainIsFound();
     void datagramsThatAreCountedPass();
     void aDatagramThatIsNotCountedIsFound();
     void aFaultInTheFirstMomentsOfAPhaseIsCountedToo();
-    void aRefusalThatIsNotToldIsFound();
+    void unreportedRefusalIsFound();
     void aNodeThatIsLostTwiceIsFound();
     void aDescriptorThatLeaksIsFound();
-    void aConnectionThatIsJustBeingMadeIsNoLeak();
+    void connectionBeingOpenedIsNotCountedAsLeak();
     void aThreadThatLeaksIsFound();
-    void aNewLifeIsNotComparedWithAnOldOne();
+    void memoryIsComparedWithinOneLife();
     void memoryThatGrowsIsFound();
     void memoryThatStaysPasses();
     void aLeakInsideOfTheReserveIsFound();
-    void aHeapInUseThatOnlyBreathesPasses();
+    void fluctuatingHeapPasses();
     void theHeapIsJudgedInTheWindowOfTheMemory();
-    void aMasterThatDoesNotTellItsHeapIsFound();
-    void memoryIsNotAskedForInAShortRun();
+    void missingHeapRecordIsFound();
+    void memoryIsNotJudgedInAShortRun();
 };
 
 namespace {
@@ -137,7 +137,7 @@ void tst_PlantGates::aGridThatDriftsIsFound()
     QCOMPARE(plant.judge(&soak::cyclesAddUp).failed, qint64(1));
 }
 
-void tst_PlantGates::aCycleInWhichTheMasterIsStoppedIsWrittenLate()
+void tst_PlantGates::lateCycleRecordOfAStoppedMasterIsAccepted()
 {
     for (const bool isOnPurpose : {false, true}) {
         HandMade plant;
@@ -162,7 +162,7 @@ void tst_PlantGates::aPhaseThatWasCutOffIsJudgedByItsGridAlone()
     QVERIFY2(gate.passed(), textOf(gate));
 }
 
-void tst_PlantGates::aFaultThatIsToldInTimePasses()
+void tst_PlantGates::faultReportedInTimePasses()
 {
     HandMade plant;
     plant.addFault(FaultKind::KillNode, 1, HandMade::at(50) + ms, HandMade::at(51));
@@ -172,7 +172,7 @@ void tst_PlantGates::aFaultThatIsToldInTimePasses()
     QCOMPARE(gate.figures["kill a node [cycles]"], 5.0);
 }
 
-void tst_PlantGates::aFaultThatIsToldTooLateIsFound()
+void tst_PlantGates::faultReportedTooLateIsFound()
 {
     HandMade plant;
     plant.addFault(FaultKind::KillNode, 1, HandMade::at(50) + ms, HandMade::at(51));
@@ -180,7 +180,7 @@ void tst_PlantGates::aFaultThatIsToldTooLateIsFound()
     QCOMPARE(plant.judge(&soak::faultsAreSeen).failed, qint64(1));
 }
 
-void tst_PlantGates::aProcessThatEndsSlowlyIsToldInTimeAfterItsEnd()
+void tst_PlantGates::lossReportIsTimedFromTheEndOfTheProcess()
 {
     for (const int cycle : {84, 87}) {
         HandMade plant(100);
@@ -193,7 +193,7 @@ void tst_PlantGates::aProcessThatEndsSlowlyIsToldInTimeAfterItsEnd()
     }
 }
 
-void tst_PlantGates::aCutIsOneOfTheLifeThatHasIt()
+void tst_PlantGates::cutLinkIsJudgedInTheLifeThatIsCut()
 {
     // The life before it computes once more after the fault has begun, and the next one begins 150
     // ms later.
@@ -208,7 +208,7 @@ void tst_PlantGates::aCutIsOneOfTheLifeThatHasIt()
     QVERIFY2(gate.passed(), textOf(gate));
 }
 
-void tst_PlantGates::aFaultThatNobodyIsToldOfIsFound()
+void tst_PlantGates::unreportedFaultIsFound()
 {
     HandMade plant;
     plant.addFault(FaultKind::StopNode, 1, HandMade::at(50), HandMade::at(51));
@@ -218,7 +218,7 @@ void tst_PlantGates::aFaultThatNobodyIsToldOfIsFound()
     QVERIFY2(gate.examples.first().contains("nobody was told of: stop a node (Node1)"), textOf(gate));
 }
 
-void tst_PlantGates::aFaultThatIsToldLateBecauseOfTheMachineIsExcused()
+void tst_PlantGates::lateReportDuringAMachineStallIsExcused()
 {
     HandMade plant;
     plant.addFault(FaultKind::KillNode, 1, HandMade::at(50) + ms, HandMade::at(51));
@@ -226,7 +226,7 @@ void tst_PlantGates::aFaultThatIsToldLateBecauseOfTheMachineIsExcused()
     QCOMPARE(plant.judge(&soak::faultsAreSeen).excused, qint64(1));
 }
 
-void tst_PlantGates::aNodeThatTheMachineHadTakenBeforeIsExcused()
+void tst_PlantGates::nodeStalledByTheMachineBeforeIsExcused()
 {
     HandMade plant;
     plant.addFault(FaultKind::KillNode, 1, HandMade::at(50), HandMade::at(51));
@@ -235,7 +235,7 @@ void tst_PlantGates::aNodeThatTheMachineHadTakenBeforeIsExcused()
     QCOMPARE(plant.judge(&soak::faultsAreCounted).excused, qint64(1));
 }
 
-void tst_PlantGates::aNodeThatIsBackInTimePasses()
+void tst_PlantGates::nodeThatReturnsInTimePasses()
 {
     HandMade plant = withRestart(HandMade::at(99));
     const Gate gate = plant.judge(&soak::plantRecovers);
@@ -243,13 +243,13 @@ void tst_PlantGates::aNodeThatIsBackInTimePasses()
     QCOMPARE(gate.figures["longest [ms]"], 480.0);
 }
 
-void tst_PlantGates::aNodeThatIsBackTooLateIsFound()
+void tst_PlantGates::nodeThatReturnsTooLateIsFound()
 {
     HandMade plant = withRestart(HandMade::at(51) + 2001 * ms);
     QCOMPARE(plant.judge(&soak::plantRecovers).failed, qint64(1));
 }
 
-void tst_PlantGates::aNodeThatNeverComesBackIsFound()
+void tst_PlantGates::nodeThatNeverReturnsIsFound()
 {
     HandMade plant = withRestart(0);
     QCOMPARE(plant.judge(&soak::plantRecovers).failed, qint64(1));
@@ -289,7 +289,7 @@ void tst_PlantGates::aFaultInTheFirstMomentsOfAPhaseIsCountedToo()
     }
 }
 
-void tst_PlantGates::aRefusalThatIsNotToldIsFound()
+void tst_PlantGates::unreportedRefusalIsFound()
 {
     for (const int told : {7, 8}) {
         HandMade plant;
@@ -319,7 +319,7 @@ void tst_PlantGates::aDescriptorThatLeaksIsFound()
     QCOMPARE(bad.judge(&soak::nothingLeaks).failed, qint64(1));
 }
 
-void tst_PlantGates::aConnectionThatIsJustBeingMadeIsNoLeak()
+void tst_PlantGates::connectionBeingOpenedIsNotCountedAsLeak()
 {
     HandMade plant = withUsage(40, 2);
     for (const int place : {2, 59})
@@ -333,7 +333,7 @@ void tst_PlantGates::aThreadThatLeaksIsFound()
     QCOMPARE(plant.judge(&soak::nothingLeaks).failed, qint64(1));
 }
 
-void tst_PlantGates::aNewLifeIsNotComparedWithAnOldOne()
+void tst_PlantGates::memoryIsComparedWithinOneLife()
 {
     HandMade plant = withUsage(41, 2, 0, 2);
     QVERIFY(plant.judge(&soak::nothingLeaks).passed());
@@ -388,7 +388,7 @@ void tst_PlantGates::aLeakInsideOfTheReserveIsFound()
     QVERIFY2(below.passed(), textOf(below));
 }
 
-void tst_PlantGates::aHeapInUseThatOnlyBreathesPasses()
+void tst_PlantGates::fluctuatingHeapPasses()
 {
     const Gate gate = judgeMemory(withHeap([](quint64 i) { return i % 2 * 400; }));  // nodes come and go
     QVERIFY2(gate.passed(), textOf(gate));
@@ -405,7 +405,7 @@ void tst_PlantGates::theHeapIsJudgedInTheWindowOfTheMemory()
     QCOMPARE(later.failed, qint64(1));
 }
 
-void tst_PlantGates::aMasterThatDoesNotTellItsHeapIsFound()
+void tst_PlantGates::missingHeapRecordIsFound()
 {
     HandMade plant = withUsage(40, 2);
     HandMade::remove(plant.master(), [](const Record &record) { return record.kind == Record::Heap; });
@@ -414,7 +414,7 @@ void tst_PlantGates::aMasterThatDoesNotTellItsHeapIsFound()
     QVERIFY2(gate.examples.first().contains("has not written what it has in use"), textOf(gate));
 }
 
-void tst_PlantGates::memoryIsNotAskedForInAShortRun()
+void tst_PlantGates::memoryIsNotJudgedInAShortRun()
 {
     QVERIFY(!judgeMemory(withUsage(40, 2, 120), false).isAsked);
 }

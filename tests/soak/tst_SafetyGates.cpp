@@ -12,8 +12,8 @@ class tst_SafetyGates : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void aPlantWithoutQualitiesIsNotAskedForThem();
-    void aWriterThatWasStoppedIsSilentForSomebody();
+    void plantWithoutQualitiesIsNotJudged();
+    void stoppedWriterHasToBecomeSafeForItsReaders();
     void aDriveThatGoesSafeInTimePasses();
     void aDriveThatIsHeldForTooLongIsFound();
     void aNodeThatGoesSafeInTimePasses();
@@ -25,18 +25,18 @@ private Q_SLOTS:
     void aNodeThatMovesAfterASafeStateIsFound();
     void aSafeNodeThatComputesWithASafeDriveIsFound();
     void aNodeThatComputesInASafeStopIsFound();
-    void aSafeStateThatIsNotSafeIsFound();
+    void safeStateWithUnsafeValuesIsFound();
     void aNewPhaseEndsASafeState();
     void aMasterThatStartsByItselfIsFound();
     void aRestartedMasterNeedsANewCommand();
-    void aMasterThatWaitedGoesOnByItself();
+    void waitingMasterMayResumeByItself();
     void anAlarmWithoutAFaultIsFound();
-    void theSafeStateAtTheEndOfAPhaseIsNoAlarm();
+    void safeStateAtPhaseEndCountsAsNoAlarm();
     void anAlarmOfAFaultIsExplained();
     void theLossOfAnotherNodeIsNotExplained();
     void anAlarmInAStallIsExcused();
-    void aLossThatTheNodeKnewOfFirstIsJudgedThere();
-    void aSafeStopThatTheMasterKeepsToItselfIsFound();
+    void lossIsJudgedAtTheNodeThatDetectedItFirst();
+    void unreportedSafeStopIsFound();
 };
 
 namespace {
@@ -80,13 +80,13 @@ HandMade silentWriter(int held)
 
 }  // namespace
 
-void tst_SafetyGates::aPlantWithoutQualitiesIsNotAskedForThem()
+void tst_SafetyGates::plantWithoutQualitiesIsNotJudged()
 {
     HandMade plant;
     QVERIFY(!plant.judge(&soak::silentWritersBecomeSafe).isAsked);
 }
 
-void tst_SafetyGates::aWriterThatWasStoppedIsSilentForSomebody()
+void tst_SafetyGates::stoppedWriterHasToBecomeSafeForItsReaders()
 {
     HandMade plant;
     for (quint64 cycle = 0; cycle < 100; ++cycle)
@@ -189,7 +189,7 @@ void tst_SafetyGates::aNodeThatComputesInASafeStopIsFound()
     QVERIFY2(gate.examples.first().contains("Node1-life1 computes cycle 51"), textOf(gate));
 }
 
-void tst_SafetyGates::aSafeStateThatIsNotSafeIsFound()
+void tst_SafetyGates::safeStateWithUnsafeValuesIsFound()
 {
     HandMade plant;
     HandMade::add(plant.node(1), Record::Safe, 1, plant.end(), {soak::bitsOf(0.5)});
@@ -224,7 +224,7 @@ void tst_SafetyGates::aRestartedMasterNeedsANewCommand()
     QCOMPARE(plant.judge(&soak::nothingMovesByItself).failed, qint64(1));
 }
 
-void tst_SafetyGates::aMasterThatWaitedGoesOnByItself()
+void tst_SafetyGates::waitingMasterMayResumeByItself()
 {
     HandMade plant;
     plant.setState(Record::WaitingForLateSlaves, HandMade::at(50));
@@ -244,7 +244,7 @@ void tst_SafetyGates::anAlarmWithoutAFaultIsFound()
     QCOMPARE(plant.judge(&soak::noFalseAlarms).failed, qint64(1));
 }
 
-void tst_SafetyGates::theSafeStateAtTheEndOfAPhaseIsNoAlarm()
+void tst_SafetyGates::safeStateAtPhaseEndCountsAsNoAlarm()
 {
     HandMade plant;
     HandMade::add(plant.node(1), Record::Safe, 1, HandMade::at(50), {soak::bitsOf(soak::SafeDrive), 1});
@@ -275,7 +275,7 @@ void tst_SafetyGates::anAlarmInAStallIsExcused()
     QCOMPARE(plant.judge(&soak::noFalseAlarms).excused, qint64(1));
 }
 
-void tst_SafetyGates::aLossThatTheNodeKnewOfFirstIsJudgedThere()
+void tst_SafetyGates::lossIsJudgedAtTheNodeThatDetectedItFirst()
 {
     for (const quint64 isWanted : {0, 1}) {
         HandMade plant;
@@ -287,7 +287,7 @@ void tst_SafetyGates::aLossThatTheNodeKnewOfFirstIsJudgedThere()
     }
 }
 
-void tst_SafetyGates::aSafeStopThatTheMasterKeepsToItselfIsFound()
+void tst_SafetyGates::unreportedSafeStopIsFound()
 {
     QVERIFY(!HandMade().judge(&soak::safeStopsAreTold).isAsked);
     for (const bool isTold : {false, true}) {

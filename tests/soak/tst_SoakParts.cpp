@@ -18,15 +18,15 @@ private Q_SLOTS:
     void aRecordThatWasChangedIsRefused();
     void aHistoryIsNeverWrittenOver();
     void theTableHasAllGroups();
-    void theCheckOfAGroupKnowsEveryValue();
-    void theCheckOfNothingIsThatOfPortsThatNobodyHasSet();
+    void groupChecksumCoversEveryValue();
+    void emptyChecksumMatchesUnsetPorts();
     void theSameSeedGivesTheSamePlan();
     void anotherSeedGivesAnotherOrderOfTheSameFaults();
     void everyKindOfFaultIsInTheShortPlan();
     void stallsThatOverlapCountOnce();
-    void aFaultThatNeverEndsIsKnownAsSuch();
+    void endlessFaultExplainsAllLaterAlarms();
     void aReportNamesSeedAndCommandOfAFailure();
-    void aMachineThatStandsStillIsNoMeasureOfTimeButOfValues();
+    void stalledMachineExcusesTimeGatesOnly();
 };
 
 namespace {
@@ -143,7 +143,7 @@ void tst_SoakParts::theTableHasAllGroups()
     QCOMPARE(table.at(table.indexOf("n2.drive")).safe.toReal(), soak::SafeDrive);
 }
 
-void tst_SoakParts::theCheckOfAGroupKnowsEveryValue()
+void tst_SoakParts::groupChecksumCoversEveryValue()
 {
     GroupNode node({3, 12, 3});
     soak::write(node.written, 4, 7);
@@ -176,7 +176,7 @@ void tst_SoakParts::theCheckOfAGroupKnowsEveryValue()
     QVERIFY(node.written.check != check);
 }
 
-void tst_SoakParts::theCheckOfNothingIsThatOfPortsThatNobodyHasSet()
+void tst_SoakParts::emptyChecksumMatchesUnsetPorts()
 {
     const soak::PlantShape shape{3, 12, 3};
     GroupNode node(shape);
@@ -232,7 +232,7 @@ void tst_SoakParts::stallsThatOverlapCountOnce()
     QCOMPARE(stalls.within(31, 49), qint64(0));
 }
 
-void tst_SoakParts::aFaultThatNeverEndsIsKnownAsSuch()
+void tst_SoakParts::endlessFaultExplainsAllLaterAlarms()
 {
     soak::Evidence evidence;
     HandMade::add(evidence.runner, Record::FaultBegins, 2, 10, {quint64(soak::FaultKind::StopNode), 300});
@@ -265,7 +265,7 @@ void tst_SoakParts::aReportNamesSeedAndCommandOfAFailure()
     QVERIFY2(!report.passed(), "nothing was judged");
 }
 
-void tst_SoakParts::aMachineThatStandsStillIsNoMeasureOfTimeButOfValues()
+void tst_SoakParts::stalledMachineExcusesTimeGatesOnly()
 {
     using soak::SoakReport;
     soak::Gate values("values are whole"), time("cycles add up");

@@ -15,19 +15,19 @@ class tst_ValueGates : public QObject
 private Q_SLOTS:
     void aGoodHistoryPasses();
     void aMixedValueIsFound();
-    void aGroupThatNobodyHasWrittenIsWhole();
-    void aValueThatNobodyWroteIsFound();
-    void aValueOfALifeThatNeverWasIsFound();
+    void unwrittenGroupCountsAsConsistent();
+    void valueWithoutAWriterIsFound();
+    void valueOfANonexistentLifeIsFound();
     void anOlderValueAfterANewerOneIsFound();
     void aValueOfAnEarlierLifeAfterALaterOneIsFound();
-    void nothingAfterSomethingIsFound();
-    void aWriterThatWentSafeIsNoOlderValue();
-    void nothingAtTheBeginOfAPhaseIsNoOlderValue();
-    void aHeldValueIsNoOlderValue();
+    void emptyValueAfterAWrittenOneIsFound();
+    void safeValueIsNotAnOlderValue();
+    void emptyValueAtPhaseStartIsAccepted();
+    void heldValueIsAccepted();
     void aStepThatComesTwiceIsFound();
-    void missedCyclesThatAreNotToldAreFound();
-    void missedCyclesThatAreToldAreGood();
-    void aGateThatLookedAtNothingHasNotPassed();
+    void unreportedMissedCyclesAreFound();
+    void reportedMissedCyclesPass();
+    void gateWithoutEvidenceDoesNotPass();
 };
 
 void tst_ValueGates::aGoodHistoryPasses()
@@ -50,7 +50,7 @@ void tst_ValueGates::aMixedValueIsFound()
     QVERIFY2(gate.examples.first().contains("Node1-life1, cycle 50"), textOf(gate));
 }
 
-void tst_ValueGates::aGroupThatNobodyHasWrittenIsWhole()
+void tst_ValueGates::unwrittenGroupCountsAsConsistent()
 {
     HandMade plant;
     for (const auto &[cycle, drive] : {std::pair(quint64(10), 0.0), {11, soak::SafeDrive}, {12, 0.5}}) {
@@ -63,7 +63,7 @@ void tst_ValueGates::aGroupThatNobodyHasWrittenIsWhole()
     QVERIFY2(gate.examples.first().contains("cycle 12"), textOf(gate));
 }
 
-void tst_ValueGates::aValueThatNobodyWroteIsFound()
+void tst_ValueGates::valueWithoutAWriterIsFound()
 {
     HandMade plant;
     Record &step = plant.step(1, 50);
@@ -73,7 +73,7 @@ void tst_ValueGates::aValueThatNobodyWroteIsFound()
     QCOMPARE(plant.judge(&soak::valuesWereWritten).failed, qint64(1));
 }
 
-void tst_ValueGates::aValueOfALifeThatNeverWasIsFound()
+void tst_ValueGates::valueOfANonexistentLifeIsFound()
 {
     HandMade plant;
     plant.step(1, 99).numbers[Record::SeenLife] = 2;
@@ -96,14 +96,14 @@ void tst_ValueGates::aValueOfAnEarlierLifeAfterALaterOneIsFound()
     QCOMPARE(plant.judge(&soak::valuesNeverGoBack).failed, qint64(49));  // all of life 1 that follow
 }
 
-void tst_ValueGates::nothingAfterSomethingIsFound()
+void tst_ValueGates::emptyValueAfterAWrittenOneIsFound()
 {
     HandMade plant;
     plant.step(1, 50).numbers[Record::SeenLife] = 0;
     QCOMPARE(plant.judge(&soak::valuesNeverGoBack).failed, qint64(1));
 }
 
-void tst_ValueGates::aWriterThatWentSafeIsNoOlderValue()
+void tst_ValueGates::safeValueIsNotAnOlderValue()
 {
     HandMade plant;
     plant.step(1, 50).numbers[Record::SeenLife] = 0;
@@ -111,14 +111,14 @@ void tst_ValueGates::aWriterThatWentSafeIsNoOlderValue()
     QVERIFY(plant.judge(&soak::valuesNeverGoBack).passed());
 }
 
-void tst_ValueGates::nothingAtTheBeginOfAPhaseIsNoOlderValue()
+void tst_ValueGates::emptyValueAtPhaseStartIsAccepted()
 {
     HandMade plant;
     plant.step(1, 0).numbers[Record::SeenLife] = plant.step(1, 0).numbers[Record::SeenCounter] = 0;
     QVERIFY(plant.judge(&soak::valuesNeverGoBack).passed());
 }
 
-void tst_ValueGates::aHeldValueIsNoOlderValue()
+void tst_ValueGates::heldValueIsAccepted()
 {
     HandMade plant;
     plant.step(1, 50).numbers[Record::SeenCounter] -= 1;
@@ -132,14 +132,14 @@ void tst_ValueGates::aStepThatComesTwiceIsFound()
     QCOMPARE(plant.judge(&soak::stepsComeOnce).failed, qint64(1));
 }
 
-void tst_ValueGates::missedCyclesThatAreNotToldAreFound()
+void tst_ValueGates::unreportedMissedCyclesAreFound()
 {
     HandMade plant;
     HandMade::removeCycles(plant.node(1), 50, 51);
     QCOMPARE(plant.judge(&soak::stepsComeOnce).failed, qint64(1));
 }
 
-void tst_ValueGates::missedCyclesThatAreToldAreGood()
+void tst_ValueGates::reportedMissedCyclesPass()
 {
     HandMade plant;
     HandMade::removeCycles(plant.node(1), 50, 51);
@@ -149,7 +149,7 @@ void tst_ValueGates::missedCyclesThatAreToldAreGood()
     QCOMPARE(gate.figures["missed"], 2.0);
 }
 
-void tst_ValueGates::aGateThatLookedAtNothingHasNotPassed()
+void tst_ValueGates::gateWithoutEvidenceDoesNotPass()
 {
     HandMade plant(0);
     QVERIFY(!plant.judge(&soak::valuesAreWhole).passed());

@@ -14,9 +14,9 @@ class tst_BackOff : public QObject
 
 private Q_SLOTS:
     void pausesGrowFromATenthToFiveSeconds();
-    void patienceGrowsFromTwoToSixteenSeconds();
-    void chanceMovesAPauseByAFifth();
-    void successBeginsAtTheShortestAgain();
+    void timeoutGrowsFromTwoToSixteenSeconds();
+    void pausesVaryRandomlyByTwentyPercent();
+    void successResetsThePause();
     void aRefusalWaitsLongest();
     void aTokenIsValidForFiveSecondsOnly();
     void onlyTheNewestTokenCounts();
@@ -31,7 +31,7 @@ void tst_BackOff::pausesGrowFromATenthToFiveSeconds()
     QCOMPARE(found, (QVector<qint64>{100, 200, 400, 800, 1600, 3200, 5000, 5000, 5000}));
 }
 
-void tst_BackOff::patienceGrowsFromTwoToSixteenSeconds()
+void tst_BackOff::timeoutGrowsFromTwoToSixteenSeconds()
 {
     BackOff pauses;
     QCOMPARE(pauses.patience(), std::chrono::milliseconds(2s));  // of the attempt that somebody wants now
@@ -45,7 +45,7 @@ void tst_BackOff::patienceGrowsFromTwoToSixteenSeconds()
     QCOMPARE(pauses.patience(), std::chrono::milliseconds(2s));
 }
 
-void tst_BackOff::chanceMovesAPauseByAFifth()
+void tst_BackOff::pausesVaryRandomlyByTwentyPercent()
 {
     BackOff shortest;
     BackOff longest;
@@ -57,7 +57,7 @@ void tst_BackOff::chanceMovesAPauseByAFifth()
     QCOMPARE(longest.next(1.0), 6000ms);
 }
 
-void tst_BackOff::successBeginsAtTheShortestAgain()
+void tst_BackOff::successResetsThePause()
 {
     BackOff pauses;
     for (int i = 0; i < 10; ++i)

@@ -14,9 +14,9 @@ class tst_MasterStates : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void everyPairIsAsItShouldBe_data();
-    void everyPairIsAsItShouldBe();
-    void whatIsRefusedSaysWhyAndChangesNothing();
+    void everyTransitionMatchesTheTable_data();
+    void everyTransitionMatchesTheTable();
+    void refusedEventGivesAReasonAndKeepsTheState();
     void motionBeginsOnlyByAStart();
     void safeStopIsLeftByAResetOnly();
     void stoppingIsNeverRefused();
@@ -34,7 +34,7 @@ private:
     }
 };
 
-void tst_MasterStates::everyPairIsAsItShouldBe_data()
+void tst_MasterStates::everyTransitionMatchesTheTable_data()
 {
     // The next state by its first letters; '.' stays, '-' ignored, 'x' refused.
     QTest::addColumn<int>("event");
@@ -70,7 +70,7 @@ void tst_MasterStates::everyPairIsAsItShouldBe_data()
     row(E::OverrunStop, "- - - Of Of - -");
 }
 
-void tst_MasterStates::everyPairIsAsItShouldBe()
+void tst_MasterStates::everyTransitionMatchesTheTable()
 {
     static const QStringList letters{"Of", "In", "Re", "RT", "Wa", "Sa", "Fa"};
     QFETCH(int, event);
@@ -86,7 +86,7 @@ void tst_MasterStates::everyPairIsAsItShouldBe()
     QCOMPARE(found.join(' '), outcomes);
 }
 
-void tst_MasterStates::whatIsRefusedSaysWhyAndChangesNothing()
+void tst_MasterStates::refusedEventGivesAReasonAndKeepsTheState()
 {
     forAll([](S state, E event, const MasterStateTable::Cell &cell) {
         const QByteArray where = QByteArray(nameOf(state)) + " x " + nameOf(event);

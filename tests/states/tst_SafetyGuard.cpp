@@ -11,17 +11,17 @@ class tst_SafetyGuard : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void aBucketOfLateAnswersIsFullAtTen();
+    void fiveConsecutiveLateAnswersTripTheGuard();
     void answersInTimeEmptyTheBucket();
-    void onlyACriticalNodeTripsByItsBucket();
-    void thePolicyTripsAtOnce();
+    void onlyCriticalNodesTripByLateAnswers();
+    void safeStopPolicyTripsAtTheFirstLateAnswer();
     void aGapTripsAndSmallerOnesDoNot();
     void aSleepOfTheComputerIsAGap();
     void overrunsInARowTripAndSingleOnesDoNot();
     void aWaitTripsWhenItIsTooLong();
     void withoutLimitsNothingTrips();
-    void theFirstReasonIsToldOnce();
-    void aReasonIsNeverLostAmongNews();
+    void firstReasonIsReportedOnce();
+    void reasonIsReportedDespiteAFullQueue();
 
 private:
     static QVector<CycleEvent> taken(CycleReports &reports)
@@ -42,7 +42,7 @@ private:
     static constexpr qint64 Period = 10'000'000;
 };
 
-void tst_SafetyGuard::aBucketOfLateAnswersIsFullAtTen()
+void tst_SafetyGuard::fiveConsecutiveLateAnswersTripTheGuard()
 {
     CycleReports reports(false);
     SafetyGuard guard(reports);
@@ -86,7 +86,7 @@ void tst_SafetyGuard::answersInTimeEmptyTheBucket()
     QVERIFY(guard.isTripped());
 }
 
-void tst_SafetyGuard::onlyACriticalNodeTripsByItsBucket()
+void tst_SafetyGuard::onlyCriticalNodesTripByLateAnswers()
 {
     CycleReports reports(false);
     SafetyGuard guard(reports);
@@ -98,7 +98,7 @@ void tst_SafetyGuard::onlyACriticalNodeTripsByItsBucket()
     QCOMPARE(slot.bucket.load(), SafetyGuard::BucketLimit);  // and it takes no longer to empty
 }
 
-void tst_SafetyGuard::thePolicyTripsAtOnce()
+void tst_SafetyGuard::safeStopPolicyTripsAtTheFirstLateAnswer()
 {
     CycleReports reports(false);
     SafetyGuard guard(reports);
@@ -187,7 +187,7 @@ void tst_SafetyGuard::withoutLimitsNothingTrips()
     QVERIFY(taken(reports).isEmpty());
 }
 
-void tst_SafetyGuard::theFirstReasonIsToldOnce()
+void tst_SafetyGuard::firstReasonIsReportedOnce()
 {
     CycleReports reports(false);
     SafetyGuard guard(reports);
@@ -208,7 +208,7 @@ void tst_SafetyGuard::theFirstReasonIsToldOnce()
 
 /// A large plant in which everything goes wrong at once has more to tell than anybody has taken
 /// meanwhile.
-void tst_SafetyGuard::aReasonIsNeverLostAmongNews()
+void tst_SafetyGuard::reasonIsReportedDespiteAFullQueue()
 {
     CycleReports reports(false);
     SafetyGuard guard(reports);

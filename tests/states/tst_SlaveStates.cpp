@@ -14,11 +14,11 @@ class tst_SlaveStates : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void everyPairIsAsItShouldBe_data();
-    void everyPairIsAsItShouldBe();
-    void whatIsRefusedSaysWhyAndChangesNothing();
+    void everyTransitionMatchesTheTable_data();
+    void everyTransitionMatchesTheTable();
+    void refusedEventGivesAReasonAndKeepsTheState();
     void motionBeginsOnlyWhenTheMasterStartsAPhase();
-    void aSafeNodeIsNeverBackByItself();
+    void safeNodeNeverResumesByItself();
     void leavingIsNeverRefused();
     void everyStateIsReachedAndLeft();
     void namesAreThoseOfTheEnum();
@@ -34,7 +34,7 @@ private:
     }
 };
 
-void tst_SlaveStates::everyPairIsAsItShouldBe_data()
+void tst_SlaveStates::everyTransitionMatchesTheTable_data()
 {
     // The next state by its letters; '.' stays, '-' ignored, 'x' refused.
     QTest::addColumn<int>("event");
@@ -63,7 +63,7 @@ void tst_SlaveStates::everyPairIsAsItShouldBe_data()
     row(E::CodeFailed, "- - - - Fa Fa Fa Fa Fa .");
 }
 
-void tst_SlaveStates::everyPairIsAsItShouldBe()
+void tst_SlaveStates::everyTransitionMatchesTheTable()
 {
     static const QStringList letters{"Di", "Co", "Rg", "Rj", "Rd", "In", "Re", "RT", "Sa", "Fa"};
     QFETCH(int, event);
@@ -79,7 +79,7 @@ void tst_SlaveStates::everyPairIsAsItShouldBe()
     QCOMPARE(found.join(' '), outcomes);
 }
 
-void tst_SlaveStates::whatIsRefusedSaysWhyAndChangesNothing()
+void tst_SlaveStates::refusedEventGivesAReasonAndKeepsTheState()
 {
     forAll([](S state, E event, const SlaveStateTable::Cell &cell) {
         const QByteArray where = QByteArray(nameOf(state)) + " x " + nameOf(event);
@@ -99,7 +99,7 @@ void tst_SlaveStates::motionBeginsOnlyWhenTheMasterStartsAPhase()
     });
 }
 
-void tst_SlaveStates::aSafeNodeIsNeverBackByItself()
+void tst_SlaveStates::safeNodeNeverResumesByItself()
 {
     forAll([](S state, E event, const SlaveStateTable::Cell &cell) {
         if (state == S::SafeStop || state == S::Fault)

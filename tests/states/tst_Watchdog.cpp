@@ -13,12 +13,12 @@ class tst_Watchdog : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void itBarksAtItsDeadlineWhereverTheLastFrameLay_data();
-    void itBarksAtItsDeadlineWhereverTheLastFrameLay();
-    void whileFramesComeItIsLookedAtOnceInItsTime();
-    void itBarksOnceUntilSomethingIsHeard();
-    void aLookBeforeTheAlarmChangesNothing();
-    void withoutATimeItNeverBarks();
+    void watchdogExpiresExactlyAfterTheLastFrame_data();
+    void watchdogExpiresExactlyAfterTheLastFrame();
+    void watchdogIsPolledOncePerTimeoutWhileFramesArrive();
+    void watchdogExpiresOnceUntilTheNextFrame();
+    void earlyPollKeepsTheDeadline();
+    void watchdogWithoutTimeoutNeverExpires();
 };
 
 namespace {
@@ -57,14 +57,14 @@ std::vector<std::int64_t> every(std::int64_t period, std::int64_t until)
 
 }  // namespace
 
-void tst_Watchdog::itBarksAtItsDeadlineWhereverTheLastFrameLay_data()
+void tst_Watchdog::watchdogExpiresExactlyAfterTheLastFrame_data()
 {
     QTest::addColumn<qint64>("last");
     for (qint64 last : {0, 1, 9'999, 10'000, 29'999, 30'000, 30'001, 1'000'007})
         QTest::addRow("%lld", last) << last;
 }
 
-void tst_Watchdog::itBarksAtItsDeadlineWhereverTheLastFrameLay()
+void tst_Watchdog::watchdogExpiresExactlyAfterTheLastFrame()
 {
     QFETCH(qint64, last);
     std::vector<std::int64_t> frames = every(10'000, last);
@@ -74,20 +74,20 @@ void tst_Watchdog::itBarksAtItsDeadlineWhereverTheLastFrameLay()
     QCOMPARE(story.barks[0], std::int64_t(last + 30'000));
 }
 
-void tst_Watchdog::whileFramesComeItIsLookedAtOnceInItsTime()
+void tst_Watchdog::watchdogIsPolledOncePerTimeoutWhileFramesArrive()
 {
     const Story story = live(30'000, every(1'000, 3'000'000), 3'000'000);
     QVERIFY(story.barks.empty());
     QVERIFY2(story.looks <= 101, qPrintable(QString::number(story.looks)));
 }
 
-void tst_Watchdog::itBarksOnceUntilSomethingIsHeard()
+void tst_Watchdog::watchdogExpiresOnceUntilTheNextFrame()
 {
     const Story story = live(30'000, {10'000, 200'000}, 1'000'000);
     QCOMPARE(story.barks, (std::vector<std::int64_t>{40'000, 230'000}));
 }
 
-void tst_Watchdog::aLookBeforeTheAlarmChangesNothing()
+void tst_Watchdog::earlyPollKeepsTheDeadline()
 {
     Watchdog dog;
     dog.start(100, 0);
@@ -99,7 +99,7 @@ void tst_Watchdog::aLookBeforeTheAlarmChangesNothing()
     QCOMPARE(dog.look(160), Watchdog::Barks);
 }
 
-void tst_Watchdog::withoutATimeItNeverBarks()
+void tst_Watchdog::watchdogWithoutTimeoutNeverExpires()
 {
     Watchdog dog;
     dog.start(0, 0);

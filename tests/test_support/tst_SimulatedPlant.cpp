@@ -173,17 +173,17 @@ private Q_SLOTS:
     void initTestCase() { SimulatedTransport::install(); }
     void nodesRegisterAtTheirMaster();
     void cyclesKeepTheirPeriodInVirtualTime();
-    void killedNodeIsMissedAndComesBack();
+    void killedNodeIsLostAndReconnects();
     void sameSeedGivesSameTraffic();
     void otherSeedGivesOtherTraffic();
     void sameSeedGivesSameTrafficInOtherProcess();
-    void halfOpenConnectionIsGivenUp();
-    void stoppedProgramGoesOn();
-    void lostAndDoubledFramesAreBorne();
+    void halfOpenConnectionIsClosed();
+    void stoppedProgramResumes();
+    void lostAndDuplicateFramesAreTolerated();
     void echoReachesTheNextOwnerOfAPort();
-    void cutRoadHeals();
-    void driftingClockIsBorne();
-    void cyclesThatAreStoppedAtOnceHaveRun();
+    void cyclesResumeAfterALinkOutage();
+    void driftingClockIsTolerated();
+    void cycleBodyRunsBeforeAnImmediateStop();
 };
 
 void tst_SimulatedPlant::nodesRegisterAtTheirMaster()
@@ -218,7 +218,7 @@ void tst_SimulatedPlant::cyclesKeepTheirPeriodInVirtualTime()
     QVERIFY2(length > 359 && length < 361, qPrintable(QString::number(length)));  // 1 m/s from 300 m on
 }
 
-void tst_SimulatedPlant::killedNodeIsMissedAndComesBack()
+void tst_SimulatedPlant::killedNodeIsLostAndReconnects()
 {
     bool wasMissed = false;
     bool isBack = false;
@@ -270,7 +270,7 @@ void tst_SimulatedPlant::sameSeedGivesSameTrafficInOtherProcess()
     QCOMPARE(file.readAll(), QByteArray::number(digestOfMinute(7)));
 }
 
-void tst_SimulatedPlant::halfOpenConnectionIsGivenUp()
+void tst_SimulatedPlant::halfOpenConnectionIsClosed()
 {
     bool wasMissed = false;
     std::int64_t noticed = 0;
@@ -288,7 +288,7 @@ void tst_SimulatedPlant::halfOpenConnectionIsGivenUp()
     QVERIFY2(noticed > Second, "the kernel of a computer without power tells nobody");
 }
 
-void tst_SimulatedPlant::stoppedProgramGoesOn()
+void tst_SimulatedPlant::stoppedProgramResumes()
 {
     quint64 duringStop = 0;
     quint64 behindIt = 0;
@@ -310,7 +310,7 @@ void tst_SimulatedPlant::stoppedProgramGoesOn()
     QVERIFY2(behindIt >= 95, qPrintable(QString::number(behindIt)));
 }
 
-void tst_SimulatedPlant::lostAndDoubledFramesAreBorne()
+void tst_SimulatedPlant::lostAndDuplicateFramesAreTolerated()
 {
     QPlcSlaveNode::Counters counters;
     Simulator::run(1, [&](Simulator &simulator) {
@@ -349,7 +349,7 @@ void tst_SimulatedPlant::echoReachesTheNextOwnerOfAPort()
     });
 }
 
-void tst_SimulatedPlant::cutRoadHeals()
+void tst_SimulatedPlant::cyclesResumeAfterALinkOutage()
 {
     bool isComplete = false;
     quint64 during = 0;
@@ -378,7 +378,7 @@ void tst_SimulatedPlant::cutRoadHeals()
     QVERIFY(isComplete);
 }
 
-void tst_SimulatedPlant::driftingClockIsBorne()
+void tst_SimulatedPlant::driftingClockIsTolerated()
 {
     quint64 cycles = 0;
     std::int64_t ahead = 0;
@@ -400,7 +400,7 @@ void tst_SimulatedPlant::driftingClockIsBorne()
 }
 
 /// As SlaveCycle::stop(), which interrupts until the body has ended.
-void tst_SimulatedPlant::cyclesThatAreStoppedAtOnceHaveRun()
+void tst_SimulatedPlant::cycleBodyRunsBeforeAnImmediateStop()
 {
     bool hasRun = false;
     Simulator::run(1, [&](Simulator &simulator) {

@@ -28,24 +28,24 @@ class tst_SimulatedSoak : public QObject
     Q_OBJECT
 private Q_SLOTS:
     void initTestCase() { QLoggingCategory::setFilterRules(QStringLiteral("qtplc.*=false")); }  // faults are to happen
-    void allGatesHold_data();
-    void allGatesHold();
+    void allGatesPass_data();
+    void allGatesPass();
     void sameSeedGivesSameTrafficInOtherProcess();
     void otherSeedGivesOtherPlan();
     void everyKindOfFaultHappensInSomeScenario();
-    void gatesSeeWhatThePlantDidTooLate();
-    void gatesOfProcessesAreNotAsked();
+    void gatesDetectLateReactionsOfThePlant();
+    void processGatesAreNotJudged();
     void shrinkingKeepsTheFaultsThatMatter();
 };
 
-void tst_SimulatedSoak::allGatesHold_data()
+void tst_SimulatedSoak::allGatesPass_data()
 {
     QTest::addColumn<QString>("name");
     for (const Scenario &scenario : Scenario::all())
         QTest::newRow(qPrintable(scenario.profile.name)) << scenario.profile.name;
 }
 
-void tst_SimulatedSoak::allGatesHold()
+void tst_SimulatedSoak::allGatesPass()
 {
     QFETCH(QString, name);
     const SimulatedRun result = runOf(qPrintable(name), 3);
@@ -100,7 +100,7 @@ void tst_SimulatedSoak::everyKindOfFaultHappensInSomeScenario()
 }
 
 /// The same histories, judged as those of a plant that may hold a value for one cycle only.
-void tst_SimulatedSoak::gatesSeeWhatThePlantDidTooLate()
+void tst_SimulatedSoak::gatesDetectLateReactionsOfThePlant()
 {
     SimulatedRun result = runOf("programs", 3);
     result.report.evidence.shape.hold = 1;
@@ -108,7 +108,7 @@ void tst_SimulatedSoak::gatesSeeWhatThePlantDidTooLate()
     QVERIFY(nodesAloneBecomeSafe(result.report.evidence).failed > 0);
 }
 
-void tst_SimulatedSoak::gatesOfProcessesAreNotAsked()
+void tst_SimulatedSoak::processGatesAreNotJudged()
 {
     const SimulatedRun result = runOf("soak", 3);
     int found = 0;

@@ -74,11 +74,11 @@ private Q_SLOTS:
     void modelFollowsTheMaster();
     void silentPartnersAreReported_data();
     void silentPartnersAreReported();
-    void stopsOfFortyMillisecondsHarmNothing_data();
-    void stopsOfFortyMillisecondsHarmNothing();
+    void pausesOfFortyMillisecondsDoNotStopTheFlight_data();
+    void pausesOfFortyMillisecondsDoNotStopTheFlight();
     void masterWithoutItsTableEndsWithAMessage();
-    void modelWithoutItsTableTakesThatOfTheMaster_data();
-    void modelWithoutItsTableTakesThatOfTheMaster();
+    void modelWithoutItsTableUsesTheTableOfTheMaster_data();
+    void modelWithoutItsTableUsesTheTableOfTheMaster();
     void masterOnAPortInUseEndsWithAMessage();
     void modelWithoutAMasterEndsWithAMessage_data();
     void modelWithoutAMasterEndsWithAMessage();
@@ -353,7 +353,7 @@ bool tst_ThesisPrograms::isFlying(double *tetherLength)
     return isKept;
 }
 
-void tst_ThesisPrograms::stopsOfFortyMillisecondsHarmNothing_data()
+void tst_ThesisPrograms::pausesOfFortyMillisecondsDoNotStopTheFlight_data()
 {
     addModels();
 }
@@ -361,7 +361,7 @@ void tst_ThesisPrograms::stopsOfFortyMillisecondsHarmNothing_data()
 /// Every second the model and then the master stand still for 40 ms: the watchdog of 15 ms informs,
 /// and the flight goes on where it was. THESIS_SECONDS is the time [s], THESIS_LOAD the number of
 /// programs that only compute beside it.
-void tst_ThesisPrograms::stopsOfFortyMillisecondsHarmNothing()
+void tst_ThesisPrograms::pausesOfFortyMillisecondsDoNotStopTheFlight()
 {
     QFETCH(QString, program);
     const int seconds = qMax(1, qEnvironmentVariable("THESIS_SECONDS", QStringLiteral("5")).toInt());
@@ -407,12 +407,12 @@ void tst_ThesisPrograms::masterWithoutItsTableEndsWithAMessage()
     QVERIFY2(!outcome.errors.contains(QStringLiteral("listening")), qPrintable(outcome.errors));
 }
 
-void tst_ThesisPrograms::modelWithoutItsTableTakesThatOfTheMaster_data()
+void tst_ThesisPrograms::modelWithoutItsTableUsesTheTableOfTheMaster_data()
 {
     addModels();
 }
 
-void tst_ThesisPrograms::modelWithoutItsTableTakesThatOfTheMaster()
+void tst_ThesisPrograms::modelWithoutItsTableUsesTheTableOfTheMaster()
 {
     QFETCH(QString, program);
     const QTemporaryDir folder;

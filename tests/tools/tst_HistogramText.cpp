@@ -13,16 +13,16 @@ class tst_HistogramText : public QObject
 private Q_SLOTS:
     void durationHasThreeDigits_data();
     void durationHasThreeDigits();
-    void emptyHistogramSaysSo();
+    void emptyHistogramIsReported();
     void oneBinIsOneFullBar();
     void everyValueIsInOneRow();
-    void rowHoldsWhatIsNotAboveItsBorder();
+    void rowCountsValuesUpToItsBorder();
     void rareValuesAreSeen();
     void gapsKeepTheirRows();
     void longGapsAreOneLine();
     void linesAreAsWideAsWanted_data();
     void linesAreAsWideAsWanted();
-    void nonsenseIsNoReasonToCrash();
+    void invalidBinsDoNotCrash();
     void binsInAnyOrderHaveTheirRows();
 
 private:
@@ -53,7 +53,7 @@ void tst_HistogramText::durationHasThreeDigits()
     QCOMPARE(durationText(nanoseconds), text);
 }
 
-void tst_HistogramText::emptyHistogramSaysSo()
+void tst_HistogramText::emptyHistogramIsReported()
 {
     QCOMPARE(histogramLines({}, 80), QStringList{QStringLiteral("nothing recorded")});
     QCOMPARE(histogramLines({bin(100, 0)}, 80), QStringList{QStringLiteral("nothing recorded")});
@@ -81,7 +81,7 @@ void tst_HistogramText::everyValueIsInOneRow()
     QCOMPARE(shown, total);
 }
 
-void tst_HistogramText::rowHoldsWhatIsNotAboveItsBorder()
+void tst_HistogramText::rowCountsValuesUpToItsBorder()
 {
     const QStringList lines = histogramLines({bin(1000, 1), bin(2000, 2), bin(2001, 4), bin(50000, 8)}, 80);
     const auto countOf = [&lines](const char *border) {
@@ -133,7 +133,7 @@ void tst_HistogramText::linesAreAsWideAsWanted()
     QCOMPARE(longest, width);
 }
 
-void tst_HistogramText::nonsenseIsNoReasonToCrash()
+void tst_HistogramText::invalidBinsDoNotCrash()
 {
     histogramLines({bin(-5, 3), bin(0, 1)}, 80);
     histogramLines({bin(1, 1), bin(9'000'000'000'000'000'000, 1)}, 10);

@@ -11,11 +11,11 @@ class tst_RateStatistics : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void nothingHasNoRate();
+    void emptyStatisticsHaveNoRate();
     void oneCycleHasNoRate();
-    void evenRowHasItsRateAndNoScatter();
-    void scatterIsThatOfASample();
-    void scatterOfSmallDeviationsAtLargeTimesKeepsItsDigits();
+    void evenCyclesHaveTheirRateAndNoDeviation();
+    void deviationIsTheSampleStandardDeviation();
+    void smallDeviationsAtLargeTimesKeepTheirPrecision();
     void lostCyclesAreNamedAndMakeNoInterval();
     void gapsAreNamedUpToALimit_data();
     void gapsAreNamedUpToALimit();
@@ -25,7 +25,7 @@ private:
     static constexpr qint64 ms = 1'000'000;
 };
 
-void tst_RateStatistics::nothingHasNoRate()
+void tst_RateStatistics::emptyStatisticsHaveNoRate()
 {
     const RateStatistics rate;
     QCOMPARE(rate.cycles(), quint64(0));
@@ -43,7 +43,7 @@ void tst_RateStatistics::oneCycleHasNoRate()
     QCOMPARE(rate.intervals(), quint64(0));
 }
 
-void tst_RateStatistics::evenRowHasItsRateAndNoScatter()
+void tst_RateStatistics::evenCyclesHaveTheirRateAndNoDeviation()
 {
     RateStatistics rate;
     for (int i = 0; i < 101; ++i)
@@ -58,7 +58,7 @@ void tst_RateStatistics::evenRowHasItsRateAndNoScatter()
     QCOMPARE(rate.lost(), quint64(0));
 }
 
-void tst_RateStatistics::scatterIsThatOfASample()
+void tst_RateStatistics::deviationIsTheSampleStandardDeviation()
 {
     RateStatistics rate;
     qint64 time = 0;
@@ -72,7 +72,7 @@ void tst_RateStatistics::scatterIsThatOfASample()
     QVERIFY(qAbs(rate.deviation() - std::sqrt(32.0 / 7.0)) < 1e-12);
 }
 
-void tst_RateStatistics::scatterOfSmallDeviationsAtLargeTimesKeepsItsDigits()
+void tst_RateStatistics::smallDeviationsAtLargeTimesKeepTheirPrecision()
 {
     RateStatistics rate;
     qint64 time = 4'000'000'000'000'000'000;  // 127 years

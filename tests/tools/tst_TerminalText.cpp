@@ -42,8 +42,8 @@ class tst_TerminalText : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void coloursNeedATerminalThatWantsThem_data();
-    void coloursNeedATerminalThatWantsThem();
+    void coloursNeedATerminalThatSupportsThem_data();
+    void coloursNeedATerminalThatSupportsThem();
     void aPipeHasNoColours();
     void statesAndQualitiesHaveTheirTones();
     void wideCharactersTakeTwoColumns_data();
@@ -58,7 +58,7 @@ private Q_SLOTS:
     void aTableThatFitsIsNotBroken();
 };
 
-void tst_TerminalText::coloursNeedATerminalThatWantsThem_data()
+void tst_TerminalText::coloursNeedATerminalThatSupportsThem_data()
 {
     QTest::addColumn<QByteArray>("term");
     QTest::addColumn<QByteArray>("noColor");
@@ -70,7 +70,7 @@ void tst_TerminalText::coloursNeedATerminalThatWantsThem_data()
     QTest::newRow("a terminal without colours") << QByteArray("dumb") << QByteArray() << "lost";
 }
 
-void tst_TerminalText::coloursNeedATerminalThatWantsThem()
+void tst_TerminalText::coloursNeedATerminalThatSupportsThem()
 {
     QFETCH(QByteArray, term);
     QFETCH(QByteArray, noColor);

@@ -10,21 +10,21 @@ class tst_WatchTable : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void unheardSignalsHaveNoValue();
+    void signalsWithoutUpdateShowNoValue();
     void extremesAreThoseOfAllValues();
     void extremesCanBeForgotten();
     void ageIsTheTimeSinceTheChange();
-    void whereAValueIsNotGoodItsQualityTakesThePlaceOfItsAge();
+    void qualityReplacesTheAgeOfAValueThatIsNotGood();
     void ageHasAReadableUnit_data();
     void ageHasAReadableUnit();
     void elementsOfAnArrayHaveRows();
     void textsHaveNoExtremes();
-    void notANumberIsNoExtreme();
+    void notANumberDoesNotChangeTheExtremes();
     void rowsAreScrolledAndLimited();
     void linesFitTheTerminal_data();
     void linesFitTheTerminal();
-    void namesAreReadWhereTheTerminalIsNarrow();
-    void controlCharactersAreHarmless();
+    void namesStayReadableInANarrowTerminal();
+    void controlCharactersAreEscaped();
 
 private:
     static QVector<QPlcSignalDefinition> definitions(const char *ini)
@@ -42,7 +42,7 @@ private:
     const char *const real = "[a]\ntype = Real64\nunit = m\n";
 };
 
-void tst_WatchTable::unheardSignalsHaveNoValue()
+void tst_WatchTable::signalsWithoutUpdateShowNoValue()
 {
     const WatchTable table(definitions(real));
     QCOMPARE(table.rowCount(), 1);
@@ -77,7 +77,7 @@ void tst_WatchTable::ageIsTheTimeSinceTheChange()
     QCOMPARE(words(table, 0, 103.0).mid(5), (QStringList{"0.0", "s"}));
 }
 
-void tst_WatchTable::whereAValueIsNotGoodItsQualityTakesThePlaceOfItsAge()
+void tst_WatchTable::qualityReplacesTheAgeOfAValueThatIsNotGood()
 {
     WatchTable table(definitions("[v]\ntype = Real64[2]\n[b]\ntype = Int\n"));
     table.update({QPlcValue({1.0, 2.0}), 3}, 0.0, {QPlcQuality::held(12), QPlcQuality::Good});
@@ -126,7 +126,7 @@ void tst_WatchTable::textsHaveNoExtremes()
     QCOMPARE(words(table, 0).mid(0, 5), (QStringList{"s", "1,", "2", "-", "-"}));
 }
 
-void tst_WatchTable::notANumberIsNoExtreme()
+void tst_WatchTable::notANumberDoesNotChangeTheExtremes()
 {
     WatchTable table(definitions(real));
     table.update({std::numeric_limits<double>::quiet_NaN()}, 0.0);
@@ -164,7 +164,7 @@ void tst_WatchTable::linesFitTheTerminal()
 }
 
 /// Smallest and largest values give way to names.
-void tst_WatchTable::namesAreReadWhereTheTerminalIsNarrow()
+void tst_WatchTable::namesStayReadableInANarrowTerminal()
 {
     WatchTable table(definitions("[bodyControlYawSpeed]\ntype = Real32\nunit = deg/s\n[bodyControlPitchSpeed]\n"
                                  "type = Real32\nunit = deg/s\n[masterTime]\ntype = DateTime\n"));
@@ -177,7 +177,7 @@ void tst_WatchTable::namesAreReadWhereTheTerminalIsNarrow()
     QVERIFY(table.lines(0, 80, 10, 3.0).constFirst().contains(QStringLiteral("min")));
 }
 
-void tst_WatchTable::controlCharactersAreHarmless()
+void tst_WatchTable::controlCharactersAreEscaped()
 {
     WatchTable table(definitions("[s]\ntype = String\n"));
     table.update({QPlcValue("\033[2J")}, 0.0);

@@ -27,17 +27,17 @@ class tst_ConnectionGate : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void strangersOfOneAddressAreFew();
+    void strangersPerAddressAreLimited();
     void aNetworkOfIPv6IsOneAddress();
-    void strangersOfThisMachineHaveNoLimitOfTheirOwn();
-    void theRoomForStrangersIsLimited();
+    void localStrangersHaveNoAddressLimit();
+    void numberOfStrangersIsLimited();
     void allConnectionsTogetherAreLimited();
     void connectionsOfOneIdentityAreLimited();
     void theRateIsLimited();
-    void strangersHaveTwoSeconds();
-    void aStepGivesAStrangerNewTime();
-    void whoIsKnownIsNeverOverdue();
-    void aTicketThatIsGoneMeansNothing();
+    void strangersAreOverdueAfterTwoSeconds();
+    void handshakeStepRenewsTheTimeOfAStranger();
+    void knownPeerIsNeverOverdue();
+    void expiredTicketHasNoEffect();
     void aConnectionWithoutADescriptorIsClosed();
 
 private:
@@ -50,7 +50,7 @@ private:
     void cleanup() { m_gate = ConnectionGate(); }
 };
 
-void tst_ConnectionGate::strangersOfOneAddressAreFew()
+void tst_ConnectionGate::strangersPerAddressAreLimited()
 {
     cleanup();
     quint64 first = admit(far());
@@ -74,14 +74,14 @@ void tst_ConnectionGate::aNetworkOfIPv6IsOneAddress()
     QVERIFY(admit(QHostAddress(QStringLiteral("2001:db8:0:2::9"))) != 0);
 }
 
-void tst_ConnectionGate::strangersOfThisMachineHaveNoLimitOfTheirOwn()
+void tst_ConnectionGate::localStrangersHaveNoAddressLimit()
 {
     cleanup();
     for (int i = 0; i < 32; ++i)
         QVERIFY(admit(QHostAddress::LocalHost) != 0);
 }
 
-void tst_ConnectionGate::theRoomForStrangersIsLimited()
+void tst_ConnectionGate::numberOfStrangersIsLimited()
 {
     cleanup();
     quint64 last = 0;
@@ -148,7 +148,7 @@ void tst_ConnectionGate::theRateIsLimited()
     QVERIFY(admit(QHostAddress::LocalHost, 111 * second) != 0);
 }
 
-void tst_ConnectionGate::strangersHaveTwoSeconds()
+void tst_ConnectionGate::strangersAreOverdueAfterTwoSeconds()
 {
     cleanup();
     const quint64 first = admit(far(), 0);
@@ -160,7 +160,7 @@ void tst_ConnectionGate::strangersHaveTwoSeconds()
     QCOMPARE(m_gate.overdue(3 * second), QVector<ConnectionGate::Ticket>{next});
 }
 
-void tst_ConnectionGate::aStepGivesAStrangerNewTime()
+void tst_ConnectionGate::handshakeStepRenewsTheTimeOfAStranger()
 {
     cleanup();
     const quint64 ticket = admit(far(), 0);
@@ -169,7 +169,7 @@ void tst_ConnectionGate::aStepGivesAStrangerNewTime()
     QCOMPARE(m_gate.overdue(3 * second).size(), 1);
 }
 
-void tst_ConnectionGate::whoIsKnownIsNeverOverdue()
+void tst_ConnectionGate::knownPeerIsNeverOverdue()
 {
     cleanup();
     const quint64 ticket = admit(far(), 0);
@@ -179,7 +179,7 @@ void tst_ConnectionGate::whoIsKnownIsNeverOverdue()
     QCOMPARE(m_gate.strangers(), 0);
 }
 
-void tst_ConnectionGate::aTicketThatIsGoneMeansNothing()
+void tst_ConnectionGate::expiredTicketHasNoEffect()
 {
     cleanup();
     const quint64 ticket = admit(far(), 0);

@@ -45,7 +45,7 @@ private Q_SLOTS:
     void datagramsGoToAndComeFromPeers();
     void strangersAreCounted();
     void aFloodOfStrangersIsReadInPortions();
-    void aFloodOfALocalNodeLeavesTheOthersTheirTurn();
+    void floodOfALocalNodeDoesNotDelayOthers();
     void datagramsThatTheKernelDropsAreCounted();
     void ipv6PeersAreFound();
     void anyAddressServesIpv4AndIpv6();
@@ -53,14 +53,14 @@ private Q_SLOTS:
     void aDetachedPeerIsAStranger();
     void streamsGiveWholeFrames();
     void garbageClosesTheStream();
-    void aClosedPeerIsClosed();
-    void aPeerThatDoesNotReadBlocksNobody();
+    void hubReportsAPeerThatClosed();
+    void peerThatDoesNotReadDelaysNoOtherPeer();
     void waitEndsInTime();
     void aHubThatWasNeverOpenWaitsInVain();
-    void anAlarmEndsTheWaitAndIsNoFrame();
-    void aRefusedDatagramIsCountedAndTheOthersGo();
+    void alarmEndsTheWaitWithoutAFrame();
+    void refusedDatagramIsCountedAndOthersAreSent();
     void anInterruptedCallIsMadeAgain();
-    void aPortInUseIsSaid();
+    void portInUseIsReported();
 
 private:
     static QVector<QPair<HubPeer *, QByteArray>> take(CyclicHub &hub, int atLeast)
@@ -158,7 +158,7 @@ void tst_CyclicHub::aFloodOfStrangersIsReadInPortions()
     QCOMPARE(hub.strangers() + hub.unread(), std::uint64_t(400));
 }
 
-void tst_CyclicHub::aFloodOfALocalNodeLeavesTheOthersTheirTurn()
+void tst_CyclicHub::floodOfALocalNodeDoesNotDelayOthers()
 {
     CyclicHub hub;
     open(hub);
@@ -354,7 +354,7 @@ void tst_CyclicHub::garbageClosesTheStream()
     QVERIFY(!hub.wait(1'000'000));  // and it wakes nobody any more
 }
 
-void tst_CyclicHub::aClosedPeerIsClosed()
+void tst_CyclicHub::hubReportsAPeerThatClosed()
 {
     CyclicHub hub;
     StreamPair pair;
@@ -371,7 +371,7 @@ void tst_CyclicHub::aClosedPeerIsClosed()
     QVERIFY(!hub.wait(1'000'000));
 }
 
-void tst_CyclicHub::aPeerThatDoesNotReadBlocksNobody()
+void tst_CyclicHub::peerThatDoesNotReadDelaysNoOtherPeer()
 {
     CyclicHub hub;
     StreamPair deaf;
@@ -413,7 +413,7 @@ void tst_CyclicHub::aHubThatWasNeverOpenWaitsInVain()
     QVERIFY(!hub.next(&frame));
 }
 
-void tst_CyclicHub::anAlarmEndsTheWaitAndIsNoFrame()
+void tst_CyclicHub::alarmEndsTheWaitWithoutAFrame()
 {
     CyclicHub hub;
     const SocketAddress self = open(hub);
@@ -435,7 +435,7 @@ void tst_CyclicHub::anAlarmEndsTheWaitAndIsNoFrame()
     ::close(alarm[1]);
 }
 
-void tst_CyclicHub::aRefusedDatagramIsCountedAndTheOthersGo()
+void tst_CyclicHub::refusedDatagramIsCountedAndOthersAreSent()
 {
     CyclicHub hub;
     open(hub);
@@ -468,7 +468,7 @@ void tst_CyclicHub::anInterruptedCallIsMadeAgain()
     QCOMPARE(peer->sendFailures, std::uint64_t(0));
 }
 
-void tst_CyclicHub::aPortInUseIsSaid()
+void tst_CyclicHub::portInUseIsReported()
 {
     UdpSocket other;
     CyclicHub hub;

@@ -18,11 +18,11 @@ class tst_CyclicLink : public QObject
 
 private Q_SLOTS:
     void aUdpLinkTalksToItsMasterOnly();
-    void aMasterThatIsGoneDoesNotEndAUdpLink();
+    void udpLinkStaysOpenAfterLossOfTheMaster();
     void aTcpLinkGivesWholeFrames();
     void garbageEndsATcpLink();
     void theEndOfTheMasterEndsATcpLink();
-    void aTcpLinkToADeafMasterComesBackInTime();
+    void tcpLinkToAnUnresponsiveMasterDoesNotBlock();
     void waitsEndInTime();
 };
 
@@ -63,7 +63,7 @@ void tst_CyclicLink::aUdpLinkTalksToItsMasterOnly()
     QVERIFY(receive(*link).bytes.size() > 1472);  // cut off or not, it is longer than every frame: refused elsewhere
 }
 
-void tst_CyclicLink::aMasterThatIsGoneDoesNotEndAUdpLink()
+void tst_CyclicLink::udpLinkStaysOpenAfterLossOfTheMaster()
 {
     SocketAddress gone;
     {
@@ -118,7 +118,7 @@ void tst_CyclicLink::theEndOfTheMasterEndsATcpLink()
     QVERIFY(!link->send("x", 1));  // and no SIGPIPE
 }
 
-void tst_CyclicLink::aTcpLinkToADeafMasterComesBackInTime()
+void tst_CyclicLink::tcpLinkToAnUnresponsiveMasterDoesNotBlock()
 {
     StreamPair pair;
     const auto link = StreamLink::make(pair.take(0), toyCutter, LargestToyFrame);

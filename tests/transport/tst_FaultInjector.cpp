@@ -14,14 +14,14 @@ class tst_FaultInjector : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void aPlanWithoutFaultsTouchesNothing();
-    void sharesComeOutAsPlanned();
+    void emptyPlanChangesNoFrame();
+    void faultRatesMatchThePlan();
     void lossesDoNotFollowEachOther();
     void theSameSeedGivesTheSameFaults();
     void streamsAndSeedsDiffer();
-    void anotherFaultLeavesTheOthersAsTheyAre();
+    void faultKindsAreIndependentOfEachOther();
     void delaysAreSpreadOverTheJitter();
-    void aCutLosesAllAndOnlyItsTime();
+    void cutLosesExactlyTheFramesOfItsInterval();
     void corruptionTurnsOneToThreeBits();
 };
 
@@ -56,7 +56,7 @@ FaultPlan::Direction everything()
 
 }  // namespace
 
-void tst_FaultInjector::aPlanWithoutFaultsTouchesNothing()
+void tst_FaultInjector::emptyPlanChangesNoFrame()
 {
     FaultInjector injector({}, 1, 1);
     for (int i = 0; i < 1000; ++i) {
@@ -68,7 +68,7 @@ void tst_FaultInjector::aPlanWithoutFaultsTouchesNothing()
         QCOMPARE(injector.count(FaultInjector::Kind(kind)), std::uint64_t(0));
 }
 
-void tst_FaultInjector::sharesComeOutAsPlanned()
+void tst_FaultInjector::faultRatesMatchThePlan()
 {
     FaultPlan::Direction plan;
     plan.loss = 0.1;
@@ -130,7 +130,7 @@ void tst_FaultInjector::streamsAndSeedsDiffer()
     QVERIFY(one != fatesOf(FaultInjector(everything(), 0, 0)));
 }
 
-void tst_FaultInjector::anotherFaultLeavesTheOthersAsTheyAre()
+void tst_FaultInjector::faultKindsAreIndependentOfEachOther()
 {
     FaultPlan::Direction less = everything();
     less.duplicate = 0.0;
@@ -167,7 +167,7 @@ void tst_FaultInjector::delaysAreSpreadOverTheJitter()
     QCOMPARE(injector.count(FaultInjector::Delayed), std::uint64_t(Many));
 }
 
-void tst_FaultInjector::aCutLosesAllAndOnlyItsTime()
+void tst_FaultInjector::cutLosesExactlyTheFramesOfItsInterval()
 {
     FaultPlan::Direction plan;
     plan.cutBegin = 100;

@@ -16,19 +16,19 @@ class tst_FaultLink : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void whatIsNotPlannedGoesThroughAtOnce();
-    void lostFramesAreGoneAndTheCallerIsNotKept();
-    void copiesComeOnceMore();
-    void aHeldFrameComesBehindTheNext();
+    void unaffectedFramesPassWithoutDelay();
+    void lostFramesDoNotBlockTheReceiver();
+    void duplicatesAreDeliveredOnce();
+    void reorderedFrameArrivesAfterTheNext();
     void delayedFramesComeWhenTheyAreDue();
-    void jitterLetsFramesOvertake();
+    void jitterReordersFrames();
     void corruptedFramesHaveOtherBitsAndTheSameLength();
     void aCutOfOneDirectionLeavesTheOther();
     void aFullLineLosesFrames();
-    void theEndOfTheLinkIsSeen();
-    void aHubTreatsEachPeerByItself();
-    void aHubWaitsNoLongerThanForTheNextFrameUnderWay();
-    void aPeerThatLeavesTakesItsFramesWithIt();
+    void endOfTheLinkIsReported();
+    void hubInjectsFaultsForEachPeerSeparately();
+    void hubWaitsOnlyUntilTheNextDelayedFrame();
+    void detachedPeerDropsItsDelayedFrames();
 };
 
 namespace {
@@ -114,7 +114,7 @@ QVector<QByteArray> numbers(std::initializer_list<int> all)
 
 }  // namespace
 
-void tst_FaultLink::whatIsNotPlannedGoesThroughAtOnce()
+void tst_FaultLink::unaffectedFramesPassWithoutDelay()
 {
     Fixture fixture("loss-sent=100%");
     fixture.arrive(4);
@@ -125,7 +125,7 @@ void tst_FaultLink::whatIsNotPlannedGoesThroughAtOnce()
     QCOMPARE(fixture.link->sent().count(FaultInjector::Lost), std::uint64_t(1));
 }
 
-void tst_FaultLink::lostFramesAreGoneAndTheCallerIsNotKept()
+void tst_FaultLink::lostFramesDoNotBlockTheReceiver()
 {
     Fixture fixture("loss=100%");
     fixture.arrive(3);
@@ -136,7 +136,7 @@ void tst_FaultLink::lostFramesAreGoneAndTheCallerIsNotKept()
     QCOMPARE(fixture.link->received().count(FaultInjector::Lost), std::uint64_t(3));
 }
 
-void tst_FaultLink::copiesComeOnceMore()
+void tst_FaultLink::duplicatesAreDeliveredOnce()
 {
     Fixture fixture("duplicate=100%");
     fixture.arrive(2);
@@ -147,7 +147,7 @@ void tst_FaultLink::copiesComeOnceMore()
     QCOMPARE(fixture.toy->sent.size(), 2);
 }
 
-void tst_FaultLink::aHeldFrameComesBehindTheNext()
+void tst_FaultLink::reorderedFrameArrivesAfterTheNext()
 {
     Fixture fixture("reorder-received=100%");
     fixture.arrive(5);
@@ -173,7 +173,7 @@ void tst_FaultLink::delayedFramesComeWhenTheyAreDue()
     QVERIFY(fixture.time.longestSleep <= FaultLink::Look);
 }
 
-void tst_FaultLink::jitterLetsFramesOvertake()
+void tst_FaultLink::jitterReordersFrames()
 {
     Fixture fixture("jitter-received=10ms,seed=3");
     fixture.arrive(50);
@@ -220,7 +220,7 @@ void tst_FaultLink::aFullLineLosesFrames()
     QVERIFY2(got > 100 && got < 1000, qPrintable(QString::number(got)));
 }
 
-void tst_FaultLink::theEndOfTheLinkIsSeen()
+void tst_FaultLink::endOfTheLinkIsReported()
 {
     Fixture fixture("delay=1ms");
     fixture.toy->isClosed = true;
@@ -272,7 +272,7 @@ QByteArray allOf(const UdpSocket &socket)
 
 }  // namespace
 
-void tst_FaultLink::aHubTreatsEachPeerByItself()
+void tst_FaultLink::hubInjectsFaultsForEachPeerSeparately()
 {
     FaultyHub fixture("loss-sent=50%,seed=11");
     const QByteArray alphabet = "abcdefghijklmnopqrstuvwxyz";
@@ -287,7 +287,7 @@ void tst_FaultLink::aHubTreatsEachPeerByItself()
     QVERIFY(forA != forB);
 }
 
-void tst_FaultLink::aHubWaitsNoLongerThanForTheNextFrameUnderWay()
+void tst_FaultLink::hubWaitsOnlyUntilTheNextDelayedFrame()
 {
     FaultyHub fixture("delay=3ms");
     fixture.send(fixture.a.get(), "x");
@@ -305,7 +305,7 @@ void tst_FaultLink::aHubWaitsNoLongerThanForTheNextFrameUnderWay()
     QCOMPARE(allOf(fixture.socketA), QByteArray("y"));
 }
 
-void tst_FaultLink::aPeerThatLeavesTakesItsFramesWithIt()
+void tst_FaultLink::detachedPeerDropsItsDelayedFrames()
 {
     FaultyHub fixture("delay=3ms");
     fixture.send(fixture.a.get(), "x");

@@ -10,11 +10,11 @@ class tst_FaultPlan : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void wordsHoldForBothDirections();
-    void wordsHoldForOneDirection();
+    void optionsApplyToBothDirections();
+    void optionsMayApplyToOneDirection();
     void aCutHasBeginLengthAndPeriod();
-    void wrongWordsAreNamed_data();
-    void wrongWordsAreNamed();
+    void invalidOptionsAreReported_data();
+    void invalidOptionsAreReported();
 };
 
 namespace {
@@ -30,7 +30,7 @@ FaultPlan planOf(const char *text)
 
 }  // namespace
 
-void tst_FaultPlan::wordsHoldForBothDirections()
+void tst_FaultPlan::optionsApplyToBothDirections()
 {
     const FaultPlan plan
         = planOf("loss=5%, duplicate=0.5%,reorder=100%,corrupt=1%,delay=2ms,jitter=500us,seed=18446744073709551615");
@@ -47,7 +47,7 @@ void tst_FaultPlan::wordsHoldForBothDirections()
     QCOMPARE(planOf("loss=5%").seed, std::uint64_t(1));
 }
 
-void tst_FaultPlan::wordsHoldForOneDirection()
+void tst_FaultPlan::optionsMayApplyToOneDirection()
 {
     const FaultPlan plan = planOf("loss=5%,loss-sent=50%,delay-received=1s,cut-sent=0s");
     QCOMPARE(plan.sent.loss, 0.5);  // what comes later counts
@@ -71,7 +71,7 @@ void tst_FaultPlan::aCutHasBeginLengthAndPeriod()
             && !again.isCut(350));
 }
 
-void tst_FaultPlan::wrongWordsAreNamed_data()
+void tst_FaultPlan::invalidOptionsAreReported_data()
 {
     QTest::addColumn<QString>("message");
     const auto row = [](const char *text, const char *message) { QTest::newRow(text) << QString::fromLatin1(message); };
@@ -97,7 +97,7 @@ void tst_FaultPlan::wrongWordsAreNamed_data()
     row("cut=1s+2s/2s", "'cut=1s+2s/2s': use BEGIN");
 }
 
-void tst_FaultPlan::wrongWordsAreNamed()
+void tst_FaultPlan::invalidOptionsAreReported()
 {
     QFETCH(QString, message);
     QString error;

@@ -13,10 +13,10 @@ class tst_FrameStream : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void framesComeOutHoweverTheBytesCome_data();
-    void framesComeOutHoweverTheBytesCome();
-    void garbageIsNeverAFrame_data();
-    void garbageIsNeverAFrame();
+    void framesAreReadFromAnyPieces_data();
+    void framesAreReadFromAnyPieces();
+    void garbageIsNeverReadAsAFrame_data();
+    void garbageIsNeverReadAsAFrame();
     void aFullSocketTearsNoFrame();
     void aBlockingSenderTearsNoFrameEither();
     void aFrameThatIsTooLongIsLeftOut();
@@ -47,14 +47,14 @@ void shrink(const StreamPair &pair)
 
 }  // namespace
 
-void tst_FrameStream::framesComeOutHoweverTheBytesCome_data()
+void tst_FrameStream::framesAreReadFromAnyPieces_data()
 {
     QTest::addColumn<int>("piece");
     for (int piece : {1, 2, 3, 7, 50, 1000})
         QTest::addRow("%d bytes at a time", piece) << piece;
 }
 
-void tst_FrameStream::framesComeOutHoweverTheBytesCome()
+void tst_FrameStream::framesAreReadFromAnyPieces()
 {
     QFETCH(int, piece);
     QVector<QByteArray> sent;
@@ -70,7 +70,7 @@ void tst_FrameStream::framesComeOutHoweverTheBytesCome()
     QCOMPARE(received, sent);
 }
 
-void tst_FrameStream::garbageIsNeverAFrame_data()
+void tst_FrameStream::garbageIsNeverReadAsAFrame_data()
 {
     QTest::addColumn<QByteArray>("bytes");
     QTest::newRow("no begin") << QByteArray("GET /");
@@ -79,7 +79,7 @@ void tst_FrameStream::garbageIsNeverAFrame_data()
     QTest::newRow("behind a good frame") << toyFrame(5) + "G\x05";
 }
 
-void tst_FrameStream::garbageIsNeverAFrame()
+void tst_FrameStream::garbageIsNeverReadAsAFrame()
 {
     QFETCH(QByteArray, bytes);
     FrameBuffer buffer(100);

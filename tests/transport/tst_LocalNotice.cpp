@@ -16,13 +16,13 @@ class tst_LocalNotice : public QObject
 private Q_SLOTS:
     void init() { m_folder = std::make_unique<RuntimeFolder>(); }
     void cleanup() { m_folder.reset(); }
-    void whatIsPostedIsReadUntilItIsWithdrawn();
+    void noticeIsReadUntilItIsWithdrawn();
     void aNewNoticeTakesThePlaceOfTheOldOne();
-    void noticesOfTheDeadAreNotReadAndGoAway();
-    void whatIsTooLongIsRefused();
+    void noticesOfEndedProgramsAreIgnoredAndRemoved();
+    void oversizedNoticeIsRefused();
     void aFolderThatOthersMayWriteIsNotUsed();
-    void withoutAFolderThereAreNone();
-    void manyAreCutOff();
+    void missingFolderMeansNoNotices();
+    void numberOfNoticesIsLimited();
 
 private:
     QString home() const { return m_folder->notices(); }
@@ -35,7 +35,7 @@ private:
     std::unique_ptr<RuntimeFolder> m_folder;
 };
 
-void tst_LocalNotice::whatIsPostedIsReadUntilItIsWithdrawn()
+void tst_LocalNotice::noticeIsReadUntilItIsWithdrawn()
 {
     QVERIFY(LocalNotice::all().isEmpty());
     {
@@ -59,7 +59,7 @@ void tst_LocalNotice::aNewNoticeTakesThePlaceOfTheOldOne()
     QCOMPARE(LocalNotice::all(), QVector<QByteArray>{"after"});
 }
 
-void tst_LocalNotice::noticesOfTheDeadAreNotReadAndGoAway()
+void tst_LocalNotice::noticesOfEndedProgramsAreIgnoredAndRemoved()
 {
     LocalNotice first;
     QVERIFY(first.post("lives"));
@@ -74,7 +74,7 @@ void tst_LocalNotice::noticesOfTheDeadAreNotReadAndGoAway()
     QCOMPARE(LocalNotice::all().size(), 2);
 }
 
-void tst_LocalNotice::whatIsTooLongIsRefused()
+void tst_LocalNotice::oversizedNoticeIsRefused()
 {
     LocalNotice notice;
     QVERIFY(!notice.post(QByteArray(LocalNotice::MaximumSize + 1, 'x')));
@@ -95,7 +95,7 @@ void tst_LocalNotice::aFolderThatOthersMayWriteIsNotUsed()
     QVERIFY(!notice.post("x"));
 }
 
-void tst_LocalNotice::withoutAFolderThereAreNone()
+void tst_LocalNotice::missingFolderMeansNoNotices()
 {
     qputenv("XDG_RUNTIME_DIR", "/proc/nowhere");
     LocalNotice notice;
@@ -103,7 +103,7 @@ void tst_LocalNotice::withoutAFolderThereAreNone()
     QVERIFY(LocalNotice::all().isEmpty());
 }
 
-void tst_LocalNotice::manyAreCutOff()
+void tst_LocalNotice::numberOfNoticesIsLimited()
 {
     std::vector<std::unique_ptr<LocalNotice>> many;
     for (int i = 0; i < LocalNotice::MaximumCount + 5; ++i) {

@@ -10,12 +10,12 @@ class tst_LoopbackProbe : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void everyDatagramComesBack_data();
-    void everyDatagramComesBack();
+    void everyDatagramReturns_data();
+    void everyDatagramReturns();
     void durationIsThatOfTheClock();
 };
 
-void tst_LoopbackProbe::everyDatagramComesBack_data()
+void tst_LoopbackProbe::everyDatagramReturns_data()
 {
     QTest::addColumn<int>("count");
     QTest::newRow("none") << 0;
@@ -23,7 +23,7 @@ void tst_LoopbackProbe::everyDatagramComesBack_data()
     QTest::newRow("many") << 500;
 }
 
-void tst_LoopbackProbe::everyDatagramComesBack()
+void tst_LoopbackProbe::everyDatagramReturns()
 {
     QFETCH(int, count);
     int came = 0;

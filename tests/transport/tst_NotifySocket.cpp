@@ -13,16 +13,16 @@ class tst_NotifySocket : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void aPathIsReached();
-    void aNameWithoutAFileIsReached();
-    void withoutAnAddressNobodyIsTold();
-    void whatIsNoAddressIsNamed_data();
-    void whatIsNoAddressIsNamed();
-    void whoHasGoneIsNamed();
-    void aListenerThatDoesNotReadIsNotWaitedFor();
+    void messageReachesAPathAddress();
+    void messageReachesAnAbstractAddress();
+    void socketWithoutAnAddressSendsNothing();
+    void invalidAddressIsReported_data();
+    void invalidAddressIsReported();
+    void missingReceiverIsReported();
+    void receiverThatDoesNotReadDelaysNoSender();
 };
 
-void tst_NotifySocket::aPathIsReached()
+void tst_NotifySocket::messageReachesAPathAddress()
 {
     NotifyListener listener;
     QVERIFY(listener.isOpen());
@@ -33,7 +33,7 @@ void tst_NotifySocket::aPathIsReached()
     QCOMPARE(listener.take(), QStringList({"READY=1", "STATUS=up", "WATCHDOG=1"}));
 }
 
-void tst_NotifySocket::aNameWithoutAFileIsReached()
+void tst_NotifySocket::messageReachesAnAbstractAddress()
 {
     const QByteArray name = "@qtplc-test-" + QByteArray::number(qint64(::getpid()));
     sockaddr_un address = {};
@@ -49,14 +49,14 @@ void tst_NotifySocket::aNameWithoutAFileIsReached()
     ::close(listener);
 }
 
-void tst_NotifySocket::withoutAnAddressNobodyIsTold()
+void tst_NotifySocket::socketWithoutAnAddressSendsNothing()
 {
     NotifySocket socket("");
     QVERIFY(!socket.isWanted());
     QVERIFY(socket.send("READY=1"));
 }
 
-void tst_NotifySocket::whatIsNoAddressIsNamed_data()
+void tst_NotifySocket::invalidAddressIsReported_data()
 {
     QTest::addColumn<QByteArray>("address");
     QTest::newRow("relative") << QByteArray("run/notify");
@@ -64,7 +64,7 @@ void tst_NotifySocket::whatIsNoAddressIsNamed_data()
     QTest::newRow("too long") << QByteArray("/") + QByteArray(200, 'x');
 }
 
-void tst_NotifySocket::whatIsNoAddressIsNamed()
+void tst_NotifySocket::invalidAddressIsReported()
 {
     QFETCH(QByteArray, address);
     NotifySocket socket(address);
@@ -73,7 +73,7 @@ void tst_NotifySocket::whatIsNoAddressIsNamed()
     QVERIFY2(socket.errorString().contains("at most 107 bytes"), qPrintable(socket.errorString()));
 }
 
-void tst_NotifySocket::whoHasGoneIsNamed()
+void tst_NotifySocket::missingReceiverIsReported()
 {
     QByteArray path;
     {
@@ -86,7 +86,7 @@ void tst_NotifySocket::whoHasGoneIsNamed()
              QStringLiteral("NOTIFY_SOCKET=%1: No such file or directory").arg(QFile::decodeName(path)));
 }
 
-void tst_NotifySocket::aListenerThatDoesNotReadIsNotWaitedFor()
+void tst_NotifySocket::receiverThatDoesNotReadDelaysNoSender()
 {
     NotifyListener listener;
     NotifySocket socket(QFile::encodeName(listener.path()));

@@ -57,21 +57,21 @@ class tst_PeerFile : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void onlyDescriptorsOfAProcessAreLookedAt_data();
-    void onlyDescriptorsOfAProcessAreLookedAt();
+    void onlyDescriptorPathsAreAccepted_data();
+    void onlyDescriptorPathsAreAccepted();
     void memoryHasToBeSealed();
     void memoryHasToHaveItsSize();
-    void memoryIsNoPipeAndAPipeIsNoMemory();
-    void theOwnerHasToBeThatOfTheMaster();
+    void fileOfTheWrongKindIsRefused();
+    void fileHasToBelongToTheUserOfTheMaster();
     void aFileThatIsSwappedInIsNotOpened();
-    void lookingOpensNothing();
+    void findOpensNoFile();
     void theKernelTellsTheUserOfAPeer_data();
     void theKernelTellsTheUserOfAPeer();
     void theKernelTellsAnotherUser();
     void aPeerThatHasClosedHasNoUser();
 };
 
-void tst_PeerFile::onlyDescriptorsOfAProcessAreLookedAt_data()
+void tst_PeerFile::onlyDescriptorPathsAreAccepted_data()
 {
     QTest::addColumn<QString>("path");
     const QString self = QString::number(::getpid());
@@ -91,7 +91,7 @@ void tst_PeerFile::onlyDescriptorsOfAProcessAreLookedAt_data()
     QTest::newRow("digits of another script") << "/proc/" + self + "/fd/" + QChar(0x0661);
 }
 
-void tst_PeerFile::onlyDescriptorsOfAProcessAreLookedAt()
+void tst_PeerFile::onlyDescriptorPathsAreAccepted()
 {
     QFETCH(QString, path);
     PeerFile file;
@@ -136,7 +136,7 @@ void tst_PeerFile::memoryHasToHaveItsSize()
     QVERIFY2(error.contains("4096 bytes instead of 4097"), qPrintable(error));
 }
 
-void tst_PeerFile::memoryIsNoPipeAndAPipeIsNoMemory()
+void tst_PeerFile::fileOfTheWrongKindIsRefused()
 {
     QString error;
     int ends[2];
@@ -167,7 +167,7 @@ void tst_PeerFile::memoryIsNoPipeAndAPipeIsNoMemory()
     QCOMPARE(open(pathOf(in.number), true), QString("opened"));
 }
 
-void tst_PeerFile::theOwnerHasToBeThatOfTheMaster()
+void tst_PeerFile::fileHasToBelongToTheUserOfTheMaster()
 {
     QString error;
     SharedMemory memory;
@@ -204,7 +204,7 @@ void tst_PeerFile::aFileThatIsSwappedInIsNotOpened()
     QCOMPARE(file.readAll(), QByteArray("secret"));
 }
 
-void tst_PeerFile::lookingOpensNothing()
+void tst_PeerFile::findOpensNoFile()
 {
     QString error;
     const QTemporaryDir folder;

@@ -10,14 +10,14 @@ class tst_QPlcUnderlyingProtocol : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void readsAddresses_data();
-    void readsAddresses();
-    void refusesWithASentence_data();
-    void refusesWithASentence();
-    void knowsItsKind();
+    void addressesAreRead_data();
+    void addressesAreRead();
+    void invalidAddressesAreRefusedWithAReason_data();
+    void invalidAddressesAreRefusedWithAReason();
+    void protocolReportsItsKind();
 };
 
-void tst_QPlcUnderlyingProtocol::readsAddresses_data()
+void tst_QPlcUnderlyingProtocol::addressesAreRead_data()
 {
     QTest::addColumn<QString>("text");
     QTest::addColumn<bool>("udp");
@@ -39,7 +39,7 @@ void tst_QPlcUnderlyingProtocol::readsAddresses_data()
     QTest::newRow("any") << "0.0.0.0:5" << false << "tcp://0.0.0.0:5";
 }
 
-void tst_QPlcUnderlyingProtocol::readsAddresses()
+void tst_QPlcUnderlyingProtocol::addressesAreRead()
 {
     QFETCH(QString, text);
     QFETCH(bool, udp);
@@ -52,7 +52,7 @@ void tst_QPlcUnderlyingProtocol::readsAddresses()
     QVERIFY(error.isEmpty());
 }
 
-void tst_QPlcUnderlyingProtocol::refusesWithASentence_data()
+void tst_QPlcUnderlyingProtocol::invalidAddressesAreRefusedWithAReason_data()
 {
     QTest::addColumn<QString>("text");
     QTest::addColumn<QString>("word");
@@ -94,7 +94,7 @@ void tst_QPlcUnderlyingProtocol::refusesWithASentence_data()
                                   << "'no.such.host.invalid'";
 }
 
-void tst_QPlcUnderlyingProtocol::refusesWithASentence()
+void tst_QPlcUnderlyingProtocol::invalidAddressesAreRefusedWithAReason()
 {
     QFETCH(QString, text);
     QFETCH(QString, word);
@@ -104,7 +104,7 @@ void tst_QPlcUnderlyingProtocol::refusesWithASentence()
     QVERIFY(!P::fromString(text).isValid());  // without anybody who wants to know why
 }
 
-void tst_QPlcUnderlyingProtocol::knowsItsKind()
+void tst_QPlcUnderlyingProtocol::protocolReportsItsKind()
 {
     QCOMPARE(P::tcp(QHostAddress::LocalHost).kindName(), QString("tcp"));
     QCOMPARE(P::udp(QHostAddress::LocalHost).kindName(), QString("udp"));

@@ -35,22 +35,22 @@ class tst_SharedChannel : public QObject
 
 private Q_SLOTS:
     void initTestCase();
-    void memoryIsOneForAllWhoOpenIt();
+    void memoryIsSharedByAllUsers();
     void memoryOfAnotherSizeOrPlaceIsRefused();
     void memoryCannotBeMadeSmaller();
     void framesComeInOrderAroundTheEnd();
     void aFullRingRefuses();
     void aFrameWithoutBytesIsSkipped();
-    void nonsenseInTheRingIsSkipped_data();
-    void nonsenseInTheRingIsSkipped();
-    void aMillionFramesBetweenTwoThreads();
-    void theLastAnswerWakes();
+    void invalidRingContentIsSkipped_data();
+    void invalidRingContentIsSkipped();
+    void millionFramesPassUnchangedBetweenTwoThreads();
+    void lastAnswerWakesTheHub();
     void aSleeperInPollIsWokenThroughThePipe();
     void aLinkSleepsUntilItsRequestComes();
     void hubAndLinksExchangeFrames();
     void localAndOtherPeersAreServedTogether();
-    void aNodeThatSleepsForEverBlocksNobody();
-    void namesFindPorts();
+    void sleepingNodeDoesNotBlockOthers();
+    void portIsFoundByName();
 };
 
 namespace {
@@ -119,7 +119,7 @@ void tst_SharedChannel::initTestCase()
     QStandardPaths::setTestModeEnabled(true);
 }
 
-void tst_SharedChannel::memoryIsOneForAllWhoOpenIt()
+void tst_SharedChannel::memoryIsSharedByAllUsers()
 {
     QString error;
     SharedMemory made;
@@ -190,7 +190,7 @@ void tst_SharedChannel::aFrameWithoutBytesIsSkipped()
     QCOMPARE(pop(*ring), QByteArray("good"));
 }
 
-void tst_SharedChannel::nonsenseInTheRingIsSkipped_data()
+void tst_SharedChannel::invalidRingContentIsSkipped_data()
 {
     QTest::addColumn<quint32>("length");
     QTest::newRow("nothing") << quint32(0);
@@ -200,7 +200,7 @@ void tst_SharedChannel::nonsenseInTheRingIsSkipped_data()
     QTest::newRow("longest") << std::numeric_limits<quint32>::max();
 }
 
-void tst_SharedChannel::nonsenseInTheRingIsSkipped()
+void tst_SharedChannel::invalidRingContentIsSkipped()
 {
     QFETCH(quint32, length);
     const auto ring = std::make_unique<SharedRing>();
@@ -212,7 +212,7 @@ void tst_SharedChannel::nonsenseInTheRingIsSkipped()
     QCOMPARE(pop(*ring), QByteArray("good"));
 }
 
-void tst_SharedChannel::aMillionFramesBetweenTwoThreads()
+void tst_SharedChannel::millionFramesPassUnchangedBetweenTwoThreads()
 {
     constexpr std::uint32_t count = 1'000'000;
     const auto ring = std::make_unique<SharedRing>();
@@ -245,7 +245,7 @@ void tst_SharedChannel::aMillionFramesBetweenTwoThreads()
     QVERIFY(good);
 }
 
-void tst_SharedChannel::theLastAnswerWakes()
+void tst_SharedChannel::lastAnswerWakesTheHub()
 {
     constexpr int nodes = 10;
     LocalPlant plant(nodes);
@@ -340,7 +340,7 @@ void tst_SharedChannel::localAndOtherPeersAreServedTogether()
     QVERIFY(plant.take(1'000'000).isEmpty());
 }
 
-void tst_SharedChannel::aNodeThatSleepsForEverBlocksNobody()
+void tst_SharedChannel::sleepingNodeDoesNotBlockOthers()
 {
     LocalPlant plant(2);
     const QByteArray question(1000, 'q');
@@ -359,7 +359,7 @@ void tst_SharedChannel::aNodeThatSleepsForEverBlocksNobody()
     QCOMPARE(receive(*plant.links[0]), question);  // what had room waits for it
 }
 
-void tst_SharedChannel::namesFindPorts()
+void tst_SharedChannel::portIsFoundByName()
 {
     QString error;
     const QString name = QStringLiteral("tst-%1").arg(QCoreApplication::applicationPid());

@@ -11,13 +11,13 @@ class tst_SocketAddress : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void looksLikeTheKernelWantsIt();
+    void addressHasTheLayoutOfTheKernel();
     void mappedIpv4CountsAsIpv4();
     void differentPeersHaveDifferentKeys();
-    void namesTheSystemError();
+    void systemErrorIsDescribed();
 };
 
-void tst_SocketAddress::looksLikeTheKernelWantsIt()
+void tst_SocketAddress::addressHasTheLayoutOfTheKernel()
 {
     const SocketAddress ipv4(QHostAddress("192.168.1.2"), 50000);
     const auto *in = reinterpret_cast<const sockaddr_in *>(ipv4.data());
@@ -66,7 +66,7 @@ void tst_SocketAddress::differentPeersHaveDifferentKeys()
     QCOMPARE(keys.size(), count);
 }
 
-void tst_SocketAddress::namesTheSystemError()
+void tst_SocketAddress::systemErrorIsDescribed()
 {
     errno = EADDRINUSE;
     QCOMPARE(qplc::systemErrorText(), QString("Address already in use"));

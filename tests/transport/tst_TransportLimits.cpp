@@ -32,16 +32,16 @@ class tst_TransportLimits : public QObject
 
 private Q_SLOTS:
     void datagramsBeyondABatchComeInOrder();
-    void requestsBeyondTheTableGoOutAtOnce();
+    void requestsBeyondTheTableAreSentImmediately();
     void peersBeyondTheTableAreStrangers();
     void aDatagramThatIsTooLongIsCut();
-    void peersComeGoAndComeAgain();
-    void aClosedPeerStaysAsleepWhenOthersComeAndGo();
+    void peersCanBeDetachedAndAttachedAgain();
+    void closedPeerCausesNoFurtherWakeUps();
     void aClosedHubSendsNothingAndMayOpenAgain();
     void allAddressesOfIpv6AreNotThoseOfIpv4();
     void ipv4PeersAreKnownOnADualStackSocket();
-    void aUdpLinkFindsItsMasterAgain();
-    void waitsLastAsLongAsTheyShould();
+    void udpLinkReconnectsToItsMaster();
+    void waitsLastUntilTheirTimeout();
     void pollNeverWaits();
 };
 
@@ -104,7 +104,7 @@ void tst_TransportLimits::datagramsBeyondABatchComeInOrder()
     }
 }
 
-void tst_TransportLimits::requestsBeyondTheTableGoOutAtOnce()
+void tst_TransportLimits::requestsBeyondTheTableAreSentImmediately()
 {
     Hub hub;
     const UdpSocket socket;
@@ -151,7 +151,7 @@ void tst_TransportLimits::aDatagramThatIsTooLongIsCut()
     QCOMPARE(frames.at(1), QByteArray("next"));
 }
 
-void tst_TransportLimits::peersComeGoAndComeAgain()
+void tst_TransportLimits::peersCanBeDetachedAndAttachedAgain()
 {
     Hub hub;
     const UdpSocket sockets[3];
@@ -177,7 +177,7 @@ void tst_TransportLimits::peersComeGoAndComeAgain()
     QCOMPARE(hub.strangers(), std::uint64_t(3 + 1 + 1));
 }
 
-void tst_TransportLimits::aClosedPeerStaysAsleepWhenOthersComeAndGo()
+void tst_TransportLimits::closedPeerCausesNoFurtherWakeUps()
 {
     Hub hub;
     StreamPair gone;
@@ -237,7 +237,7 @@ void tst_TransportLimits::ipv4PeersAreKnownOnADualStackSocket()
     QCOMPARE(hub.take(1), QVector<QByteArray>{"from ::ffff:127.0.0.1"});
 }
 
-void tst_TransportLimits::aUdpLinkFindsItsMasterAgain()
+void tst_TransportLimits::udpLinkReconnectsToItsMaster()
 {
     QString error;
     quint16 port = 0;
@@ -264,7 +264,7 @@ void tst_TransportLimits::aUdpLinkFindsItsMasterAgain()
     QVERIFY(second.wait(5'000'000'000));
 }
 
-void tst_TransportLimits::waitsLastAsLongAsTheyShould()
+void tst_TransportLimits::waitsLastUntilTheirTimeout()
 {
     constexpr qint64 time = 10'000'000;  // [ns]
     Hub hub;

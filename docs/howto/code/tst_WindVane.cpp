@@ -19,9 +19,9 @@ private Q_SLOTS:
     void init();
     void cleanup() { ::close(m_vane); }
     void anAngleIsRead();
-    void disturbedLinesAreLeftOut();
-    void aVaneThatIsUnpluggedIsToldOf();
-    void aMissingDeviceIsNamedAsAMistake();
+    void invalidLinesAreIgnored();
+    void unpluggedVaneIsReported();
+    void missingDeviceKeyIsAConfigurationError();
 
 private:
     void say(const QByteArray &text)
@@ -65,7 +65,7 @@ void tst_WindVane::anAngleIsRead()
     node.closeDevices();
 }
 
-void tst_WindVane::disturbedLinesAreLeftOut()
+void tst_WindVane::invalidLinesAreIgnored()
 {
     QPlcHardwareNode node;
     QVERIFY(configure(node, m_device));
@@ -77,7 +77,7 @@ void tst_WindVane::disturbedLinesAreLeftOut()
     node.closeDevices();
 }
 
-void tst_WindVane::aVaneThatIsUnpluggedIsToldOf()
+void tst_WindVane::unpluggedVaneIsReported()
 {
     QPlcHardwareNode node;
     QVERIFY(configure(node, m_device));
@@ -93,7 +93,7 @@ void tst_WindVane::aVaneThatIsUnpluggedIsToldOf()
     node.closeDevices();
 }
 
-void tst_WindVane::aMissingDeviceIsNamedAsAMistake()
+void tst_WindVane::missingDeviceKeyIsAConfigurationError()
 {
     QPlcHardwareNode node;
     QVERIFY(!configure(node, ""));

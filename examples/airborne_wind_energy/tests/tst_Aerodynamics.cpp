@@ -20,7 +20,7 @@ private Q_SLOTS:
     void liftCoefficientsAgreeWithThePublishedDigits();
     void agreesWithTheTableForEveryDegree();
     void bestAweCoefficientIsThePublishedOne();
-    void bestGlideAndZeroLiftAreWhereTheyWereFound();
+    void bestGlideAndZeroLiftAgreeWithTheReferenceAngles();
     void maximumPowerAtThesisWindIsPublished();
     void dragFactorScalesDragButNotTheAweCoefficient();
     void noWindGivesNoForce();
@@ -30,7 +30,7 @@ private Q_SLOTS:
     void windFromBelowGivesAPositiveAngle();
     void roundingBeyondOneIsClamped();
     void foldedRangeFoldsBackwardFlow();
-    void fullRangeTellsBackwardFlow();
+    void fullRangeDistinguishesBackwardFlow();
 };
 
 namespace {
@@ -89,7 +89,7 @@ void tst_Aerodynamics::bestAweCoefficientIsThePublishedOne()
     COMPARE_NEAR(best.angleOfAttack, 21.977, 5e-4);
 }
 
-void tst_Aerodynamics::bestGlideAndZeroLiftAreWhereTheyWereFound()
+void tst_Aerodynamics::bestGlideAndZeroLiftAgreeWithTheReferenceAngles()
 {
     const Aerodynamics aerodynamics;
     COMPARE_NEAR(aerodynamics.liftCoefficient(15.2) / aerodynamics.dragCoefficient(15.2), 4.438, 5e-4);
@@ -164,7 +164,7 @@ void tst_Aerodynamics::foldedRangeFoldsBackwardFlow()
     COMPARE_NEAR(Aerodynamics().airflow(fromBehind, tail, side, top, 6.0).angleOfAttack, 17.188733853924695, 1e-12);
 }
 
-void tst_Aerodynamics::fullRangeTellsBackwardFlow()
+void tst_Aerodynamics::fullRangeDistinguishesBackwardFlow()
 {
     const Aerodynamics full(1.0, AngleOfAttackRange::Full);
     const Vector3d fromBehind = -std::cos(0.3) * tail + std::sin(0.3) * top;

@@ -59,21 +59,21 @@ class tst_Allocations : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void counterCounts();
-    void wholeLoopTakesNoMemoryInAnyPhase();
-    void crashedFlightTakesNoMemory();
-    void resetTakesNoMemory();
-    void winchDriveTakesNoMemory();
+    void counterDetectsAllocations();
+    void closedLoopAllocatesNoMemoryInAnyPhase();
+    void crashedFlightAllocatesNoMemory();
+    void resetAllocatesNoMemory();
+    void winchDriveAllocatesNoMemory();
 };
 
-void tst_Allocations::counterCounts()
+void tst_Allocations::counterDetectsAllocations()
 {
     const long before = allocations;
     ::operator delete(::operator new(1));  // written as calls: a compiler may drop a new-expression
     QVERIFY(allocations > before);
 }
 
-void tst_Allocations::wholeLoopTakesNoMemoryInAnyPhase()
+void tst_Allocations::closedLoopAllocatesNoMemoryInAnyPhase()
 {
     ClosedLoopParameters parameters;
     parameters.wind.turbulenceIntensity = 0.25;  // with recoveries
@@ -94,7 +94,7 @@ void tst_Allocations::wholeLoopTakesNoMemoryInAnyPhase()
     QVERIFY(report.recoveries > 0);
 }
 
-void tst_Allocations::crashedFlightTakesNoMemory()
+void tst_Allocations::crashedFlightAllocatesNoMemory()
 {
     ClosedLoopParameters parameters;
     parameters.plant.initialState.position.z() = 0.1;
@@ -107,7 +107,7 @@ void tst_Allocations::crashedFlightTakesNoMemory()
     QVERIFY(flight.report().crashed);
 }
 
-void tst_Allocations::resetTakesNoMemory()
+void tst_Allocations::resetAllocatesNoMemory()
 {
     ClosedLoopFlight flight{ClosedLoopParameters()};
     flight.fly(10.0);
@@ -116,7 +116,7 @@ void tst_Allocations::resetTakesNoMemory()
     QCOMPARE(allocations - before, 0L);
 }
 
-void tst_Allocations::winchDriveTakesNoMemory()
+void tst_Allocations::winchDriveAllocatesNoMemory()
 {
     WinchDrive drive;
     WinchStatistics statistics;

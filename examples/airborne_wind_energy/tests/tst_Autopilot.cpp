@@ -14,9 +14,9 @@ private Q_SLOTS:
     void launchesTowardsTheZenithAboveTheWind();
     void windDirectionStartsWithTheFirstMeasurement();
     void windDirectionIsFollowedSlowlyAndTheShortWayRound();
-    void phaseIsThatOfThePowerController();
+    void phaseEqualsThePhaseOfThePowerController();
     void mirroredMeasurementsMirrorTheYawInZenithMode();
-    void unusableMeasurementsAreAnsweredByStandingStillAndForgotten();
+    void unusableMeasurementsGiveZeroCommandsAndLeaveNoState();
     void resetRepeatsTheCommandsBitForBit();
 
 private:
@@ -61,7 +61,7 @@ void tst_Autopilot::windDirectionIsFollowedSlowlyAndTheShortWayRound()
     COMPARE_NEAR(autopilot.step(m_measurements).yawSpeed / 6.0, 5.0 - 10.0 * (1.0 - std::exp(-1.0 / 20.0)), 0.01);
 }
 
-void tst_Autopilot::phaseIsThatOfThePowerController()
+void tst_Autopilot::phaseEqualsThePhaseOfThePowerController()
 {
     Autopilot autopilot;
     m_measurements.velocity = {0.0, 15.0, 0.0};
@@ -81,7 +81,7 @@ void tst_Autopilot::mirroredMeasurementsMirrorTheYawInZenithMode()
     COMPARE_NEAR(left.step(m_measurements).yawSpeed, -right.step(mirrored).yawSpeed, 1e-12);
 }
 
-void tst_Autopilot::unusableMeasurementsAreAnsweredByStandingStillAndForgotten()
+void tst_Autopilot::unusableMeasurementsGiveZeroCommandsAndLeaveNoState()
 {
     Autopilot autopilot, untouched;
     m_measurements.velocity = {0.0, 15.0, 0.0};

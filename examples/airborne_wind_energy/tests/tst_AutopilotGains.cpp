@@ -15,7 +15,7 @@ class tst_AutopilotGains : public QObject
 
 private Q_SLOTS:
     void bothSetsAreValid();
-    void tunedFliesLowerAndReelsInLower();
+    void tunedGainsPermitLowerFlightAndLowerReelIn();
     void badGainIsNamedWithItsRemedy_data();
     void badGainIsNamedWithItsRemedy();
     void everyPhaseHasAName();
@@ -33,7 +33,7 @@ void tst_AutopilotGains::bothSetsAreValid()
     QCOMPARE(limited.validate(), std::string());
 }
 
-void tst_AutopilotGains::tunedFliesLowerAndReelsInLower()
+void tst_AutopilotGains::tunedGainsPermitLowerFlightAndLowerReelIn()
 {
     const AutopilotGains safe = AutopilotGains::safe(), tuned = AutopilotGains::tuned();
     QVERIFY(tuned.lowestHeight < safe.lowestHeight);

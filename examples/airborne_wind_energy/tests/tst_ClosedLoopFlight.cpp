@@ -28,7 +28,7 @@ private Q_SLOTS:
     void gustIsSurvived();
     void strongTurbulenceIsSurvivedByRecovering();
     void deadTimeIsCountedInCycles();
-    void withoutDeadTimeOutputsComeBeforeInputs();
+    void plantOutputsPrecedeItsInputsWithoutDeadTime();
     void real32SignalsAreRounded();
     void resetRepeatsTheFlightBitForBit();
     void badParametersAreNamed();
@@ -231,7 +231,7 @@ void tst_ClosedLoopFlight::deadTimeIsCountedInCycles()
     }
 }
 
-void tst_ClosedLoopFlight::withoutDeadTimeOutputsComeBeforeInputs()
+void tst_ClosedLoopFlight::plantOutputsPrecedeItsInputsWithoutDeadTime()
 {
     ClosedLoopParameters parameters;
     parameters.deadTime = 0;

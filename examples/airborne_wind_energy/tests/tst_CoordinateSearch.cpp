@@ -16,10 +16,10 @@ private Q_SLOTS:
     void summitIsFound_data();
     void summitIsFound();
     void rangeIsKept();
-    void smallGainsAreNotWorthAMove();
+    void searchIgnoresImprovementsBelowTheThreshold();
     void flatFunctionLeavesTheStart();
-    void whatMayNotBeIsNeverChosen();
-    void noCoordinateIsNoSearch();
+    void searchNeverSelectsForbiddenPoints();
+    void searchWithoutCoordinatesEvaluatesOnce();
     void searchIsRepeatable();
 
 private:
@@ -58,7 +58,7 @@ void tst_CoordinateSearch::rangeIsKept()
     QCOMPARE(search.climb({0.1}, 3), Point{1.3});
 }
 
-void tst_CoordinateSearch::smallGainsAreNotWorthAMove()
+void tst_CoordinateSearch::searchIgnoresImprovementsBelowTheThreshold()
 {
     const auto slope = [](const Point &p) { return 0.01 * p[0]; };
     CoordinateSearch patient(slope, {{0.0, 10.0, 1.0}}, 0.02);
@@ -74,7 +74,7 @@ void tst_CoordinateSearch::flatFunctionLeavesTheStart()
     QCOMPARE(search.evaluations(), 1 + 2 * 4);  // the start, and up and down of both in two rounds
 }
 
-void tst_CoordinateSearch::whatMayNotBeIsNeverChosen()
+void tst_CoordinateSearch::searchNeverSelectsForbiddenPoints()
 {
     const double never = -std::numeric_limits<double>::infinity();
     const auto fenced = [&](const Point &p) { return p[0] > 4.0 ? never : p[0] < 0.0 ? std::nan("") : p[0]; };
@@ -84,7 +84,7 @@ void tst_CoordinateSearch::whatMayNotBeIsNeverChosen()
     QCOMPARE(outside.climb({4.5}, 1), Point{3.5});  // the way in is found
 }
 
-void tst_CoordinateSearch::noCoordinateIsNoSearch()
+void tst_CoordinateSearch::searchWithoutCoordinatesEvaluatesOnce()
 {
     CoordinateSearch search([](const Point &) { return 1.0; }, {});
     QCOMPARE(search.climb({}, 5), Point{});

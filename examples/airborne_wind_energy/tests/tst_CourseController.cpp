@@ -13,8 +13,8 @@ class tst_CourseController : public QObject
 private Q_SLOTS:
     void eightHasItsSizeInMetres();
     void eightStaysAboveItsLowestHeightAndElevation();
-    void wingAheadOfThePathPointMovesItOn();
-    void pathPointCannotRunAway();
+    void wingAheadOfThePathPointAdvancesThePathPoint();
+    void pathPointAdvancesAtMostOneRadian();
     void wingFarAwayIsLedStraightBack();
     void courseErrorIsCorrectedButNotWhenReversed();
     void guardForbidsADiveThatEndsTooLow();
@@ -59,7 +59,7 @@ void tst_CourseController::eightStaysAboveItsLowestHeightAndElevation()
     QVERIFY(std::isfinite(low(20.0)));  // shorter than the lowest height
 }
 
-void tst_CourseController::wingAheadOfThePathPointMovesItOn()
+void tst_CourseController::wingAheadOfThePathPointAdvancesThePathPoint()
 {
     CourseController controller{AutopilotGains()};
     const auto middle = controller.pathPoint(0.0, 150.0);
@@ -76,7 +76,7 @@ void tst_CourseController::wingAheadOfThePathPointMovesItOn()
     QVERIFY(controller.pathParameter() > before);  // faster flight looks farther ahead
 }
 
-void tst_CourseController::pathPointCannotRunAway()
+void tst_CourseController::pathPointAdvancesAtMostOneRadian()
 {
     AutopilotGains gains;
     gains.eightHalfWidth = 1.0;  // the whole eight lies within the look-ahead

@@ -12,18 +12,18 @@ class tst_FlightGeometry : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void tellsWhereTheWingIs();
+    void geometryContainsThePositionOfTheWing();
     void azimuthCountsFromTheWindAndWraps();
     void speedsAreAlongTheSphere();
     void courseAndHeadingCountFromTheZenith();
     void slowWingHasItsHeadingForACourse();
-    void zenithItselfIsNoTrap();
+    void geometryIsFiniteAtTheZenith();
     void anglesWrapToHalfATurn();
     void lowPassSettlesWithItsTimeConstant();
     void lowPassShorterThanTheStepPassesThrough();
 };
 
-void tst_FlightGeometry::tellsWhereTheWingIs()
+void tst_FlightGeometry::geometryContainsThePositionOfTheWing()
 {
     FlightMeasurements m;
     m.position = {60.0, 80.0, 100.0};
@@ -75,7 +75,7 @@ void tst_FlightGeometry::slowWingHasItsHeadingForACourse()
     COMPARE_NEAR(FlightGeometry::from(m, 0.0).course(3.0), -40.0, 1e-12);
 }
 
-void tst_FlightGeometry::zenithItselfIsNoTrap()
+void tst_FlightGeometry::geometryIsFiniteAtTheZenith()
 {
     FlightMeasurements m;
     m.position = {0.0, 0.0, 100.0};

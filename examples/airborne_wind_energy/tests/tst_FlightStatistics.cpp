@@ -13,23 +13,23 @@ class tst_FlightStatistics : public QObject
 
 private Q_SLOTS:
     void init();
-    void nothingFlownIsAllZero();
+    void reportBeforeTheFirstSampleIsZero();
     void etaIsOneAtTheBestPower();
-    void etaUsesTheNominalWindAndTheOtherTheMeanCube();
+    void etaUsesTheNominalWindAndMeanEtaTheMeanCubedWind();
     void powersAreSplitByTheSignOfTheTetherSpeed();
     void warmUpIsLeftOutOfLongFlightsOnly();
     void energyIsLastMinusFirst();
     void pumpingCycleEndsWhenReelInBecomesPower();
     void recoveriesAreCountedOnce();
     void altitudeCountsAfterTheLaunchOnly();
-    void altitudeOfALaunchCountsWhenThereIsNothingElse();
-    void speedIsTheMeanAndTheLargest();
+    void minimumAltitudeUsesTheLaunchOfALaunchOnlyFlight();
+    void reportContainsMeanAndMaximumSpeed();
     void crashIsTimed();
-    void figuresOfAPlantAreThoseOfItsWing();
+    void parametersFollowFromThePlant();
     void forceIsTheLargestOfAll();
     void groundContactIsACrash();
-    void unknownPhaseIsNoPhase();
-    void resetForgetsEverything();
+    void unknownPhaseIsNotCounted();
+    void resetClearsAllFigures();
     void badParameterIsNamed();
 
 private:
@@ -55,7 +55,7 @@ void tst_FlightStatistics::add(int count)
         m_statistics.step(m_sample);
 }
 
-void tst_FlightStatistics::nothingFlownIsAllZero()
+void tst_FlightStatistics::reportBeforeTheFirstSampleIsZero()
 {
     const FlightReport report = m_statistics.report();
     QCOMPARE(report.cycles, std::int64_t(0));
@@ -74,7 +74,7 @@ void tst_FlightStatistics::etaIsOneAtTheBestPower()
     COMPARE_NEAR(m_statistics.report().duration, 1.0, 1e-12);
 }
 
-void tst_FlightStatistics::etaUsesTheNominalWindAndTheOtherTheMeanCube()
+void tst_FlightStatistics::etaUsesTheNominalWindAndMeanEtaTheMeanCubedWind()
 {
     FlightStatisticsParameters parameters;
     parameters.nominalWindSpeed = 6.0;
@@ -167,7 +167,7 @@ void tst_FlightStatistics::altitudeCountsAfterTheLaunchOnly()
     QCOMPARE(m_statistics.report().minimumAltitude, 30.0);
 }
 
-void tst_FlightStatistics::altitudeOfALaunchCountsWhenThereIsNothingElse()
+void tst_FlightStatistics::minimumAltitudeUsesTheLaunchOfALaunchOnlyFlight()
 {
     enter(FlightPhase::Launch);
     m_sample.position.z() = 18.0;
@@ -175,7 +175,7 @@ void tst_FlightStatistics::altitudeOfALaunchCountsWhenThereIsNothingElse()
     QCOMPARE(m_statistics.report().minimumAltitude, 18.0);
 }
 
-void tst_FlightStatistics::speedIsTheMeanAndTheLargest()
+void tst_FlightStatistics::reportContainsMeanAndMaximumSpeed()
 {
     m_sample.velocity = {3.0, 4.0, 0.0};
     add(3);
@@ -194,7 +194,7 @@ void tst_FlightStatistics::crashIsTimed()
     COMPARE_NEAR(m_statistics.report().crashTime, 2.5, 1e-12);
 }
 
-void tst_FlightStatistics::figuresOfAPlantAreThoseOfItsWing()
+void tst_FlightStatistics::parametersFollowFromThePlant()
 {
     const FlightStatisticsParameters usual = FlightStatisticsParameters::of(PlantParameters());
     COMPARE_NEAR(usual.aweCoefficient, FlightStatisticsParameters().aweCoefficient, 1e-4);
@@ -226,7 +226,7 @@ void tst_FlightStatistics::groundContactIsACrash()
     QVERIFY(m_statistics.report().crashed);
 }
 
-void tst_FlightStatistics::unknownPhaseIsNoPhase()
+void tst_FlightStatistics::unknownPhaseIsNotCounted()
 {
     m_sample.flightPhase = 77;
     add(10);
@@ -234,11 +234,11 @@ void tst_FlightStatistics::unknownPhaseIsNoPhase()
     QCOMPARE(m_statistics.report().pumpingCycles, 0);
 }
 
-void tst_FlightStatistics::resetForgetsEverything()
+void tst_FlightStatistics::resetClearsAllFigures()
 {
     recoveriesAreCountedOnce();
     m_statistics.reset();
-    nothingFlownIsAllZero();
+    reportBeforeTheFirstSampleIsZero();
     QCOMPARE(m_statistics.report().recoveries, 0);
 }
 

@@ -77,16 +77,16 @@ class tst_FlightView : public QObject
 
 private Q_SLOTS:
     void theTableNamesPhasesAsTheAutopilotDoes();
-    void pictureLooksLikeThis();
-    void kiteStandsWhereItIsSeen_data();
-    void kiteStandsWhereItIsSeen();
+    void pictureEqualsTheReferencePicture();
+    void kiteIsDrawnAtItsAzimuthAndElevation_data();
+    void kiteIsDrawnAtItsAzimuthAndElevation();
     void downwindFollowsTheWindSlowly();
     void trailEndsAfterItsTime();
     void trailFades();
     void pointsThatFollowEachOtherAreALine();
     void plotShowsThePowerOfTheLastMinute();
-    void withoutColoursThereAreNoCodes();
-    void earlierTimeIsAnotherFlight();
+    void plainViewContainsNoEscapeCodes();
+    void earlierTimeStartsANewTrail();
     void noFigureLosesItsValueFrom60ColumnsOn();
     void fitsEveryTerminal_data();
     void fitsEveryTerminal();
@@ -97,7 +97,7 @@ private Q_SLOTS:
     void progressLineIsBounded();
 };
 
-void tst_FlightView::pictureLooksLikeThis()
+void tst_FlightView::pictureEqualsTheReferencePicture()
 {
     FlightView view(60.0);
     view.add(momentAt(14.0, 30.0, 30.0));
@@ -126,7 +126,7 @@ void tst_FlightView::pictureLooksLikeThis()
         QCOMPARE(trimmedEnd(lines.at(i)), QString::fromUtf8(golden[i]));
 }
 
-void tst_FlightView::kiteStandsWhereItIsSeen_data()
+void tst_FlightView::kiteIsDrawnAtItsAzimuthAndElevation_data()
 {
     QTest::addColumn<double>("azimuth");
     QTest::addColumn<double>("elevation");
@@ -141,7 +141,7 @@ void tst_FlightView::kiteStandsWhereItIsSeen_data()
     QTest::newRow("under the ground") << 0.0 << -5.0 << QPoint(52, 24);
 }
 
-void tst_FlightView::kiteStandsWhereItIsSeen()
+void tst_FlightView::kiteIsDrawnAtItsAzimuthAndElevation()
 {
     QFETCH(double, azimuth);
     QFETCH(double, elevation);
@@ -230,7 +230,7 @@ void tst_FlightView::plotShowsThePowerOfTheLastMinute()
     QVERIFY(!withoutCodes(view.draw(80, 21)).join(QString()).contains(QStringLiteral("power [kW]")));  // no room
 }
 
-void tst_FlightView::withoutColoursThereAreNoCodes()
+void tst_FlightView::plainViewContainsNoEscapeCodes()
 {
     FlightView view(60.0, false);
     view.add(momentAt(1.0, -60.0, 30.0));
@@ -240,7 +240,7 @@ void tst_FlightView::withoutColoursThereAreNoCodes()
     QCOMPARE(withoutCodes(coloured.draw(80, 24)), view.draw(80, 24));
 }
 
-void tst_FlightView::earlierTimeIsAnotherFlight()
+void tst_FlightView::earlierTimeStartsANewTrail()
 {
     FlightView view(0.0);
     view.add(momentAt(10.0, 30.0, 30.0));

@@ -16,15 +16,15 @@ class tst_GainTuning : public QObject
 private Q_SLOTS:
     void everyRangeHoldsValidGains();
     void gainsAreReadAndWritten();
-    void whatIsNotTunedStays();
-    void scoreIsThatOfTheFlights();
+    void tuningKeepsTheOtherGains();
+    void scoreSummarizesTheSimulatedFlights();
     void deadTimeAndSeedsMatter();
     void unsafeGainsAreWorthNothing();
     void tunedGainsAreWorthMoreThanTheStart_data();
     void tunedGainsAreWorthMoreThanTheStart();
     void badOptionsAreRefused_data();
     void badOptionsAreRefused();
-    void helpSaysWhatItDoes();
+    void helpDescribesTheOptions();
 };
 
 void tst_GainTuning::everyRangeHoldsValidGains()
@@ -52,7 +52,7 @@ void tst_GainTuning::gainsAreReadAndWritten()
     QCOMPARE(written.yawGain, AutopilotGains::tuned().yawGain + 0.5);
 }
 
-void tst_GainTuning::whatIsNotTunedStays()
+void tst_GainTuning::tuningKeepsTheOtherGains()
 {
     const AutopilotGains written
         = TunableGain::write(AutopilotGains::tuned(), TunableGain::read(AutopilotGains::safe()));
@@ -61,7 +61,7 @@ void tst_GainTuning::whatIsNotTunedStays()
     QCOMPARE(written.forceFilterTime, AutopilotGains::tuned().forceFilterTime);
 }
 
-void tst_GainTuning::scoreIsThatOfTheFlights()
+void tst_GainTuning::scoreSummarizesTheSimulatedFlights()
 {
     constexpr double duration = 200.0;
     ClosedLoopParameters parameters;
@@ -167,7 +167,7 @@ void tst_GainTuning::badOptionsAreRefused()
     QCOMPARE(program.readAllStandardOutput(), QByteArray());
 }
 
-void tst_GainTuning::helpSaysWhatItDoes()
+void tst_GainTuning::helpDescribesTheOptions()
 {
     QProcess program;
     program.start(QStringLiteral(AWE_TUNE_GAINS), {QStringLiteral("--help")});

@@ -29,7 +29,7 @@ private Q_SLOTS:
     void quasiSteadyFlightGivesThePublishedPower();
     void fifthOfTheDragFliesFiveTimesAsFast();
     void dynamicMaximumPowerIsNearTheQuasiSteadyOne();
-    void wingAboveTheStationHasAnAttitude();
+    void wingAboveTheStationHasFiniteOutputs();
     void referenceModeFliesThroughTheGround();
     void crashedWingIsHeld();
     void resetRepeatsTheFlightBitForBit();
@@ -292,7 +292,7 @@ void tst_KitePlant::dynamicMaximumPowerIsNearTheQuasiSteadyOne()
     COMPARE_NEAR(plant.state().position.z(), 0.0, 3.0);
 }
 
-void tst_KitePlant::wingAboveTheStationHasAnAttitude()
+void tst_KitePlant::wingAboveTheStationHasFiniteOutputs()
 {
     PlantParameters parameters;
     parameters.initialState.position = {0.0, 0.0, 100.0};

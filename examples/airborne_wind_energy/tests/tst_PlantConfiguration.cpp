@@ -18,15 +18,15 @@ class tst_PlantConfiguration : public QObject
 
 private Q_SLOTS:
     void withoutAFileTheWinchIsIdeal();
-    void oneWordMakesItADrive();
-    void kiteOfTheBuiltInFileIsThatOfTheThesis();
-    void everyKeyOfTheKiteTakesItsRangeAndNoMore();
-    void kiteStartsWhereTheFileSays();
+    void winchKindSelectsTheDrive();
+    void builtInFileDescribesTheKiteOfTheThesis();
+    void everyKiteKeyAcceptsExactlyItsDocumentedRange();
+    void kiteStartsInTheConfiguredState();
     void sectionThatIsLeftOutIsTheBuiltInOne();
     void withoutAnAzimuthTheKiteStartsDownwind();
     void badLineIsNamedWithItsRemedy_data();
     void badLineIsNamedWithItsRemedy();
-    void fileThatIsNotThereIsNamed();
+    void missingFileIsNamed();
     void aPipeIsReadToItsEnd();
     void fileThatIsTooLargeIsRefused();
     void longLineIsNotRepeated();
@@ -54,7 +54,7 @@ void tst_PlantConfiguration::withoutAFileTheWinchIsIdeal()
     QVERIFY(plant.simulatedWinch.startsWith(QLatin1String("fake:")));
 }
 
-void tst_PlantConfiguration::oneWordMakesItADrive()
+void tst_PlantConfiguration::winchKindSelectsTheDrive()
 {
     QFile builtIn(PlantConfiguration::builtInFile());
     QVERIFY(builtIn.open(QIODevice::ReadOnly));
@@ -89,7 +89,7 @@ static QVector<ShownKey> shownKeys()
     return keys;
 }
 
-void tst_PlantConfiguration::kiteOfTheBuiltInFileIsThatOfTheThesis()
+void tst_PlantConfiguration::builtInFileDescribesTheKiteOfTheThesis()
 {
     QByteArray text("[kite]\n");
     const QVector<ShownKey> keys = shownKeys();
@@ -130,7 +130,7 @@ void tst_PlantConfiguration::kiteOfTheBuiltInFileIsThatOfTheThesis()
 }
 
 /// The ranges and units that the built-in file tells are those that are kept.
-void tst_PlantConfiguration::everyKeyOfTheKiteTakesItsRangeAndNoMore()
+void tst_PlantConfiguration::everyKiteKeyAcceptsExactlyItsDocumentedRange()
 {
     static const QRegularExpression range(QStringLiteral("^(?:([^,]+), )?(each )?from (\\S+?) to ([^\\s:]+)"));
     int ranges = 0;
@@ -161,7 +161,7 @@ void tst_PlantConfiguration::everyKeyOfTheKiteTakesItsRangeAndNoMore()
     QCOMPARE(ranges, 23);
 }
 
-void tst_PlantConfiguration::kiteStartsWhereTheFileSays()
+void tst_PlantConfiguration::kiteStartsInTheConfiguredState()
 {
     PlantConfiguration plant;
     QString error;
@@ -247,7 +247,7 @@ void tst_PlantConfiguration::badLineIsNamedWithItsRemedy()
     QVERIFY2(error.contains(expected), qPrintable(error));
 }
 
-void tst_PlantConfiguration::fileThatIsNotThereIsNamed()
+void tst_PlantConfiguration::missingFileIsNamed()
 {
     PlantConfiguration plant;
     QString error;

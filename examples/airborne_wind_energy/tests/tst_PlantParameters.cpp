@@ -15,7 +15,7 @@ class tst_PlantParameters : public QObject
 
 private Q_SLOTS:
     void defaultsAreThoseOfTheThesisAndValid();
-    void startsDownwindAtRestOnATautTether();
+    void kiteStartsDownwindAtRestOnATautTether();
     void badValueIsNamedWithItsRemedy_data();
     void badValueIsNamedWithItsRemedy();
 };
@@ -30,7 +30,7 @@ void tst_PlantParameters::defaultsAreThoseOfTheThesisAndValid()
     QCOMPARE(parameters.step, 0.010);
 }
 
-void tst_PlantParameters::startsDownwindAtRestOnATautTether()
+void tst_PlantParameters::kiteStartsDownwindAtRestOnATautTether()
 {
     const PlantState state = PlantParameters().initialState;
     COMPARE_NEAR(state.position.norm(), 100.0, 1e-12);

@@ -28,13 +28,13 @@ private Q_SLOTS:
     void reelInAngleOfAttackDependsOnElevationAndClimb();
     void shortTetherEndsTheReelIn();
     void lullStartsARecovery();
-    void shortLullStartsNone();
-    void noLullIsToldSoonAfterAStart();
+    void shortLullStartsNoRecovery();
+    void lullDetectionStartsAfterADelay();
     void recoveryPullsWithTheWinchUntilHighEnough();
     void recoveryStopsThePullAtAShortTether();
     void forceLimitPaysOutAndHoldsThePitchBack();
-    void noForceLimitChangesNothing();
-    void resetForgetsEverything();
+    void controllerWithoutForceLimitDoesNotLimitThePitchRate();
+    void resetRestoresTheInitialState();
 
 private:
     References run(double duration);
@@ -216,7 +216,7 @@ void tst_PowerController::lullStartsARecovery()
     QCOMPARE(references.pitch.angle, 13.0);
 }
 
-void tst_PowerController::shortLullStartsNone()
+void tst_PowerController::shortLullStartsNoRecovery()
 {
     toReelOut();
     for (int i = 0; i < 5; ++i) {
@@ -228,7 +228,7 @@ void tst_PowerController::shortLullStartsNone()
     }
 }
 
-void tst_PowerController::noLullIsToldSoonAfterAStart()
+void tst_PowerController::lullDetectionStartsAfterADelay()
 {
     m_measurements.angleOfAttack = 60.0;
     m_geometry.tangentialSpeed = 1.0;
@@ -275,13 +275,13 @@ void tst_PowerController::forceLimitPaysOutAndHoldsThePitchBack()
     COMPARE_NEAR(run(10.0).tetherSpeed, 0.75 * std::sqrt(1000.0 / 421.0), 1e-6);
 }
 
-void tst_PowerController::noForceLimitChangesNothing()
+void tst_PowerController::controllerWithoutForceLimitDoesNotLimitThePitchRate()
 {
     toReelOut(1e5);
     QVERIFY(std::isinf(run(0.1).pitch.fastestUp));
 }
 
-void tst_PowerController::resetForgetsEverything()
+void tst_PowerController::resetRestoresTheInitialState()
 {
     toReelIn();
     m_controller.reset();

@@ -19,11 +19,11 @@ class tst_Trajectory : public QObject
 private Q_SLOTS:
     void initTestCase();
     void readsHeaderAndRows();
-    void writesWhatItRead();
+    void trajectoryIsWrittenAsItWasRead();
     void everyColumnHasItsPlace();
     void acceptsWindowsLineEnds();
-    void saysWhereAndWhatIsWrong_data();
-    void saysWhereAndWhatIsWrong();
+    void readErrorNamesPlaceAndCause_data();
+    void readErrorNamesPlaceAndCause();
     void failedReadLeavesTheObjectAlone();
     void missingFileIsNamed();
     void failedSaveLeavesTheOldFileAlone();
@@ -78,7 +78,7 @@ void tst_Trajectory::readsHeaderAndRows()
     QCOMPARE(trajectory.rows()[0].outputs.gravitationalForce.z(), -49.05);
 }
 
-void tst_Trajectory::writesWhatItRead()
+void tst_Trajectory::trajectoryIsWrittenAsItWasRead()
 {
     std::istringstream in(m_good);
     std::ostringstream out;
@@ -112,7 +112,7 @@ void tst_Trajectory::acceptsWindowsLineEnds()
     QVERIFY2(complaint.empty(), complaint.c_str());
 }
 
-void tst_Trajectory::saysWhereAndWhatIsWrong_data()
+void tst_Trajectory::readErrorNamesPlaceAndCause_data()
 {
     QTest::addColumn<QString>("what");
     QTest::addColumn<QString>("by");
@@ -144,7 +144,7 @@ void tst_Trajectory::saysWhereAndWhatIsWrong_data()
     row("rows too many", "T = 0.02 s", "T = 0.01 s", "f:8: more rows than the 2");
 }
 
-void tst_Trajectory::saysWhereAndWhatIsWrong()
+void tst_Trajectory::readErrorNamesPlaceAndCause()
 {
     QFETCH(QString, what);
     QFETCH(QString, by);

@@ -15,24 +15,24 @@ class tst_WinchDrive : public QObject
 
 private Q_SLOTS:
     void badParameterIsNamedWithItsRemedy();
-    void isDisabledAndHoldsTheTetherBeforeTheFirstCommand();
-    void followsTheSetpoint_data();
-    void followsTheSetpoint();
-    void steadyCurrentIsThatOfForceAndFriction();
+    void driveIsDisabledAndHoldsTheTetherBeforeTheFirstCommand();
+    void driveFollowsTheSetpoint_data();
+    void driveFollowsTheSetpoint();
+    void steadyCurrentBalancesForceAndFriction();
     void speedRisesAlongTheRampWithoutOvershoot();
     void loadStepIsHeldWithinAStatedError();
     void currentNeverExceedsItsLimitAndTheDriveRecovers();
     void energyBalanceHoldsToRounding();
     void heatIsNeverNegative();
-    void generatesWhenReelingOutAndWorksWhenReelingIn();
+    void driveGeneratesPowerReelingOutAndConsumesPowerReelingIn();
     void silenceStopsTheDriveAndTheNextCommandStartsItAgain();
     void commandWithoutEnableStopsTheDrive();
-    void shortSilenceIsBorne();
+    void driveToleratesShortCommandGaps();
     void emergencyStopClosesTheBrakeAtOnce();
-    void faultLastsUntilTheCommandIsTakenBack();
+    void faultLastsUntilTheEnableCommandIsWithdrawn();
     void overspeedIsAFault();
     void brakeSlipsUnderMoreThanItCanHoldAndHoldsAgain();
-    void resetIsTheBeginning();
+    void resetRestoresTheInitialState();
 
 private:
     static WinchDriveInputs command(double speed, double force);
@@ -81,7 +81,7 @@ void tst_WinchDrive::badParameterIsNamedWithItsRemedy()
     VERIFY_CONTAINS(parameters.validate(), "commandTimeout is 0 s; choose a value from ");
 }
 
-void tst_WinchDrive::isDisabledAndHoldsTheTetherBeforeTheFirstCommand()
+void tst_WinchDrive::driveIsDisabledAndHoldsTheTetherBeforeTheFirstCommand()
 {
     WinchDrive drive;
     run(drive, silence(5000.0), 1.0);
@@ -93,7 +93,7 @@ void tst_WinchDrive::isDisabledAndHoldsTheTetherBeforeTheFirstCommand()
     QCOMPARE(drive.electricalPower(), 0.0);
 }
 
-void tst_WinchDrive::followsTheSetpoint_data()
+void tst_WinchDrive::driveFollowsTheSetpoint_data()
 {
     QTest::addColumn<double>("speed");
     QTest::addColumn<double>("force");
@@ -104,7 +104,7 @@ void tst_WinchDrive::followsTheSetpoint_data()
     QTest::newRow("fast") << 300.0 << 4000.0;
 }
 
-void tst_WinchDrive::followsTheSetpoint()
+void tst_WinchDrive::driveFollowsTheSetpoint()
 {
     QFETCH(double, speed);
     QFETCH(double, force);
@@ -117,7 +117,7 @@ void tst_WinchDrive::followsTheSetpoint()
     COMPARE_NEAR(drive.position() - before, speed, 1e-5);
 }
 
-void tst_WinchDrive::steadyCurrentIsThatOfForceAndFriction()
+void tst_WinchDrive::steadyCurrentBalancesForceAndFriction()
 {
     const WinchDriveParameters p;
     WinchDrive drive;
@@ -200,7 +200,7 @@ void tst_WinchDrive::heatIsNeverNegative()
     QVERIFY(before.friction > 0.0);
 }
 
-void tst_WinchDrive::generatesWhenReelingOutAndWorksWhenReelingIn()
+void tst_WinchDrive::driveGeneratesPowerReelingOutAndConsumesPowerReelingIn()
 {
     WinchDrive out;
     run(out, command(65.0, 1600.0), 20.0);
@@ -245,7 +245,7 @@ void tst_WinchDrive::commandWithoutEnableStopsTheDrive()
     QCOMPARE(drive.speed(), 0.0);
 }
 
-void tst_WinchDrive::shortSilenceIsBorne()
+void tst_WinchDrive::driveToleratesShortCommandGaps()
 {
     WinchDrive drive;
     run(drive, command(100.0, 1000.0), 2.0);
@@ -273,7 +273,7 @@ void tst_WinchDrive::emergencyStopClosesTheBrakeAtOnce()
     QVERIFY(drive.energies().brake > 100.0);
 }
 
-void tst_WinchDrive::faultLastsUntilTheCommandIsTakenBack()
+void tst_WinchDrive::faultLastsUntilTheEnableCommandIsWithdrawn()
 {
     WinchDrive drive;
     WinchDriveInputs inputs = command(100.0, 1000.0);
@@ -310,7 +310,7 @@ void tst_WinchDrive::brakeSlipsUnderMoreThanItCanHoldAndHoldsAgain()
     QCOMPARE(drive.energies().electrical, 0.0);
 }
 
-void tst_WinchDrive::resetIsTheBeginning()
+void tst_WinchDrive::resetRestoresTheInitialState()
 {
     WinchDrive drive;
     run(drive, command(100.0, 1000.0), 2.0);

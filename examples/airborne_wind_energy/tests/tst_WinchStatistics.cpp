@@ -10,15 +10,15 @@ class tst_WinchStatistics : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void nothingSeenIsAllZero();
+    void reportBeforeTheFirstSampleIsZero();
     void energiesAndLossesAddUp();
-    void speedErrorIsThatOfTheEnabledTime();
-    void timeBeforeTheDriveIsEnabledIsNoInterruption();
+    void speedErrorCoversOnlyTheEnabledTime();
+    void timeBeforeTheFirstEnableIsNotAnInterruption();
     void interruptionsAreCountedWithTheirTime();
-    void positionErrorNeedsNoDriveAtTheEnd();
+    void positionErrorIsReportedAfterTheDriveIsDisabled();
 };
 
-void tst_WinchStatistics::nothingSeenIsAllZero()
+void tst_WinchStatistics::reportBeforeTheFirstSampleIsZero()
 {
     const WinchReport report = WinchStatistics().report();
     QCOMPARE(report.mechanicalEnergy, 0.0);
@@ -45,7 +45,7 @@ void tst_WinchStatistics::energiesAndLossesAddUp()
     QCOMPARE(report.largestCurrent, 40.0);
 }
 
-void tst_WinchStatistics::speedErrorIsThatOfTheEnabledTime()
+void tst_WinchStatistics::speedErrorCoversOnlyTheEnabledTime()
 {
     WinchStatistics statistics;
     for (int i = 0; i < 100; ++i) {
@@ -60,7 +60,7 @@ void tst_WinchStatistics::speedErrorIsThatOfTheEnabledTime()
     COMPARE_NEAR(statistics.report().largestSpeedError, 0.3, 1e-12);
 }
 
-void tst_WinchStatistics::timeBeforeTheDriveIsEnabledIsNoInterruption()
+void tst_WinchStatistics::timeBeforeTheFirstEnableIsNotAnInterruption()
 {
     WinchStatistics statistics;
     WinchSample sample;
@@ -86,7 +86,7 @@ void tst_WinchStatistics::interruptionsAreCountedWithTheirTime()
     COMPARE_NEAR(statistics.report().timeDisabled, 0.5, 1e-12);
 }
 
-void tst_WinchStatistics::positionErrorNeedsNoDriveAtTheEnd()
+void tst_WinchStatistics::positionErrorIsReportedAfterTheDriveIsDisabled()
 {
     WinchStatistics statistics;
     WinchSample sample;

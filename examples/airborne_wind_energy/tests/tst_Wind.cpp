@@ -14,12 +14,12 @@ private Q_SLOTS:
     void constantWindStaysExactlyTheMean();
     void gustRisesAndFallsAsOneMinusCosine();
     void turbulenceHasTheWantedStandardDeviations();
-    void turbulenceForgetsOverItsLengthScale();
+    void turbulenceDecorrelatesOverItsLengthScale();
     void statisticsDoNotDependOnTheStep();
     void sameSeedGivesTheSameWindBitForBit();
     void otherSeedGivesAnotherWind();
     void gaussianNumbersAreNormalAndKnown();
-    void verticalMeanWindHasAFrameToo();
+    void verticalMeanWindHasFiniteTurbulence();
     void badValueIsNamed();
 
 private:
@@ -82,7 +82,7 @@ void tst_Wind::turbulenceHasTheWantedStandardDeviations()
     QVERIFY((sum / count).norm() < 0.1);
 }
 
-void tst_Wind::turbulenceForgetsOverItsLengthScale()
+void tst_Wind::turbulenceDecorrelatesOverItsLengthScale()
 {
     Wind wind(turbulent());
     const int lag = 750;  // 60 m / (8 m/s) = 7.5 s: correlation 1/e
@@ -159,7 +159,7 @@ void tst_Wind::gaussianNumbersAreNormalAndKnown()
     COMPARE_NEAR(source.next(), -0.38683176162103955, 1e-12);
 }
 
-void tst_Wind::verticalMeanWindHasAFrameToo()
+void tst_Wind::verticalMeanWindHasFiniteTurbulence()
 {
     WindParameters parameters = turbulent();
     parameters.meanVelocity = {0.0, 0.0, 8.0};

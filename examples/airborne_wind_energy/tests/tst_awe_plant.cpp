@@ -16,14 +16,14 @@ class tst_awe_plant : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void replaysEveryReferenceFlight_data();
-    void replaysEveryReferenceFlight();
-    void refusesBadUse_data();
-    void refusesBadUse();
-    void refusesBadFilesAndWritesNothing_data();
-    void refusesBadFilesAndWritesNothing();
-    void mayReplaceItsInput();
-    void helpGoesToStandardOutput();
+    void programReplaysEveryReferenceFlight_data();
+    void programReplaysEveryReferenceFlight();
+    void programRefusesInvalidArguments_data();
+    void programRefusesInvalidArguments();
+    void programRefusesInvalidFilesAndWritesNothing_data();
+    void programRefusesInvalidFilesAndWritesNothing();
+    void outputMayReplaceTheInputFile();
+    void helpIsWrittenToStandardOutput();
 
 private:
     struct Result
@@ -46,7 +46,7 @@ tst_awe_plant::Result tst_awe_plant::run(const QStringList &arguments)
             QString::fromUtf8(process.readAllStandardError())};
 }
 
-void tst_awe_plant::replaysEveryReferenceFlight_data()
+void tst_awe_plant::programReplaysEveryReferenceFlight_data()
 {
     QTest::addColumn<QString>("name");
     for (const char *name :
@@ -54,7 +54,7 @@ void tst_awe_plant::replaysEveryReferenceFlight_data()
         QTest::newRow(name) << QString::fromLatin1(name);
 }
 
-void tst_awe_plant::replaysEveryReferenceFlight()
+void tst_awe_plant::programReplaysEveryReferenceFlight()
 {
     QFETCH(QString, name);
     const QString output = m_folder.filePath(name);
@@ -73,7 +73,7 @@ void tst_awe_plant::replaysEveryReferenceFlight()
         COMPARE_NEAR(seen[i], expected[i], 1e-9 * (1.0 + std::abs(expected[i])));
 }
 
-void tst_awe_plant::refusesBadUse_data()
+void tst_awe_plant::programRefusesInvalidArguments_data()
 {
     QTest::addColumn<QStringList>("arguments");
     QTest::addColumn<QString>("message");
@@ -95,7 +95,7 @@ void tst_awe_plant::refusesBadUse_data()
         << QStringLiteral("/nowhere/b.csv: ");
 }
 
-void tst_awe_plant::refusesBadUse()
+void tst_awe_plant::programRefusesInvalidArguments()
 {
     QFETCH(QStringList, arguments);
     QFETCH(QString, message);
@@ -106,7 +106,7 @@ void tst_awe_plant::refusesBadUse()
     QCOMPARE(result.errors.count(QLatin1Char('\n')), 1);
 }
 
-void tst_awe_plant::refusesBadFilesAndWritesNothing_data()
+void tst_awe_plant::programRefusesInvalidFilesAndWritesNothing_data()
 {
     QTest::addColumn<QByteArray>("content");
     QTest::addColumn<QString>("message");
@@ -120,7 +120,7 @@ void tst_awe_plant::refusesBadFilesAndWritesNothing_data()
     QTest::newRow("cut off") << good.left(good.size() / 2) << QStringLiteral("of 36 values");
 }
 
-void tst_awe_plant::refusesBadFilesAndWritesNothing()
+void tst_awe_plant::programRefusesInvalidFilesAndWritesNothing()
 {
     QFETCH(QByteArray, content);
     QFETCH(QString, message);
@@ -137,7 +137,7 @@ void tst_awe_plant::refusesBadFilesAndWritesNothing()
     QCOMPARE(QDir(folder.path()).entryList(QDir::Files), QStringList{QStringLiteral("in.csv")});
 }
 
-void tst_awe_plant::mayReplaceItsInput()
+void tst_awe_plant::outputMayReplaceTheInputFile()
 {
     const QString path = m_folder.filePath(QStringLiteral("same.csv"));
     QVERIFY(QFile::copy(reference(QStringLiteral("s8_negative_alpha.csv")), path));
@@ -147,7 +147,7 @@ void tst_awe_plant::mayReplaceItsInput()
     QVERIFY(flown.load(path.toStdString()).empty());
 }
 
-void tst_awe_plant::helpGoesToStandardOutput()
+void tst_awe_plant::helpIsWrittenToStandardOutput()
 {
     const Result result = run({QStringLiteral("--help")});
     QCOMPARE(result.exitCode, 0);

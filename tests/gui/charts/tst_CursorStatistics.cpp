@@ -34,22 +34,22 @@ class tst_CursorStatistics : public QObject
     Q_OBJECT
 private Q_SLOTS:
     void init();
-    void withoutRowsThereAreNoNumbers();
+    void rangeWithoutRowsHasNoStatistics();
     void oneRowIsItsOwnMean();
     void manyRowsHaveTheFiguresOfTheFormulas();
     void bothCursorsBelongToTheRange();
     void theOrderOfTheCursorsDoesNotMatter();
-    void gainAndOffsetCount();
+    void statisticsApplyGainAndOffset();
     void nanCountsAsNothingAndBreaksTheIntegral();
     void theIntegralDoesNotGoOverGaps();
     void stepsHoldUntilTheNextValue();
     void largeOffsetsKeepTheirSmallDeviation();
-    void workIsBoundedAndGoesOn();
+    void eachStepProcessesABoundedNumberOfRows();
     void newRowsAreAddedWithoutBeginningAnew();
-    void rowsThatHaveGoneAreSkipped();
-    void anotherRangeBeginsAnew();
-    void valuesAreThoseOfTheRowBefore();
-    void thereAreNoValuesInGapsAndBehindTheEnd();
+    void overwrittenRowsAreSkipped();
+    void changedRangeRestartsTheStatistics();
+    void valueAtATimeIsThatOfThePrecedingRow();
+    void timesInGapsAndAfterTheEndHaveNoValue();
 
 private:
     std::unique_ptr<SignalStore> m_store;
@@ -60,7 +60,7 @@ void tst_CursorStatistics::init()
     m_store = std::make_unique<SignalStore>(1, 4096);
 }
 
-void tst_CursorStatistics::withoutRowsThereAreNoNumbers()
+void tst_CursorStatistics::rangeWithoutRowsHasNoStatistics()
 {
     QCOMPARE(between(*m_store, 0, 10 * s).count, std::int64_t(0));
     append(m_store.get(), 5 * s, 1.0F);
@@ -115,7 +115,7 @@ void tst_CursorStatistics::theOrderOfTheCursorsDoesNotMatter()
     QCOMPARE(between(*m_store, 4 * s, 2 * s).integral, 6.0);
 }
 
-void tst_CursorStatistics::gainAndOffsetCount()
+void tst_CursorStatistics::statisticsApplyGainAndOffset()
 {
     append(m_store.get(), 1 * s, 1.0F);
     append(m_store.get(), 2 * s, 3.0F);
@@ -166,7 +166,7 @@ void tst_CursorStatistics::largeOffsetsKeepTheirSmallDeviation()
     QCOMPARE(result.mean, 1e9 + 1e6 + 0.5);
 }
 
-void tst_CursorStatistics::workIsBoundedAndGoesOn()
+void tst_CursorStatistics::eachStepProcessesABoundedNumberOfRows()
 {
     for (int i = 1; i <= 1000; ++i)
         append(m_store.get(), i * s, float(i));
@@ -198,7 +198,7 @@ void tst_CursorStatistics::newRowsAreAddedWithoutBeginningAnew()
     QCOMPARE(statistics.result().integral, 2.0);
 }
 
-void tst_CursorStatistics::rowsThatHaveGoneAreSkipped()
+void tst_CursorStatistics::overwrittenRowsAreSkipped()
 {
     SignalStore store(1, 32);
     for (int i = 1; i <= 32; ++i)
@@ -214,7 +214,7 @@ void tst_CursorStatistics::rowsThatHaveGoneAreSkipped()
     QCOMPARE(statistics.result().integral, 3.0 + 31.0);  // none over what was not seen
 }
 
-void tst_CursorStatistics::anotherRangeBeginsAnew()
+void tst_CursorStatistics::changedRangeRestartsTheStatistics()
 {
     for (int i = 1; i <= 5; ++i)
         append(m_store.get(), i * s, float(i));
@@ -229,7 +229,7 @@ void tst_CursorStatistics::anotherRangeBeginsAnew()
     QVERIFY(statistics.isComplete());
 }
 
-void tst_CursorStatistics::valuesAreThoseOfTheRowBefore()
+void tst_CursorStatistics::valueAtATimeIsThatOfThePrecedingRow()
 {
     append(m_store.get(), 1 * s, 1.0F);
     append(m_store.get(), 2 * s, 5.0F);
@@ -241,7 +241,7 @@ void tst_CursorStatistics::valuesAreThoseOfTheRowBefore()
     QCOMPARE(CursorStatistics::valueAt(*m_store, 0, doubled, 3 * s), 11.0);
 }
 
-void tst_CursorStatistics::thereAreNoValuesInGapsAndBehindTheEnd()
+void tst_CursorStatistics::timesInGapsAndAfterTheEndHaveNoValue()
 {
     append(m_store.get(), 1 * s, 1.0F);
     append(m_store.get(), 2 * s, 2.0F);

@@ -19,12 +19,12 @@ class tst_EventFiles : public QObject
     Q_OBJECT
 private Q_SLOTS:
     void init();
-    void settingsComeBackAndDefaultsAreNotWritten();
+    void settingsAreRestoredAndDefaultsAreNotWritten();
     void everyEventIsAFileWithItsRows();
     void namesOfFilesSuitEveryFileSystem();
-    void aFullFolderIsToldOnceAndNothingIsOverwritten();
-    void aFolderThatCannotBeMadeIsToldWithARemedy();
-    void eventsThatComeTooFastAreToldAndTheWindowGoesOn();
+    void fullFolderIsReportedOnceAndNoFileIsOverwritten();
+    void failureToCreateTheFolderIsReportedWithTheRemedy();
+    void eventsFasterThanTheDiskAreReportedWithoutBlocking();
     void cancellingLeavesNoHalfFiles();
 
 private:
@@ -49,7 +49,7 @@ void tst_EventFiles::init()
     }
 }
 
-void tst_EventFiles::settingsComeBackAndDefaultsAreNotWritten()
+void tst_EventFiles::settingsAreRestoredAndDefaultsAreNotWritten()
 {
     QCOMPARE(EventFileSettings().toJson(), QJsonObject());
     const QJsonObject all{{"on", true}, {"folder", "/data"}, {"most", 7}};
@@ -83,7 +83,7 @@ void tst_EventFiles::namesOfFilesSuitEveryFileSystem()
     QVERIFY(EventFiles::fileName(begin, QString(500, 'x')).size() < 120);
 }
 
-void tst_EventFiles::aFullFolderIsToldOnceAndNothingIsOverwritten()
+void tst_EventFiles::fullFolderIsReportedOnceAndNoFileIsOverwritten()
 {
     EventFiles events(nullptr);
     QSignalSpy failed(&events, &EventFiles::failed);
@@ -102,7 +102,7 @@ void tst_EventFiles::aFullFolderIsToldOnceAndNothingIsOverwritten()
     QCOMPARE(files().size(), 3);
 }
 
-void tst_EventFiles::aFolderThatCannotBeMadeIsToldWithARemedy()
+void tst_EventFiles::failureToCreateTheFolderIsReportedWithTheRemedy()
 {
     QFile file(m_folder->filePath("file"));
     QVERIFY(file.open(QIODevice::WriteOnly));
@@ -115,7 +115,7 @@ void tst_EventFiles::aFolderThatCannotBeMadeIsToldWithARemedy()
     QVERIFY(failed.at(0).at(0).toString().endsWith("cannot be made. Choose another one."));
 }
 
-void tst_EventFiles::eventsThatComeTooFastAreToldAndTheWindowGoesOn()
+void tst_EventFiles::eventsFasterThanTheDiskAreReportedWithoutBlocking()
 {
     EventFiles events(nullptr);
     QSignalSpy failed(&events, &EventFiles::failed);

@@ -26,16 +26,16 @@ class tst_JitterDistributions : public QObject
 {
     Q_OBJECT
 private Q_SLOTS:
-    void nothingGivesNothing();
+    void missingStatisticsGiveNoDistributions();
     void figuresAreThoseOfTheWindow();
-    void binsOfBothKindsAreThoseOfAnEighthOfAnOctave();
+    void fineAndCoarseBinsMergeIntoEighthsOfAnOctave();
     void smallAndLargestBordersHaveTheirBins();
     void countsAreKept();
-    void nonsenseIsLeftOut();
-    void keysAreNamedForPeople();
+    void invalidBinsAreIgnored();
+    void keysHaveReadableTitles();
 };
 
-void tst_JitterDistributions::nothingGivesNothing()
+void tst_JitterDistributions::missingStatisticsGiveNoDistributions()
 {
     QVERIFY(jitterDistributions({}, &QPlcDurationStatistics::sinceStart).isEmpty());
     QVERIFY(jitterDistributions({{}}, &QPlcDurationStatistics::sinceStart).first().bins.isEmpty());
@@ -58,7 +58,7 @@ void tst_JitterDistributions::figuresAreThoseOfTheWindow()
     QCOMPARE(jitterDistributions({duration}, &QPlcDurationStatistics::last10s).first().count, 2.0);
 }
 
-void tst_JitterDistributions::binsOfBothKindsAreThoseOfAnEighthOfAnOctave()
+void tst_JitterDistributions::fineAndCoarseBinsMergeIntoEighthsOfAnOctave()
 {
     // 1024 ... 2047: fine bins are 32 wide, coarse ones 128.
     const auto fine = binsOf("[[1055, 1], [1087, 2], [1151, 4], [1183, 8]]");
@@ -104,13 +104,13 @@ void tst_JitterDistributions::countsAreKept()
     QCOMPARE(found, sum);
 }
 
-void tst_JitterDistributions::nonsenseIsLeftOut()
+void tst_JitterDistributions::invalidBinsAreIgnored()
 {
     QVERIFY(binsOf(R"([[-5, 1], ["x"], [3, 0], [3, -1], 7, null])").size() <= 1);
     QVERIFY(binsOf("{}").isEmpty());
 }
 
-void tst_JitterDistributions::keysAreNamedForPeople()
+void tst_JitterDistributions::keysHaveReadableTitles()
 {
     QCOMPARE(JitterDistribution::titleOf("Master.lateness"), QStringLiteral("Master lateness"));
     QCOMPARE(JitterDistribution::titleOf("a.b.roundTrip"), QStringLiteral("a.b round trip"));

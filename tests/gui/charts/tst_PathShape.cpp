@@ -42,19 +42,19 @@ class tst_PathShape : public QObject
 {
     Q_OBJECT
 private Q_SLOTS:
-    void nothingIsNothing();
+    void emptyPathHasNoPieces();
     void onePointIsADot();
     void aStraightLineIsTwoPoints();
     void cornersAndTurnsStay();
     void standingStillIsOnePoint();
     void gapsStay();
-    void whatIsLeftOutLiesOnTheLine_data();
-    void whatIsLeftOutLiesOnTheLine();
+    void omittedPointsLieOnTheSimplifiedPath_data();
+    void omittedPointsLieOnTheSimplifiedPath();
     void aCircleNeedsAsManyPointsAsItHasBends();
-    void whatIsClearedIsGone();
+    void clearRemovesEarlierPoints();
 };
 
-void tst_PathShape::nothingIsNothing()
+void tst_PathShape::emptyPathHasNoPieces()
 {
     PathShape shape;
     QVERIFY(shape.finish().empty());
@@ -99,7 +99,7 @@ void tst_PathShape::gapsStay()
     QCOMPARE(shape.finish(), (std::vector<Points>{{{0, 0}, {5, 0}}, {{6, 0}}}));
 }
 
-void tst_PathShape::whatIsLeftOutLiesOnTheLine_data()
+void tst_PathShape::omittedPointsLieOnTheSimplifiedPath_data()
 {
     QTest::addColumn<double>("step");
     QTest::newRow("much less than a pixel") << 0.02;
@@ -108,7 +108,7 @@ void tst_PathShape::whatIsLeftOutLiesOnTheLine_data()
     QTest::newRow("many pixels") << 60.0;
 }
 
-void tst_PathShape::whatIsLeftOutLiesOnTheLine()
+void tst_PathShape::omittedPointsLieOnTheSimplifiedPath()
 {
     QFETCH(double, step);
     std::mt19937 random(7);
@@ -140,7 +140,7 @@ void tst_PathShape::aCircleNeedsAsManyPointsAsItHasBends()
     QVERIFY2(points > 10 * 20 && points < 10 * 100, qPrintable(QString::number(points)));
 }
 
-void tst_PathShape::whatIsClearedIsGone()
+void tst_PathShape::clearRemovesEarlierPoints()
 {
     PathShape shape;
     shape.add({0, 0});

@@ -84,15 +84,15 @@ class tst_PlantClocks : public QObject
 private Q_SLOTS:
     void aLivePlotEndsWithTheNewestValuesOfItsPlant_data();
     void aLivePlotEndsWithTheNewestValuesOfItsPlant();
-    void aPlotOfAPlantThatIsBehindGoesOn();
-    void whoeverFreezesAPlotFreezesWhatItShows_data();
-    void whoeverFreezesAPlotFreezesWhatItShows();
+    void plotOfAPlantWithASlowerClockStaysLive();
+    void freezingActionFreezesTheShownTimeOfThePlot_data();
+    void freezingActionFreezesTheShownTimeOfThePlot();
     void zoomingAtTheLiveEdgeStaysLive();
     void aLiveXyPlotShowsTheNewestValuesOfItsPlant();
-    void aPlotWithoutValuesAtTheFrozenTimeSaysSo();
-    void theLegendOfALivePlotIsThatOfItsTime();
-    void theNewestTimeIsThatOfThePlantsThatAreThere();
-    void aPlantThatBeginsAnewTakesItsNewestTimeAlong();
+    void plotReportsMissingValuesAtTheFrozenTime();
+    void livePlotLegendUsesTheTimeOfItsPlant();
+    void newestTimeIgnoresRemovedPlants();
+    void newTableResetsTheNewestTimeOfItsPlant();
 };
 
 void tst_PlantClocks::aLivePlotEndsWithTheNewestValuesOfItsPlant_data()
@@ -115,7 +115,7 @@ void tst_PlantClocks::aLivePlotEndsWithTheNewestValuesOfItsPlant()
     QTRY_VERIFY(isNear(canvas->end(), now + ahead));
 }
 
-void tst_PlantClocks::aPlotOfAPlantThatIsBehindGoesOn()
+void tst_PlantClocks::plotOfAPlantWithASlowerClockStaysLive()
 {
     TwoClocks window;
     QPlcTimePlot plot;
@@ -126,14 +126,14 @@ void tst_PlantClocks::aPlotOfAPlantThatIsBehindGoesOn()
     QTRY_VERIFY(isNear(canvas->end(), now + 10 * s));
 }
 
-void tst_PlantClocks::whoeverFreezesAPlotFreezesWhatItShows_data()
+void tst_PlantClocks::freezingActionFreezesTheShownTimeOfThePlot_data()
 {
     QTest::addColumn<QByteArray>("action");
     for (const char *action : {"freeze", "earlier", "later"})
         QTest::newRow(action) << QByteArray(action);
 }
 
-void tst_PlantClocks::whoeverFreezesAPlotFreezesWhatItShows()
+void tst_PlantClocks::freezingActionFreezesTheShownTimeOfThePlot()
 {
     QFETCH(QByteArray, action);
     TwoClocks window;
@@ -168,7 +168,7 @@ void tst_PlantClocks::aLiveXyPlotShowsTheNewestValuesOfItsPlant()
     QTRY_VERIFY(QGuiApplication::clipboard()->text().count(QLatin1Char('\n')) >= 200);
 }
 
-void tst_PlantClocks::aPlotWithoutValuesAtTheFrozenTimeSaysSo()
+void tst_PlantClocks::plotReportsMissingValuesAtTheFrozenTime()
 {
     TwoClocks window;
     QPlcTimePlot plot;
@@ -183,7 +183,7 @@ void tst_PlantClocks::aPlotWithoutValuesAtTheFrozenTimeSaysSo()
 }
 
 /// Wherever a mouse points in a plot of another plant.
-void tst_PlantClocks::theLegendOfALivePlotIsThatOfItsTime()
+void tst_PlantClocks::livePlotLegendUsesTheTimeOfItsPlant()
 {
     TwoClocks window;
     QPlcTimePlot plot;
@@ -196,7 +196,7 @@ void tst_PlantClocks::theLegendOfALivePlotIsThatOfItsTime()
     QTRY_COMPARE(value(), QStringLiteral("199"));
 }
 
-void tst_PlantClocks::theNewestTimeIsThatOfThePlantsThatAreThere()
+void tst_PlantClocks::newestTimeIgnoresRemovedPlants()
 {
     TwoClocks window;
     QVERIFY(isNear(window.time()->newest(), now + ahead));
@@ -206,7 +206,7 @@ void tst_PlantClocks::theNewestTimeIsThatOfThePlantsThatAreThere()
     QCOMPARE(window.time()->newest(), Time(0));
 }
 
-void tst_PlantClocks::aPlantThatBeginsAnewTakesItsNewestTimeAlong()
+void tst_PlantClocks::newTableResetsTheNewestTimeOfItsPlant()
 {
     TwoClocks window;
     window.simulation->feed()->connected(QPlcSignalTable::fromIni("[other]\ntype = Real\n"));

@@ -35,11 +35,11 @@ class tst_PlotEditing : public QObject
 {
     Q_OBJECT
 private Q_SLOTS:
-    void theTitleIsWhatThePlotShowsUnlessAPersonNamesIt();
-    void settingsGiveBackWhatWasApplied();
-    void whatIsNotGivenHasItsDefault();
+    void titleListsTheCurvesUnlessTheUserNamesThePlot();
+    void appliedSettingsAreReturnedUnchanged();
+    void missingSettingsGetTheirDefaults();
     void signalsAreAddedOnce();
-    void arraysBecomeElementsAndTextsNothing();
+    void arraysAddTheirElementsAndTextsAddNoCurve();
     void formulasArePassedThrough();
     void aClickInTheLegendHidesAndSelects();
     void fromTheNinthOnCurvesHaveDashes();
@@ -47,20 +47,20 @@ private Q_SLOTS:
     void theAddBarCompletesNames();
     void plusAddsOnlyToAnEmptyPlot();
     void everyActionHasAKeyAndNoTwoShareOne();
-    void theEditorChangesAtOnce();
+    void editorAppliesChangesImmediately();
     void theEditorAddsAndRemovesCurves();
-    void thereIsAMenuForTheKeyboard();
-    void whatIsSeenGoesIntoTheClipboard();
+    void keyboardOpensTheContextMenu();
+    void visibleCurvesAreCopiedToTheClipboard();
     void picturesHaveTwiceThePixels();
-    void whatIsBetweenTheCursorsGoesIntoTheClipboard();
-    void aFileDialogDoesNotBlockAndFailuresAreSaid();
+    void rowsBetweenTheCursorsAreCopiedToTheClipboard();
+    void fileDialogDoesNotBlockAndFailuresAreReported();
     void smallPanelsKeepTheirCurves();
-    void manyCurvesWithStatisticsLeaveRoomForThem();
-    void theLegendSaysTheQualityAtThePointer();
+    void statisticsLegendLeavesRoomForManyCurves();
+    void legendShowsTheQualityAtThePointer();
     void staleValuesAreNotTrusted();
 };
 
-void tst_PlotEditing::settingsGiveBackWhatWasApplied()
+void tst_PlotEditing::appliedSettingsAreReturnedUnchanged()
 {
     PlotWindow window;
     const QByteArray text = R"({"curves":[{"color":"#112233","signal":"count"},{"signal":"gone.away","tool":"x"}],)"
@@ -70,7 +70,7 @@ void tst_PlotEditing::settingsGiveBackWhatWasApplied()
     QCOMPARE(window.plot->title(), QStringLiteral("Force"));
 }
 
-void tst_PlotEditing::whatIsNotGivenHasItsDefault()
+void tst_PlotEditing::missingSettingsGetTheirDefaults()
 {
     PlotWindow window(R"({"curves":[{"signal":"count"}],"grid":false,"time":"own"})");
     window.apply(R"({"curves":[]})");
@@ -90,7 +90,7 @@ void tst_PlotEditing::signalsAreAddedOnce()
     QVERIFY(!window.plot->addSignals({QString()}));
 }
 
-void tst_PlotEditing::arraysBecomeElementsAndTextsNothing()
+void tst_PlotEditing::arraysAddTheirElementsAndTextsAddNoCurve()
 {
     PlotWindow window;
     QVERIFY(window.run(0.05));
@@ -227,7 +227,7 @@ void tst_PlotEditing::everyActionHasAKeyAndNoTwoShareOne()
     }
 }
 
-void tst_PlotEditing::theEditorChangesAtOnce()
+void tst_PlotEditing::editorAppliesChangesImmediately()
 {
     PlotWindow window(R"({"curves":[{"signal":"count"}]})");
     QSignalSpy edited(window.plot, &QPlcWidget::settingsEdited);
@@ -261,7 +261,7 @@ void tst_PlotEditing::theEditorAddsAndRemovesCurves()
     QCOMPARE(window.settings(), "{\"curves\":[{\"color\":\"" + color + "\",\"signal\":\"sum\"}]}");
 }
 
-void tst_PlotEditing::thereIsAMenuForTheKeyboard()
+void tst_PlotEditing::keyboardOpensTheContextMenu()
 {
     PlotWindow window(R"({"curves":[{"signal":"count"}]})");
     window.plot->show();
@@ -279,7 +279,7 @@ void tst_PlotEditing::thereIsAMenuForTheKeyboard()
     menu->close();
 }
 
-void tst_PlotEditing::whatIsSeenGoesIntoTheClipboard()
+void tst_PlotEditing::visibleCurvesAreCopiedToTheClipboard()
 {
     PlotWindow window(R"({"curves":[{"signal":"count"},{"signal":"sum","gain":2},{"signal":"echo","visible":false}]})");
     QVERIFY(window.run(0.5));
@@ -295,7 +295,7 @@ void tst_PlotEditing::whatIsSeenGoesIntoTheClipboard()
     QCOMPARE(lines.size(), int(rows) + 2);  // with the header, and nothing behind the last line
 }
 
-void tst_PlotEditing::whatIsBetweenTheCursorsGoesIntoTheClipboard()
+void tst_PlotEditing::rowsBetweenTheCursorsAreCopiedToTheClipboard()
 {
     PlotWindow window(R"({"curves":[{"signal":"count"}]})");
     QVERIFY(window.run(0.5));
@@ -334,7 +334,7 @@ void tst_PlotEditing::picturesHaveTwiceThePixels()
     QVERIFY(picture.save(QStringLiteral("/nowhere/a.png")).contains(QStringLiteral("/nowhere/a.png")));
 }
 
-void tst_PlotEditing::aFileDialogDoesNotBlockAndFailuresAreSaid()
+void tst_PlotEditing::fileDialogDoesNotBlockAndFailuresAreReported()
 {
     PlotWindow window(R"({"curves":[{"signal":"count"}]})");
     QVERIFY(window.run(0.1));
@@ -360,7 +360,7 @@ void tst_PlotEditing::smallPanelsKeepTheirCurves()
     QTRY_VERIFY(!window.part<PlotLegend>()->isVisible());
 }
 
-void tst_PlotEditing::manyCurvesWithStatisticsLeaveRoomForThem()
+void tst_PlotEditing::statisticsLegendLeavesRoomForManyCurves()
 {
     PlotWindow window;
     QJsonArray curves;
@@ -376,7 +376,7 @@ void tst_PlotEditing::manyCurvesWithStatisticsLeaveRoomForThem()
     QTRY_VERIFY(window.canvas()->height() >= 110);
 }
 
-void tst_PlotEditing::theLegendSaysTheQualityAtThePointer()
+void tst_PlotEditing::legendShowsTheQualityAtThePointer()
 {
     PlotWindow window(R"({"curves":[{"signal":"count"}]})");
     QVERIFY(window.run(0.3));
@@ -410,7 +410,7 @@ void tst_PlotEditing::staleValuesAreNotTrusted()
     QCOMPARE(legend->heightForWidth(300), height);
 }
 
-void tst_PlotEditing::theTitleIsWhatThePlotShowsUnlessAPersonNamesIt()
+void tst_PlotEditing::titleListsTheCurvesUnlessTheUserNamesThePlot()
 {
     QPlcWidget::registerFactory(new QPlcTimePlotFactory);
     QPlcTimePlot plot;

@@ -24,16 +24,16 @@ class tst_PlotSettings : public QObject
 {
     Q_OBJECT
 private Q_SLOTS:
-    void whatIsWrittenIsReadAsTheSame_data();
-    void whatIsWrittenIsReadAsTheSame();
+    void writtenSettingsAreReadBackUnchanged_data();
+    void writtenSettingsAreReadBackUnchanged();
     void defaultsAreNotWritten();
-    void nonsenseIsADefault();
-    void limitsAreThoseOfTheOnlyLineUnlessChosen();
+    void invalidSettingsGetTheirDefaults();
+    void limitsAreShownByDefaultForASingleLine();
     void aRangeIsFixedWithBothEndsInOrder();
     void aCurveIsNamedByWhatItShows();
 };
 
-void tst_PlotSettings::whatIsWrittenIsReadAsTheSame_data()
+void tst_PlotSettings::writtenSettingsAreReadBackUnchanged_data()
 {
     QTest::addColumn<QByteArray>("text");
     QTest::newRow("nothing") << QByteArray("{}");
@@ -49,7 +49,7 @@ void tst_PlotSettings::whatIsWrittenIsReadAsTheSame_data()
         R"("right":{"minimum":-1.5},"span":10,"statistics":false,"time":"own"})");
 }
 
-void tst_PlotSettings::whatIsWrittenIsReadAsTheSame()
+void tst_PlotSettings::writtenSettingsAreReadBackUnchanged()
 {
     QFETCH(QByteArray, text);
     const QJsonObject json = parsed(text);
@@ -64,7 +64,7 @@ void tst_PlotSettings::defaultsAreNotWritten()
     QCOMPARE(PlotSettings::fromJson(json).toJson(), QJsonObject());
 }
 
-void tst_PlotSettings::nonsenseIsADefault()
+void tst_PlotSettings::invalidSettingsGetTheirDefaults()
 {
     const PlotSettings settings = PlotSettings::fromJson(
         parsed(R"({"curves":[7,{"signal":3,"gain":"x","color":"no"}],"left":5,"span":-4,"grid":"x"})"));
@@ -77,7 +77,7 @@ void tst_PlotSettings::nonsenseIsADefault()
     QVERIFY(settings.hasGrid);
 }
 
-void tst_PlotSettings::limitsAreThoseOfTheOnlyLineUnlessChosen()
+void tst_PlotSettings::limitsAreShownByDefaultForASingleLine()
 {
     const auto shows
         = [](const char *json) { return PlotSettings::fromJson(QJsonDocument::fromJson(json).object()).showsLimits(); };

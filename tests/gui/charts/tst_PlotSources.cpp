@@ -24,7 +24,7 @@ class tst_PlotSources : public QObject
 private Q_SLOTS:
     void aPlotHoldsItsDerivedSignalUntilItIsClosed();
     void anEditKeepsTheDerivedSignals();
-    void whatIsHeldIsDrawnAlsoWhenThePlantGoes();
+    void heldCurveIsDrawnAfterItsPlantIsRemoved();
     void moreOfThePastIsDrawnInFrozenViews();
     void aFormulaIsShownWithoutTheEqualsSign();
     void aNameIsShownInsteadOfTheExpression();
@@ -56,7 +56,7 @@ void tst_PlotSources::anEditKeepsTheDerivedSignals()
     QVERIFY(before.expired());
 }
 
-void tst_PlotSources::whatIsHeldIsDrawnAlsoWhenThePlantGoes()
+void tst_PlotSources::heldCurveIsDrawnAfterItsPlantIsRemoved()
 {
     PlotWindow window(derivedCurve);
     QVERIFY(window.run(0.2));

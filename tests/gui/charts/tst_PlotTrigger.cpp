@@ -30,22 +30,22 @@ class tst_PlotTrigger : public QObject
 {
     Q_OBJECT
 private Q_SLOTS:
-    void theKeyTurnsItOnAndOff();
-    void settingsComeBackByteByByte();
+    void keyTogglesTheTrigger();
+    void settingsAreRestoredByteForByte();
     void anEventIsShownInThisPlotOnly();
     void timesAreMillisecondsAroundTheEvent();
     void linesAreAtTheEventAndTheLevel();
     void aLinkedTriggerMovesTheWindow();
-    void aSingleEventStaysOnATabThatIsNotSeen();
-    void whoPansKeepsTheViewUntilTheNextEvent();
+    void hiddenPlotKeepsItsSingleEvent();
+    void pannedViewStaysUntilTheNextEvent();
     void autoGoesBackToLiveWithoutEvents();
     void otherSettingsDoNotArmAgain();
     void everyEventIsSaved();
-    void whatCannotBeSavedIsInTheEventLog();
-    void aNarrowPlotKeepsItsWidth();
+    void failureToSaveIsLogged();
+    void triggerBarDoesNotWidenANarrowPlot();
 };
 
-void tst_PlotTrigger::theKeyTurnsItOnAndOff()
+void tst_PlotTrigger::keyTogglesTheTrigger()
 {
     PlotWindow window(R"({"curves":[{"signal":"count"}]})");
     QSignalSpy edited(window.plot, &QPlcWidget::settingsEdited);
@@ -63,7 +63,7 @@ void tst_PlotTrigger::theKeyTurnsItOnAndOff()
     QCOMPARE(edited.size(), 2);
 }
 
-void tst_PlotTrigger::settingsComeBackByteByByte()
+void tst_PlotTrigger::settingsAreRestoredByteForByte()
 {
     const QByteArray all = R"({"curves":[{"name":"n","signal":"count"}],"trigger":{"color":"red","holdOff":2,)"
                            R"("kind":"falling","level":3,"linked":true,"on":true,"signal":"sum"}})";
@@ -128,7 +128,7 @@ void tst_PlotTrigger::aLinkedTriggerMovesTheWindow()
     QVERIFY(window.time()->isLive());
 }
 
-void tst_PlotTrigger::aSingleEventStaysOnATabThatIsNotSeen()
+void tst_PlotTrigger::hiddenPlotKeepsItsSingleEvent()
 {
     PlotWindow window(triggered(R"(,"mode":"single")"));
     QVERIFY(window.run(0.2));
@@ -143,7 +143,7 @@ void tst_PlotTrigger::aSingleEventStaysOnATabThatIsNotSeen()
     QTRY_VERIFY(std::abs(window.canvas()->begin() - (event - s / 4)) < s / 100);
 }
 
-void tst_PlotTrigger::whoPansKeepsTheViewUntilTheNextEvent()
+void tst_PlotTrigger::pannedViewStaysUntilTheNextEvent()
 {
     PlotWindow window(triggered(R"(,"mode":"single")"));
     QVERIFY(window.run(0.2));
@@ -211,7 +211,7 @@ void tst_PlotTrigger::everyEventIsSaved()
     QTRY_VERIFY(told().contains(QStringLiteral("has 3 files of events")));
 }
 
-void tst_PlotTrigger::whatCannotBeSavedIsInTheEventLog()
+void tst_PlotTrigger::failureToSaveIsLogged()
 {
     PlotWindow window(triggered(R"(,"mode":"normal","save":{"on":true,"folder":"/proc/no/place"})"));
     QVERIFY(window.run(0.1));
@@ -221,7 +221,7 @@ void tst_PlotTrigger::whatCannotBeSavedIsInTheEventLog()
     QVERIFY(!QApplication::activeModalWidget());
 }
 
-void tst_PlotTrigger::aNarrowPlotKeepsItsWidth()
+void tst_PlotTrigger::triggerBarDoesNotWidenANarrowPlot()
 {
     PlotWindow window(triggered({}));
     window.plot->resize(900, 300);

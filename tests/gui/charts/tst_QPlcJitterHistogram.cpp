@@ -43,22 +43,22 @@ class tst_QPlcJitterHistogram : public QObject
 {
     Q_OBJECT
 private Q_SLOTS:
-    void settingsComeBackAsTheyWere_data();
-    void settingsComeBackAsTheyWere();
-    void withoutAPlantItSaysSo();
-    void beforeTheFirstCycleItSaysWhatToDo();
+    void settingsAreRestoredUnchanged_data();
+    void settingsAreRestoredUnchanged();
+    void panelReportsAMissingPlant();
+    void panelGivesAHintBeforeTheFirstCycle();
     void theLatenessOfARunningMasterIsShown();
     void masterAndNodesAreShownTogether();
-    void nobodyAsksWhileItIsHidden();
-    void whatIsShownIsChosenByActionsAndEditor();
+    void hiddenPanelRequestsNoStatistics();
+    void actionsAndEditorChooseTheHistograms();
     void histogramsOfALostMasterAreStale();
     void aSettingThatIsMissingIsADefault();
-    void theCaptionIsOneLineOfWhatHasRoom();
-    void amongSeveralPlantsOneIsChosenAndNamed();
-    void aSinglePlantIsNoChoice();
+    void captionFitsOnOneLine();
+    void panelNamesTheChosenPlantAmongSeveral();
+    void singlePlantNeedsNoChoice();
 };
 
-void tst_QPlcJitterHistogram::settingsComeBackAsTheyWere_data()
+void tst_QPlcJitterHistogram::settingsAreRestoredUnchanged_data()
 {
     QTest::addColumn<QByteArray>("json");
     QTest::newRow("none") << QByteArray("{}");
@@ -67,7 +67,7 @@ void tst_QPlcJitterHistogram::settingsComeBackAsTheyWere_data()
     QTest::newRow("nothing shown") << QByteArray(R"({"show":[]})");
 }
 
-void tst_QPlcJitterHistogram::settingsComeBackAsTheyWere()
+void tst_QPlcJitterHistogram::settingsAreRestoredUnchanged()
 {
     QFETCH(QByteArray, json);
     QPlcJitterHistogram panel;
@@ -75,7 +75,7 @@ void tst_QPlcJitterHistogram::settingsComeBackAsTheyWere()
     QCOMPARE(QJsonDocument(panel.settings()).toJson(QJsonDocument::Compact), json);
 }
 
-void tst_QPlcJitterHistogram::withoutAPlantItSaysSo()
+void tst_QPlcJitterHistogram::panelReportsAMissingPlant()
 {
     WindowContext context;
     QPlcJitterHistogram panel;
@@ -87,7 +87,7 @@ void tst_QPlcJitterHistogram::withoutAPlantItSaysSo()
     QVERIFY(showsText(panel, "no plant tower"));
 }
 
-void tst_QPlcJitterHistogram::beforeTheFirstCycleItSaysWhatToDo()
+void tst_QPlcJitterHistogram::panelGivesAHintBeforeTheFirstCycle()
 {
     RunningMaster master;
     ShownHistogram shown(master);
@@ -117,7 +117,7 @@ void tst_QPlcJitterHistogram::masterAndNodesAreShownTogether()
     QVERIFY(showsText(shown.panel, "no figures of Nobody.execution"));
 }
 
-void tst_QPlcJitterHistogram::nobodyAsksWhileItIsHidden()
+void tst_QPlcJitterHistogram::hiddenPanelRequestsNoStatistics()
 {
     RunningMaster master;
     QVERIFY(master.startRealTime());
@@ -132,7 +132,7 @@ void tst_QPlcJitterHistogram::nobodyAsksWhileItIsHidden()
     QTRY_COMPARE(curvesOf(panel), 1);
 }
 
-void tst_QPlcJitterHistogram::whatIsShownIsChosenByActionsAndEditor()
+void tst_QPlcJitterHistogram::actionsAndEditorChooseTheHistograms()
 {
     QPlcJitterHistogram panel;
     QSignalSpy edited(&panel, &QPlcJitterHistogram::settingsEdited);
@@ -178,7 +178,7 @@ void tst_QPlcJitterHistogram::aSettingThatIsMissingIsADefault()
     QCOMPARE(panel.settings(), QJsonObject());
 }
 
-void tst_QPlcJitterHistogram::theCaptionIsOneLineOfWhatHasRoom()
+void tst_QPlcJitterHistogram::captionFitsOnOneLine()
 {
     RunningMaster master;
     QVERIFY(master.startRealTime());
@@ -197,7 +197,7 @@ void tst_QPlcJitterHistogram::theCaptionIsOneLineOfWhatHasRoom()
     }
 }
 
-void tst_QPlcJitterHistogram::amongSeveralPlantsOneIsChosenAndNamed()
+void tst_QPlcJitterHistogram::panelNamesTheChosenPlantAmongSeveral()
 {
     RunningMaster north;
     RunningMaster south;
@@ -228,7 +228,7 @@ void tst_QPlcJitterHistogram::amongSeveralPlantsOneIsChosenAndNamed()
     QTRY_VERIFY(showsText(panel, "north: Master lateness"));
 }
 
-void tst_QPlcJitterHistogram::aSinglePlantIsNoChoice()
+void tst_QPlcJitterHistogram::singlePlantNeedsNoChoice()
 {
     RunningMaster master;
     QVERIFY(master.startRealTime());

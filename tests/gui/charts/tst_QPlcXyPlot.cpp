@@ -65,26 +65,26 @@ class tst_QPlcXyPlot : public QObject
 {
     Q_OBJECT
 private Q_SLOTS:
-    void settingsComeBackAsTheyWere_data();
-    void settingsComeBackAsTheyWere();
-    void withoutAWindowItSaysSo();
+    void settingsAreRestoredUnchanged_data();
+    void settingsAreRestoredUnchanged();
+    void plotWithoutWindowReportsThatNoPlantIsConnected();
     void twoSignalsAreACurve();
-    void missingSignalsAreTold();
+    void missingSignalsAreReported();
     void aCurveAppearsWhenItsSignalsDo();
-    void signalsOfTwoPlantsAreNoCurve();
+    void signalsOfTwoPlantsAreRefused();
     void theSettingsAreEdited();
-    void anUnitIsAsLongOnBothAxes();
-    void itIsDrawnOnlyWhenThePictureChanges();
+    void equalAspectGivesBothAxesTheSameScale();
+    void plotIsDrawnOnlyWhenThePictureChanges();
     void theDotIsAtTheDisplayedTime();
     void pairsAreRowsOfTheSameTime();
-    void aValueThatStandsInForAnotherIsNoPartOfThePath();
+    void pathOmitsSubstituteValues();
     void aSettingThatIsMissingIsADefault();
     void theWheelZoomsAboutTheMouse();
     void draggingPansAndABoxIsZoomedInto();
     void twoFingersZoom();
     void axesThatAreZoomedStay();
-    void theSameNumbersAsInOtherCharts();
-    void theTimeThatIsSeenIsExported();
+    void axisNumbersUseTheFormatOfOtherCharts();
+    void visibleTimeRangeIsExported();
 
 private:
     void fill();
@@ -93,7 +93,7 @@ private:
     std::shared_ptr<SignalStore> m_store;
 };
 
-void tst_QPlcXyPlot::settingsComeBackAsTheyWere_data()
+void tst_QPlcXyPlot::settingsAreRestoredUnchanged_data()
 {
     QTest::addColumn<QByteArray>("json");
     QTest::newRow("none") << QByteArray("{}");
@@ -103,7 +103,7 @@ void tst_QPlcXyPlot::settingsComeBackAsTheyWere_data()
     QTest::newRow("default said") << QByteArray(R"({"equalAspect":false})");
 }
 
-void tst_QPlcXyPlot::settingsComeBackAsTheyWere()
+void tst_QPlcXyPlot::settingsAreRestoredUnchanged()
 {
     QFETCH(QByteArray, json);
     QPlcXyPlot plot;
@@ -113,7 +113,7 @@ void tst_QPlcXyPlot::settingsComeBackAsTheyWere()
     QCOMPARE(QJsonDocument(plot.settings()).toJson(QJsonDocument::Compact), json);
 }
 
-void tst_QPlcXyPlot::withoutAWindowItSaysSo()
+void tst_QPlcXyPlot::plotWithoutWindowReportsThatNoPlantIsConnected()
 {
     QPlcXyPlot plot;
     plot.applySettings(objectOf(R"({"curves":[{"x":"a","y":"b"}]})"));
@@ -138,7 +138,7 @@ void tst_QPlcXyPlot::twoSignalsAreACurve()
     QCOMPARE(edited.size(), 2);
 }
 
-void tst_QPlcXyPlot::missingSignalsAreTold()
+void tst_QPlcXyPlot::missingSignalsAreReported()
 {
     WindowContext context;
     QPlcXyPlot plot;
@@ -175,7 +175,7 @@ void tst_QPlcXyPlot::aCurveAppearsWhenItsSignalsDo()
     QVERIFY(!canvas->isVisible());
 }
 
-void tst_QPlcXyPlot::signalsOfTwoPlantsAreNoCurve()
+void tst_QPlcXyPlot::signalsOfTwoPlantsAreRefused()
 {
     RunningMaster east;
     RunningMaster west;
@@ -237,7 +237,7 @@ std::unique_ptr<XyCanvas> tst_QPlcXyPlot::canvasOf(int x, int y)
     return canvas;
 }
 
-void tst_QPlcXyPlot::anUnitIsAsLongOnBothAxes()
+void tst_QPlcXyPlot::equalAspectGivesBothAxesTheSameScale()
 {
     const auto canvas = canvasOf(0, 1);
     canvas->setAspect(XyCanvas::Equal);
@@ -253,7 +253,7 @@ void tst_QPlcXyPlot::anUnitIsAsLongOnBothAxes()
     QCOMPARE(canvas->axisTitle(QwtPlot::xBottom).text(), QStringLiteral("0 [m]"));
 }
 
-void tst_QPlcXyPlot::itIsDrawnOnlyWhenThePictureChanges()
+void tst_QPlcXyPlot::plotIsDrawnOnlyWhenThePictureChanges()
 {
     const auto canvas = canvasOf(0, 1);
     const SignalStore::Time s = 1'000'000'000;
@@ -311,7 +311,7 @@ void tst_QPlcXyPlot::pairsAreRowsOfTheSameTime()
 }
 
 /// Undo brings back the settings of before the first curve.
-void tst_QPlcXyPlot::aValueThatStandsInForAnotherIsNoPartOfThePath()
+void tst_QPlcXyPlot::pathOmitsSubstituteValues()
 {
     const auto canvas = canvasOf(0, 1);
     const SignalStore::Time s = 1'000'000'000;
@@ -422,7 +422,7 @@ void tst_QPlcXyPlot::axesThatAreZoomedStay()
     QVERIFY(canvas->axisInterval(QwtPlot::xBottom).maxValue() >= 100.0);
 }
 
-void tst_QPlcXyPlot::theSameNumbersAsInOtherCharts()
+void tst_QPlcXyPlot::axisNumbersUseTheFormatOfOtherCharts()
 {
     const auto canvas = canvasOf(2, 2);
     canvas->show({0, 60'000'000'000, 0, false});
@@ -430,7 +430,7 @@ void tst_QPlcXyPlot::theSameNumbersAsInOtherCharts()
         QCOMPARE(canvas->axisScaleDraw(axis)->label(4000.0).text(), QStringLiteral("4000"));
 }
 
-void tst_QPlcXyPlot::theTimeThatIsSeenIsExported()
+void tst_QPlcXyPlot::visibleTimeRangeIsExported()
 {
     RunningMaster master;
     QVERIFY(master.startRealTime());

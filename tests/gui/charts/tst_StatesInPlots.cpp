@@ -23,15 +23,15 @@ class tst_StatesInPlots : public QObject
     Q_OBJECT
 private Q_SLOTS:
     void anAxisOfStatesHasTheirNames();
-    void anAxisOfDifferentThingsHasNumbers();
-    void cursorsSayNames();
+    void axisOfDifferentStatesShowsNumbers();
+    void cursorsShowStateNames();
     void aCurveBecomesBandsAndALineAgain();
     void bandsAreAtTheBottomBehindOtherCurves();
     void bandsAloneTakeAllOfThePlot();
     void severalBandsAreAboveEachOther();
     void aStateThatIsHeldStaysOneBand();
     void theLegendHasTheColourOfTheBand();
-    void whatIsNoStateHasNoBands();
+    void numericSignalHasNoBands();
 };
 
 void tst_StatesInPlots::anAxisOfStatesHasTheirNames()
@@ -45,7 +45,7 @@ void tst_StatesInPlots::anAxisOfStatesHasTheirNames()
     QCOMPARE(window.label(1.0), QStringLiteral("1"));  // it is no phase any more
 }
 
-void tst_StatesInPlots::anAxisOfDifferentThingsHasNumbers()
+void tst_StatesInPlots::axisOfDifferentStatesShowsNumbers()
 {
     const FedPlotWindow states(R"({"curves":[{"signal":"phase"},{"signal":"mode"}]})");
     QCOMPARE(states.label(1.0), QStringLiteral("1"));
@@ -53,7 +53,7 @@ void tst_StatesInPlots::anAxisOfDifferentThingsHasNumbers()
     QCOMPARE(window.label(1.0), QStringLiteral("ReelOut"));  // the speed has its own axis
 }
 
-void tst_StatesInPlots::cursorsSayNames()
+void tst_StatesInPlots::cursorsShowStateNames()
 {
     FedPlotWindow window(R"({"curves":[{"signal":"phase"}]})");
     QVERIFY(window.show());
@@ -152,7 +152,7 @@ void tst_StatesInPlots::theLegendHasTheColourOfTheBand()
     QTRY_COMPARE(swatch(), window.colorAt(0.1, 0.98));
 }
 
-void tst_StatesInPlots::whatIsNoStateHasNoBands()
+void tst_StatesInPlots::numericSignalHasNoBands()
 {
     const FedPlotWindow window(R"({"curves":[{"bands":true,"signal":"speed"}]})");
     QCOMPARE(window.count(bands), 0);

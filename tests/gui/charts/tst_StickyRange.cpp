@@ -11,17 +11,17 @@ class tst_StickyRange : public QObject
 {
     Q_OBJECT
 private Q_SLOTS:
-    void theFirstValuesAreTakenAsTheyAre();
-    void itGrowsAtOnce();
-    void itShrinksAfterAWhileOnly();
-    void aShortQuietTimeDoesNotShrinkIt();
-    void aLittleLessIsNoReasonToShrink();
+    void firstValuesSetTheRange();
+    void rangeGrowsImmediately();
+    void rangeShrinksOnlyAfterADelay();
+    void interruptedQuietTimeDoesNotShrinkTheRange();
+    void slightlySmallerValuesDoNotShrinkTheRange();
     void aConstantIsInTheMiddle();
-    void nothingChangesNothing();
+    void invalidOrUnchangedValuesKeepTheRange();
     void endsAreRound();
 };
 
-void tst_StickyRange::theFirstValuesAreTakenAsTheyAre()
+void tst_StickyRange::firstValuesSetTheRange()
 {
     StickyRange range;
     QVERIFY(range.fit(100.0, 102.0, 0));
@@ -32,7 +32,7 @@ void tst_StickyRange::theFirstValuesAreTakenAsTheyAre()
     QVERIFY(range.maximum() < 2.0);
 }
 
-void tst_StickyRange::itGrowsAtOnce()
+void tst_StickyRange::rangeGrowsImmediately()
 {
     StickyRange range;
     range.fit(0.0, 1.0, 0);
@@ -42,7 +42,7 @@ void tst_StickyRange::itGrowsAtOnce()
     QCOMPARE(range.minimum() <= before, true);
 }
 
-void tst_StickyRange::itShrinksAfterAWhileOnly()
+void tst_StickyRange::rangeShrinksOnlyAfterADelay()
 {
     StickyRange range;
     range.fit(0.0, 10.0, 0);
@@ -53,7 +53,7 @@ void tst_StickyRange::itShrinksAfterAWhileOnly()
     QVERIFY(range.maximum() < 2.0);
 }
 
-void tst_StickyRange::aShortQuietTimeDoesNotShrinkIt()
+void tst_StickyRange::interruptedQuietTimeDoesNotShrinkTheRange()
 {
     StickyRange range;
     range.fit(0.0, 10.0, 0);
@@ -63,7 +63,7 @@ void tst_StickyRange::aShortQuietTimeDoesNotShrinkIt()
     QVERIFY(range.maximum() > 10.0);
 }
 
-void tst_StickyRange::aLittleLessIsNoReasonToShrink()
+void tst_StickyRange::slightlySmallerValuesDoNotShrinkTheRange()
 {
     StickyRange range;
     range.fit(0.0, 10.0, 0);
@@ -82,7 +82,7 @@ void tst_StickyRange::aConstantIsInTheMiddle()
     QVERIFY(range.minimum() > 800.0 && range.minimum() < 950.0);
 }
 
-void tst_StickyRange::nothingChangesNothing()
+void tst_StickyRange::invalidOrUnchangedValuesKeepTheRange()
 {
     StickyRange range;
     range.fit(2.0, 3.0, 0);

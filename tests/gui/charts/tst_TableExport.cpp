@@ -41,23 +41,23 @@ class tst_TableExport : public QObject
 {
     Q_OBJECT
 private Q_SLOTS:
-    void rowsAreThoseOfTheRange();
+    void tableContainsTheRowsOfTheRange();
     void anEmptyRangeHasAHeaderOnly();
     void namesAreQuotedAfterTheRfc();
-    void numbersAreThoseOfTheCLocaleAndReadBackExactly();
-    void whatIsNotThereIsEmpty();
-    void gainAndOffsetCount();
+    void numbersUseTheCLocaleAndReadBackExactly();
+    void missingValueIsAnEmptyField();
+    void exportAppliesGainAndOffset();
     void severalStoresAreOneTable();
     void tabsAreForClipboards();
     void piecesAreBounded();
-    void rowsThatHaveGoneAreLeftOut();
+    void overwrittenRowsAreOmitted();
     void aFileIsWrittenWhole();
-    void aFileThatCannotBeWrittenIsSaid();
+    void failureToWriteAFileIsReported();
     void givingUpLeavesNoFile();
     void theClipboardGetsTabs();
 };
 
-void tst_TableExport::rowsAreThoseOfTheRange()
+void tst_TableExport::tableContainsTheRowsOfTheRange()
 {
     SignalStore store(2, 64);
     for (int i = 0; i < 5; ++i)
@@ -88,7 +88,7 @@ void tst_TableExport::namesAreQuotedAfterTheRfc()
              QByteArray("UTC,time [s],\"= max(a, \"\"b\"\")\"\r\n"));
 }
 
-void tst_TableExport::numbersAreThoseOfTheCLocaleAndReadBackExactly()
+void tst_TableExport::numbersUseTheCLocaleAndReadBackExactly()
 {
     const float values[] = {0.1F, -1.0F / 3.0F, 1.5e-30F, 16777216.0F, 3.4e38F};
     SignalStore store(1, 16);
@@ -104,14 +104,14 @@ void tst_TableExport::numbersAreThoseOfTheCLocaleAndReadBackExactly()
     QVERIFY(lines[1].endsWith(",0.1\r"));
 }
 
-void tst_TableExport::whatIsNotThereIsEmpty()
+void tst_TableExport::missingValueIsAnEmptyField()
 {
     SignalStore store(1, 16);
     append(&store, begin, {NAN});
     QVERIFY(textOf(TableExport(TableExport::Csv, {column(store, 0)}, begin, begin)).endsWith("Z,0,\r\n"));
 }
 
-void tst_TableExport::gainAndOffsetCount()
+void tst_TableExport::exportAppliesGainAndOffset()
 {
     SignalStore store(1, 16);
     append(&store, begin, {2.0F});
@@ -159,7 +159,7 @@ void tst_TableExport::piecesAreBounded()
     QCOMPARE(table.next(5000), QByteArray());
 }
 
-void tst_TableExport::rowsThatHaveGoneAreLeftOut()
+void tst_TableExport::overwrittenRowsAreOmitted()
 {
     SignalStore store(1, 32);
     for (int i = 0; i < 32; ++i)
@@ -190,7 +190,7 @@ void tst_TableExport::aFileIsWrittenWhole()
     QCOMPARE(file.readAll(), textOf(table));
 }
 
-void tst_TableExport::aFileThatCannotBeWrittenIsSaid()
+void tst_TableExport::failureToWriteAFileIsReported()
 {
     const SignalStore store(1, 16);
     PlotExport job(this);

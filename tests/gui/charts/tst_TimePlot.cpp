@@ -63,9 +63,9 @@ class tst_TimePlot : public QObject
 {
     Q_OBJECT
 private Q_SLOTS:
-    void withoutAContextItWaits();
-    void anEmptyPlotSaysWhatToDo();
-    void whatIsMissingIsSaidAndFoundLater();
+    void plotWithoutContextAcceptsSignalsAndActions();
+    void emptyPlotShowsAHint();
+    void missingSignalIsReportedAndFoundLater();
     void aLivePlotShowsTheNewestValues();
     void hiddenPlotsNeverDraw();
     void aFrozenPlotIsDrawnOnceAndDataGoOn();
@@ -79,14 +79,14 @@ private Q_SLOTS:
     void aDoubleClickShowsAll();
     void cursorsAreDragged();
     void theMousePointsInAllPlots();
-    void aMouseThatRestsPointsIntoTheNewView();
-    void anOwnTimeAxisIsItsOwn();
+    void restingMousePointsAtTheNewViewTime();
+    void ownTimeAxisIsIndependentOfTheWindow();
     void limitsAndStepsComeFromTheTable();
-    void referenceLinesAreSeen();
+    void referenceLinesAreIncludedInTheRange();
     void wholeNumbersHaveNoTicksBetweenThem();
 };
 
-void tst_TimePlot::withoutAContextItWaits()
+void tst_TimePlot::plotWithoutContextAcceptsSignalsAndActions()
 {
     QPlcTimePlot plot;
     plot.resize(240, 120);
@@ -100,7 +100,7 @@ void tst_TimePlot::withoutAContextItWaits()
     QTRY_VERIFY(plot.drawnPictures() > 0);
 }
 
-void tst_TimePlot::anEmptyPlotSaysWhatToDo()
+void tst_TimePlot::emptyPlotShowsAHint()
 {
     PlotWindow window;
     window.plot->show();
@@ -109,7 +109,7 @@ void tst_TimePlot::anEmptyPlotSaysWhatToDo()
     QTRY_VERIFY(window.hint().contains(QStringLiteral("hidden")));
 }
 
-void tst_TimePlot::whatIsMissingIsSaidAndFoundLater()
+void tst_TimePlot::missingSignalIsReportedAndFoundLater()
 {
     PlotWindow window(R"({"curves":[{"signal":"count"}]})");
     window.plot->show();
@@ -337,7 +337,7 @@ void tst_TimePlot::theMousePointsInAllPlots()
     QVERIFY(!window.time()->pointer());
 }
 
-void tst_TimePlot::aMouseThatRestsPointsIntoTheNewView()
+void tst_TimePlot::restingMousePointsAtTheNewViewTime()
 {
     PlotWindow window(R"({"curves":[{"signal":"count"}]})");
     QVERIFY(window.run(0.4));
@@ -349,7 +349,7 @@ void tst_TimePlot::aMouseThatRestsPointsIntoTheNewView()
     QTRY_COMPARE(window.part<PlotOverlay>()->picture().dots.size(), 1);
 }
 
-void tst_TimePlot::anOwnTimeAxisIsItsOwn()
+void tst_TimePlot::ownTimeAxisIsIndependentOfTheWindow()
 {
     PlotWindow window(R"({"curves":[{"signal":"count"}],"time":"own","span":5})");
     QVERIFY(window.run(0.2));
@@ -382,7 +382,7 @@ void tst_TimePlot::limitsAndStepsComeFromTheTable()
     QCOMPARE(window.canvas()->axisTitle(QwtPlot::yLeft).text(), QStringLiteral("m/s"));
 }
 
-void tst_TimePlot::referenceLinesAreSeen()
+void tst_TimePlot::referenceLinesAreIncludedInTheRange()
 {
     PlotWindow window(R"({"curves":[{"signal":"count"}],"left":{"lines":[1000000]}})");
     QVERIFY(window.run(0.2));

@@ -32,12 +32,12 @@ class tst_TimeTicks : public QObject
 private Q_SLOTS:
     void ticksAreAtRoundTimesOfTheDay();
     void ticksMoveWithTheData();
-    void thereAreNeverMoreThanFit();
+    void tickCountStaysWithinTheAvailableRoom();
     void shortSpansHaveFractions();
     void longSpansHaveNoSeconds();
     void secondsAreCountedFromTheReference();
-    void aroundAnEventThereAreUnits();
-    void timesAreToldApart();
+    void eventTicksShowUnits();
+    void clockTextResolvesTheGivenStep();
 };
 
 void tst_TimeTicks::ticksAreAtRoundTimesOfTheDay()
@@ -55,7 +55,7 @@ void tst_TimeTicks::ticksMoveWithTheData()
     QVERIFY(after.major().contains(before.major().last()));
 }
 
-void tst_TimeTicks::thereAreNeverMoreThanFit()
+void tst_TimeTicks::tickCountStaysWithinTheAvailableRoom()
 {
     for (const Time span : {Time(100'000), 7 * s / 1000, 3 * s, 100 * s, 3601 * s, 86400 * s, 30 * 86400 * s}) {
         for (const int widest : {1, 2, 5, 11}) {
@@ -89,7 +89,7 @@ void tst_TimeTicks::secondsAreCountedFromTheReference()
     QCOMPARE(labels(TimeTicks(edge - s / 2, edge + s / 2, 2, edge)), (QStringList{"-0.5", "0.0", "0.5"}));
 }
 
-void tst_TimeTicks::aroundAnEventThereAreUnits()
+void tst_TimeTicks::eventTicksShowUnits()
 {
     const Time event = at(12, 0, 0) + 123'456'789;
     QCOMPARE(labels(TimeTicks::aroundEvent(event - s / 5, event + 4 * s / 5, 5, event)),
@@ -100,7 +100,7 @@ void tst_TimeTicks::aroundAnEventThereAreUnits()
              (QStringList{"-10 s", "0", "10 s", "20 s"}));
 }
 
-void tst_TimeTicks::timesAreToldApart()
+void tst_TimeTicks::clockTextResolvesTheGivenStep()
 {
     QCOMPARE(TimeTicks::clockText(at(1, 2, 3) + 4'000'000, 1'000'000), QStringLiteral("01:02:03.004"));
     QCOMPARE(TimeTicks::clockText(at(1, 2, 3) + 4'000, 1'000), QStringLiteral("01:02:03.000004"));

@@ -37,18 +37,18 @@ class tst_TriggerBar : public QObject
 {
     Q_OBJECT
 private Q_SLOTS:
-    void settingsComeBackAsTheyWere();
+    void settingsAreRestoredUnchanged();
     void theFirstSignalIsChosenUntilAPersonDoes();
-    void aPersonsChoiceIsTold();
+    void userChoiceIsSignalled();
     void numbersOfAnySizeStayAsTheyAre();
     void aSmallLevelIsWritten();
-    void windowsHaveTwoLevels();
+    void windowTriggersHaveTwoLevels();
     void anEventMovesTheViewOfTheWindow();
-    void aHiddenBarRests();
-    void withoutASignalItSaysSo();
+    void hiddenBarEvaluatesNoTrigger();
+    void barReportsAMissingSignal();
 };
 
-void tst_TriggerBar::settingsComeBackAsTheyWere()
+void tst_TriggerBar::settingsAreRestoredUnchanged()
 {
     const QPlcWidget panel;
     TriggerBar bar(panel.context());
@@ -71,7 +71,7 @@ void tst_TriggerBar::theFirstSignalIsChosenUntilAPersonDoes()
     QCOMPARE(control<QComboBox>(bar, "Signal of the trigger")->currentText(), QStringLiteral("gone"));
 }
 
-void tst_TriggerBar::aPersonsChoiceIsTold()
+void tst_TriggerBar::userChoiceIsSignalled()
 {
     const QPlcWidget panel;
     TriggerBar bar(panel.context());
@@ -115,7 +115,7 @@ void tst_TriggerBar::aSmallLevelIsWritten()
     QCOMPARE(bar.settings(), objectOf(R"({"signal":"a","level":0.00025,"pre":0.12})"));
 }
 
-void tst_TriggerBar::windowsHaveTwoLevels()
+void tst_TriggerBar::windowTriggersHaveTwoLevels()
 {
     const QPlcWidget panel;
     TriggerBar bar(panel.context());
@@ -145,7 +145,7 @@ void tst_TriggerBar::anEventMovesTheViewOfTheWindow()
     QTRY_VERIFY(*bar.trigger().shownEvent() > event);
 }
 
-void tst_TriggerBar::aHiddenBarRests()
+void tst_TriggerBar::hiddenBarEvaluatesNoTrigger()
 {
     RunningMaster master;
     QVERIFY(master.startRealTime());
@@ -163,7 +163,7 @@ void tst_TriggerBar::aHiddenBarRests()
     QVERIFY(context.timeAxis()->isLive());
 }
 
-void tst_TriggerBar::withoutASignalItSaysSo()
+void tst_TriggerBar::barReportsAMissingSignal()
 {
     WindowContext context;
     PanelOf panel(&context);

@@ -40,7 +40,7 @@ class tst_AlarmState : public QObject
 private Q_SLOTS:
     void levelsFollowValues_data();
     void levelsFollowValues();
-    void newLimitsBeginAnew();
+    void newLimitsResetTheLevel();
 };
 
 void tst_AlarmState::levelsFollowValues_data()
@@ -70,7 +70,7 @@ void tst_AlarmState::levelsFollowValues()
     QCOMPARE(levelsOf({}, values), QString(values.size(), QLatin1Char('-')));
 }
 
-void tst_AlarmState::newLimitsBeginAnew()
+void tst_AlarmState::newLimitsResetTheLevel()
 {
     AlarmState state;
     state.setLimits(limitsOfAll());

@@ -27,11 +27,11 @@ class tst_GaugeBands : public QObject
 {
     Q_OBJECT
 private Q_SLOTS:
-    void bandsSaySoWithHysteresis();
-    void beyondTheLimitsOfTheTableIsAlarm();
+    void bandsReportTheirLevelWithHysteresis();
+    void valuesBeyondTheTableLimitsAreAlarms();
 };
 
-void tst_GaugeBands::bandsSaySoWithHysteresis()
+void tst_GaugeBands::bandsReportTheirLevelWithHysteresis()
 {
     QPlcSignalIndexTable::setCurrent(levelTable());
     GaugeFeed feed;
@@ -56,7 +56,7 @@ void tst_GaugeBands::bandsSaySoWithHysteresis()
     QCOMPARE(status(49.9f), QString());
 }
 
-void tst_GaugeBands::beyondTheLimitsOfTheTableIsAlarm()
+void tst_GaugeBands::valuesBeyondTheTableLimitsAreAlarms()
 {
     QPlcSignalIndexTable::setCurrent(levelTable());
     GaugeFeed feed;

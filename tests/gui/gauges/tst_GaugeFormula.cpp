@@ -54,12 +54,12 @@ class tst_GaugeFormula : public QObject
 
 private Q_SLOTS:
     void aFormulaIsCalculatedOfSignals();
-    void aFormulaComesToLifeWithItsPlant();
+    void formulaIsEvaluatedWhenItsPlantConnects();
     void aFormulaShowsThePast();
     void valuesAtRestLookTheSameAsSignalAndAsFormula();
-    void aFormulaWithAPastSaysAtRestThatItsValueIsOfTheLastCycle();
+    void formulaWithHistoryShowsTheLastCycleAtRest();
     void aFormulaNeedsAWindow();
-    void extremesOfAFormulaBeginWithIt();
+    void newFormulaResetsTheExtremes();
 };
 
 void tst_GaugeFormula::aFormulaIsCalculatedOfSignals()
@@ -85,7 +85,7 @@ void tst_GaugeFormula::aFormulaIsCalculatedOfSignals()
     QCOMPARE(bench.shown(), 5.0);
 }
 
-void tst_GaugeFormula::aFormulaComesToLifeWithItsPlant()
+void tst_GaugeFormula::formulaIsEvaluatedWhenItsPlantConnects()
 {
     WindowContext context;
     QPlcWidget panel;
@@ -153,7 +153,7 @@ void tst_GaugeFormula::valuesAtRestLookTheSameAsSignalAndAsFormula()
     QTRY_VERIFY(looks(bench.feed, 10.0));
 }
 
-void tst_GaugeFormula::aFormulaWithAPastSaysAtRestThatItsValueIsOfTheLastCycle()
+void tst_GaugeFormula::formulaWithHistoryShowsTheLastCycleAtRest()
 {
     FormulaBench bench(QStringLiteral("= 2*mean(count, 0.001)"));
     QTRY_COMPARE(bench.plant->quality(), Plant::AtRest);
@@ -176,7 +176,7 @@ void tst_GaugeFormula::aFormulaNeedsAWindow()
     QVERIFY(gauge.accessibleName().contains(QStringLiteral("in a window only")));
 }
 
-void tst_GaugeFormula::extremesOfAFormulaBeginWithIt()
+void tst_GaugeFormula::newFormulaResetsTheExtremes()
 {
     FormulaBench bench(QStringLiteral("= 2*count"), {{"extremes", true}});
     QVERIFY(bench.runs());

@@ -22,13 +22,13 @@ private Q_SLOTS:
     void sharesAreClamped();
     void ticksAreRoundNumbers_data();
     void ticksAreRoundNumbers();
-    void aThousandthOfTheScaleIsSeen_data();
-    void aThousandthOfTheScaleIsSeen();
+    void decimalsResolveAThousandthOfTheScale_data();
+    void decimalsResolveAThousandthOfTheScale();
     void aScaleGrowsToRoundNumbersAndNeverShrinks();
     void numbersKeepTheirDecimals_data();
     void numbersKeepTheirDecimals();
     void bandsLieWithinTheScale();
-    void whatNobodyCanSeeIsNotDrawn();
+    void invisibleChangesAreNotDrawn();
 };
 
 void tst_GaugeScale::sharesAreClamped()
@@ -68,7 +68,7 @@ void tst_GaugeScale::ticksAreRoundNumbers()
         QVERIFY(std::abs(ticks.at(i) - expected.at(i)) < 1e-9);
 }
 
-void tst_GaugeScale::aThousandthOfTheScaleIsSeen_data()
+void tst_GaugeScale::decimalsResolveAThousandthOfTheScale_data()
 {
     QTest::addColumn<double>("span");
     QTest::addColumn<int>("decimals");
@@ -81,7 +81,7 @@ void tst_GaugeScale::aThousandthOfTheScaleIsSeen_data()
     QTest::newRow("none") << 0.0 << 0;
 }
 
-void tst_GaugeScale::aThousandthOfTheScaleIsSeen()
+void tst_GaugeScale::decimalsResolveAThousandthOfTheScale()
 {
     QFETCH(double, span);
     QTEST(GaugeScale({-span / 2.0, span / 2.0}).decimals(), "decimals");
@@ -147,7 +147,7 @@ void tst_GaugeScale::bandsLieWithinTheScale()
     QCOMPARE(textOf({-10.0, {}, 200.0, {}, 0.0}), QString());
 }
 
-void tst_GaugeScale::whatNobodyCanSeeIsNotDrawn()
+void tst_GaugeScale::invisibleChangesAreNotDrawn()
 {
     const auto picture = [](GaugeStyle style, double number, const char *text = "1") {
         GaugePicture made;

@@ -84,28 +84,28 @@ class tst_QPlcGauge : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void settingsComeBackByteForByte_data();
-    void settingsComeBackByteForByte();
+    void settingsAreRestoredByteForByte_data();
+    void settingsAreRestoredByteForByte();
     void missingSettingsAreDefaults();
-    void aSignalThatIsNotThereComesToLifeWithItsPlant();
-    void theScaleIsThatOfTheTableUnlessChosen();
-    void whatIsBeyondTheTableSaysSo();
+    void missingSignalAppearsWhenItsPlantConnects();
+    void scaleUsesTheTableLimitsUnlessSet();
+    void valueBeyondTheTableLimitsIsMarked();
     void integersBooleansAndTextsAreShownAsSuch();
     void aTripleIsThreeNumbersAndAMatrixAsksForAChoice();
     void aLostMasterLeavesAGreyValueWithItsAge();
     void thePastIsShownWithItsTime();
-    void extremesAreThoseSinceReset();
+    void extremesCoverTheTimeSinceReset();
     void aHiddenGaugeDoesNothing();
     void droppedSignalsReplaceTheSignal();
-    void withoutAWindowValuesComeByRealTimeout();
-    void theEditorChangesAtOnce();
-    void theEditorTakesFormulas();
+    void gaugeOutsideAWindowReadsValuesOnRealTimeout();
+    void editorAppliesChangesImmediately();
+    void editorAcceptsFormulas();
     void theNumberOfASmallBarIsLarge();
     void aTitleStandsForTheName();
     void everyStyleIsDrawnAtEverySize();
 };
 
-void tst_QPlcGauge::settingsComeBackByteForByte_data()
+void tst_QPlcGauge::settingsAreRestoredByteForByte_data()
 {
     QTest::addColumn<QByteArray>("json");
     QTest::newRow("nothing") << QByteArray("{}");
@@ -117,7 +117,7 @@ void tst_QPlcGauge::settingsComeBackByteForByte_data()
     QTest::newRow("nonsense") << QByteArray(R"({"maximum":"high","signal":7})");
 }
 
-void tst_QPlcGauge::settingsComeBackByteForByte()
+void tst_QPlcGauge::settingsAreRestoredByteForByte()
 {
     QFETCH(QByteArray, json);
     QPlcGauge gauge;
@@ -134,7 +134,7 @@ void tst_QPlcGauge::missingSettingsAreDefaults()
     QVERIFY(!gauge.settings().contains(QStringLiteral("style")));
 }
 
-void tst_QPlcGauge::aSignalThatIsNotThereComesToLifeWithItsPlant()
+void tst_QPlcGauge::missingSignalAppearsWhenItsPlantConnects()
 {
     WindowContext context;
     QPlcWidget panel;
@@ -156,7 +156,7 @@ void tst_QPlcGauge::aSignalThatIsNotThereComesToLifeWithItsPlant()
     QVERIFY(feed.picture().message.contains(QStringLiteral("not there")));
 }
 
-void tst_QPlcGauge::theScaleIsThatOfTheTableUnlessChosen()
+void tst_QPlcGauge::scaleUsesTheTableLimitsUnlessSet()
 {
     FeedBench bench({{"signal", "level"}});
     QVERIFY(bench.isAtRest());
@@ -174,7 +174,7 @@ void tst_QPlcGauge::theScaleIsThatOfTheTableUnlessChosen()
     QTRY_COMPARE(bench.feed.picture().scale, (GaugeScale{-50.0, 50.0}));
 }
 
-void tst_QPlcGauge::whatIsBeyondTheTableSaysSo()
+void tst_QPlcGauge::valueBeyondTheTableLimitsIsMarked()
 {
     FeedBench bench({{"signal", "level"}});
     QVERIFY(bench.isAtRest());
@@ -278,7 +278,7 @@ void tst_QPlcGauge::thePastIsShownWithItsTime()
     QTRY_VERIFY(feed.picture().status.isEmpty());
 }
 
-void tst_QPlcGauge::extremesAreThoseSinceReset()
+void tst_QPlcGauge::extremesCoverTheTimeSinceReset()
 {
     QPlcSignalIndexTable::setCurrent(gaugeTable());
     GaugeFeed feed;
@@ -325,7 +325,7 @@ void tst_QPlcGauge::droppedSignalsReplaceTheSignal()
     QCOMPARE(edits.size(), 2);
 }
 
-void tst_QPlcGauge::withoutAWindowValuesComeByRealTimeout()
+void tst_QPlcGauge::gaugeOutsideAWindowReadsValuesOnRealTimeout()
 {
     QPlcSignalIndexTable::setCurrent(gaugeTable());
     QPlcGauge gauge;
@@ -340,7 +340,7 @@ void tst_QPlcGauge::withoutAWindowValuesComeByRealTimeout()
     QTRY_COMPARE(gauge.accessibleName(), QStringLiteral("level 12.5 m"));
 }
 
-void tst_QPlcGauge::theEditorChangesAtOnce()
+void tst_QPlcGauge::editorAppliesChangesImmediately()
 {
     RunningMaster master(gaugeTable());
     WindowContext context;
@@ -373,7 +373,7 @@ void tst_QPlcGauge::theEditorChangesAtOnce()
     QCOMPARE(gauge.settings(), (QJsonObject{{"signal", "level"}}));
 }
 
-void tst_QPlcGauge::theEditorTakesFormulas()
+void tst_QPlcGauge::editorAcceptsFormulas()
 {
     RunningMaster master(gaugeTable());
     WindowContext context;

@@ -25,17 +25,17 @@ class tst_FlightTrail : public QObject
 {
     Q_OBJECT
 private Q_SLOTS:
-    void withoutAPastThereIsNoPath();
+    void pathIsEmptyWithoutHistory();
     void aPathIsMadeOfItsCoordinates();
     void aPathWithoutColorHasNoValues();
-    void aPathIsInterruptedWhereThePastIs();
+    void interruptedHistoryInterruptsThePath();
     void aTimeWithoutAPlaceInterruptsThePath_data();
     void aTimeWithoutAPlaceInterruptsThePath();
-    void aPathThatIsReadAgainBeginsAnew();
+    void readingAgainReplacesThePath();
     void theRangeIsThatOfTheValues();
 };
 
-void tst_FlightTrail::withoutAPastThereIsNoPath()
+void tst_FlightTrail::pathIsEmptyWithoutHistory()
 {
     FlightTrail trail;
     trail.read({}, {}, {}, {});
@@ -65,7 +65,7 @@ void tst_FlightTrail::aPathWithoutColorHasNoValues()
     QVERIFY(trail.points()[2].isJoined);
 }
 
-void tst_FlightTrail::aPathIsInterruptedWhereThePastIs()
+void tst_FlightTrail::interruptedHistoryInterruptsThePath()
 {
     Samples x = line(6, 1);
     x[3].isJoined = false;
@@ -105,7 +105,7 @@ void tst_FlightTrail::aTimeWithoutAPlaceInterruptsThePath()
     QVERIFY(trail.points()[3].isJoined);
 }
 
-void tst_FlightTrail::aPathThatIsReadAgainBeginsAnew()
+void tst_FlightTrail::readingAgainReplacesThePath()
 {
     FlightTrail trail;
     trail.read(line(5, 1), line(5, 1), line(5, 1), {});

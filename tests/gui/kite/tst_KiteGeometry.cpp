@@ -36,22 +36,22 @@ class tst_KiteGeometry : public QObject
     Q_OBJECT
 private Q_SLOTS:
     void aPositionIsAzimuthElevationAndDistance();
-    void positionsComeBack();
+    void positionSurvivesConversionToTheSkyAndBack();
     void anglesAreWrapped();
-    void withoutPitchAndYawTheNoseLooksToTheZenith();
-    void bodyAxesAreThoseOfThePlant_data();
-    void bodyAxesAreThoseOfThePlant();
+    void nosePointsToTheZenithAtZeroPitchAndYaw();
+    void bodyAxesAgreeWithThePlant_data();
+    void bodyAxesAgreeWithThePlant();
     void theDownwindDirectionIsTheMiddleOfTheHorizon();
-    void largerAzimuthsAreToTheLeftOfWhoLooksDownwind();
+    void largerAzimuthsAreToTheLeftWhenLookingDownwind();
     void theDistanceOnPaperIsTheAngleToTheWind();
     void directionsOnPaperFollowTheSky();
     void aTetherBeginsAtTheWinchAndEndsAtTheKite();
-    void aSlackTetherHangsAndIsAsLongAsItIs();
+    void slackTetherSagsAndKeepsItsLength();
     void colorsEndWhereTheScaleEnds();
     void scalesHaveRoundEnds_data();
     void scalesHaveRoundEnds();
-    void settingsComeBackWithoutWhatIsDefault();
-    void settingsThatAreNonsenseAreDefaults();
+    void settingsAreRestoredAndDefaultsAreNotWritten();
+    void invalidSettingsGetTheirDefaults();
     void theHalfCircleFitsIntoAnyPanel_data();
     void theHalfCircleFitsIntoAnyPanel();
 };
@@ -66,7 +66,7 @@ void tst_KiteGeometry::aPositionIsAzimuthElevationAndDistance()
     QCOMPARE(skyPosition({0, 0, -5}).elevation, -90.0f);
 }
 
-void tst_KiteGeometry::positionsComeBack()
+void tst_KiteGeometry::positionSurvivesConversionToTheSkyAndBack()
 {
     for (const QVector3D &point : {QVector3D(100, 0, 0), QVector3D(-30, 40, 12), QVector3D(1, -2, -3)})
         QVERIFY2(isNear(positionOf(skyPosition(point)), point, 1e-3f), text(positionOf(skyPosition(point))));
@@ -80,7 +80,7 @@ void tst_KiteGeometry::anglesAreWrapped()
     QCOMPARE(wrappedAngle(725), 5.0);
 }
 
-void tst_KiteGeometry::withoutPitchAndYawTheNoseLooksToTheZenith()
+void tst_KiteGeometry::nosePointsToTheZenithAtZeroPitchAndYaw()
 {
     const QVector3D position = positionOf({0, 30, 100});
     const QQuaternion body = bodyOrientation(positionOrientation(position), {});
@@ -90,7 +90,7 @@ void tst_KiteGeometry::withoutPitchAndYawTheNoseLooksToTheZenith()
     QVERIFY2(isNear(top, position.normalized()), text(top));
 }
 
-void tst_KiteGeometry::bodyAxesAreThoseOfThePlant_data()
+void tst_KiteGeometry::bodyAxesAgreeWithThePlant_data()
 {
     QTest::addColumn<float>("azimuth");
     QTest::addColumn<float>("elevation");
@@ -103,7 +103,7 @@ void tst_KiteGeometry::bodyAxesAreThoseOfThePlant_data()
 }
 
 /// x_b, y_b, z_b from e_r, e_u, e_a as the plant has them, without matrices.
-void tst_KiteGeometry::bodyAxesAreThoseOfThePlant()
+void tst_KiteGeometry::bodyAxesAgreeWithThePlant()
 {
     QFETCH(float, azimuth);
     QFETCH(float, elevation);
@@ -133,7 +133,7 @@ void tst_KiteGeometry::theDownwindDirectionIsTheMiddleOfTheHorizon()
     QCOMPARE(downwindAzimuth({0, 0, 0}), 0.0f);
 }
 
-void tst_KiteGeometry::largerAzimuthsAreToTheLeftOfWhoLooksDownwind()
+void tst_KiteGeometry::largerAzimuthsAreToTheLeftWhenLookingDownwind()
 {
     // The wind blows to the east; north is to the left.
     QVERIFY(isNear(windWindowPoint(90, 0, 0), {-90, 0}));
@@ -170,7 +170,7 @@ void tst_KiteGeometry::aTetherBeginsAtTheWinchAndEndsAtTheKite()
     }
 }
 
-void tst_KiteGeometry::aSlackTetherHangsAndIsAsLongAsItIs()
+void tst_KiteGeometry::slackTetherSagsAndKeepsItsLength()
 {
     const QVector3D kite(100, 0, 0);
     constexpr int count = 200;
@@ -214,7 +214,7 @@ void tst_KiteGeometry::scalesHaveRoundEnds()
     QTEST(scale.maximum, "maximum");
 }
 
-void tst_KiteGeometry::settingsComeBackWithoutWhatIsDefault()
+void tst_KiteGeometry::settingsAreRestoredAndDefaultsAreNotWritten()
 {
     QCOMPARE(KiteSettings().toJson(), QJsonObject());
     const QJsonObject json{{"position", "east/kite.position"}, {"color", ""}, {"trail", 120}, {"maximum", 4000}};
@@ -223,7 +223,7 @@ void tst_KiteGeometry::settingsComeBackWithoutWhatIsDefault()
     QVERIFY(rest.isEmpty());
 }
 
-void tst_KiteGeometry::settingsThatAreNonsenseAreDefaults()
+void tst_KiteGeometry::invalidSettingsGetTheirDefaults()
 {
     QJsonObject rest;
     const KiteSettings settings

@@ -16,16 +16,16 @@ class tst_WindWindow : public QObject
     Q_OBJECT
 private Q_SLOTS:
     void initTestCase();
-    void withoutAContextItSaysCalmlyWhatIsMissing();
+    void viewWithoutPlantIsDrawnAtAnySize();
     void aMissingSignalIsNamed();
-    void aKiteWhoseNodeIsLostIsNowhere();
-    void theKiteIsWhereItFlies_data();
-    void theKiteIsWhereItFlies();
+    void kiteOfALostNodeHasNoPosition();
+    void kiteIsDrawnAtItsPosition_data();
+    void kiteIsDrawnAtItsPosition();
     void aFlownPathIsColored();
     void nothingIsDrawnWhileHidden();
     void thePastIsShownWhenTheWindowShowsThePast();
-    void settingsComeBackByteByByte();
-    void theEditorChangesAtOnceAndIsAnUndoStep();
+    void settingsAreRestoredByteForByte();
+    void editorAppliesChangesImmediatelyAsUndoSteps();
     void droppedSignalsColorThePath();
 
 private:
@@ -45,7 +45,7 @@ QImage tst_WindWindow::picture(WindWindow *view, const QSize &size)
     return view->grab().toImage();
 }
 
-void tst_WindWindow::withoutAContextItSaysCalmlyWhatIsMissing()
+void tst_WindWindow::viewWithoutPlantIsDrawnAtAnySize()
 {
     WindWindow view;
     QVERIFY(!picture(&view, {240, 160}).isNull());
@@ -77,7 +77,7 @@ void tst_WindWindow::aMissingSignalIsNamed()
     QVERIFY(!kite.readTrail(&trail));
 }
 
-void tst_WindWindow::aKiteWhoseNodeIsLostIsNowhere()
+void tst_WindWindow::kiteOfALostNodeHasNoPosition()
 {
     FlyingPlant plant(false, QStringLiteral("tcp"));
     QVERIFY(plant.fly());
@@ -96,14 +96,14 @@ void tst_WindWindow::aKiteWhoseNodeIsLostIsNowhere()
         QVERIFY(!point.position.isNull());
 }
 
-void tst_WindWindow::theKiteIsWhereItFlies_data()
+void tst_WindWindow::kiteIsDrawnAtItsPosition_data()
 {
     QTest::addColumn<QSize>("size");
     for (const QSize &size : {QSize(240, 160), QSize(640, 400)})
         QTest::addRow("%d x %d", size.width(), size.height()) << size;
 }
 
-void tst_WindWindow::theKiteIsWhereItFlies()
+void tst_WindWindow::kiteIsDrawnAtItsPosition()
 {
     QFETCH(QSize, size);
     FlyingPlant plant(true);
@@ -195,7 +195,7 @@ void tst_WindWindow::thePastIsShownWhenTheWindowShowsThePast()
     QVERIFY(!kite.state().position);
 }
 
-void tst_WindWindow::settingsComeBackByteByByte()
+void tst_WindWindow::settingsAreRestoredByteForByte()
 {
     WindWindow view;
     const QJsonObject json{{"color", "tetherLength"}, {"minimum", 0}, {"maximum", 200}, {"trail", 60},
@@ -206,7 +206,7 @@ void tst_WindWindow::settingsComeBackByteByByte()
     QVERIFY(!view.settings().contains(QStringLiteral("trail")));
 }
 
-void tst_WindWindow::theEditorChangesAtOnceAndIsAnUndoStep()
+void tst_WindWindow::editorAppliesChangesImmediatelyAsUndoSteps()
 {
     WindWindow view;
     QSignalSpy edits(&view, &QPlcWidget::settingsEdited);

@@ -16,21 +16,21 @@ private Q_SLOTS:
     void panelFillsAnEmptyTab();
     void panelGoesToTheSideThatWasAskedFor_data();
     void panelGoesToTheSideThatWasAskedFor();
-    void panelOfATabThatIsNotEmptyStandsAtTheRightWithAnEqualShare();
-    void closingAPanelMergesWhatIsLeft();
+    void panelAddedToATabGetsAnEqualShareAtTheRight();
+    void closingAPanelMergesTheRemainingSplits();
     void panelMovesToEveryKindOfTarget();
     void panelCannotBeBesideItself();
-    void floatingPanelComesBackToItsPlace_data();
-    void floatingPanelComesBackToItsPlace();
-    void floatingPanelWhoseHomeIsGoneComesToTheCurrentTab();
+    void dockedPanelReturnsToItsPlace_data();
+    void dockedPanelReturnsToItsPlace();
+    void floatingPanelOfAClosedTabDocksIntoTheCurrentTab();
     void copyHasTheSettingsAndAnIdOfItsOwn();
     void sharesAreScaledToTheWhole();
-    void grownPanelTakesFromTheOthersInProportion();
-    void maximizedPanelIsRestoredWhenItGoes();
+    void grownPanelShrinksTheOthersInProportion();
+    void leavingPanelEndsMaximization();
     void tabsAreAddedMovedRenamedAndClosed();
     void lastTabThatIsClosedLeavesAnEmptyOne();
-    void titleIsASettingAndElseTheType();
-    void editsOfThingsThatAreNotThereChangeNothing();
+    void titleDefaultsToTheType();
+    void editsOfMissingItemsChangeNothing();
     void sharesOfAnyWeightsAddUp_data();
     void sharesOfAnyWeightsAddUp();
 };
@@ -79,7 +79,7 @@ void tst_Layout::panelGoesToTheSideThatWasAskedFor()
     QCOMPARE(layout.currentTab().tree->find("panel4")->share, layout.currentTab().tree->find(neighbour)->share);
 }
 
-void tst_Layout::panelOfATabThatIsNotEmptyStandsAtTheRightWithAnEqualShare()
+void tst_Layout::panelAddedToATabGetsAnEqualShareAtTheRight()
 {
     Layout layout = threePanels();
     layout.addPanel("Gauge", {}, LayoutTarget::inTab(layout.currentTab().id));
@@ -87,7 +87,7 @@ void tst_Layout::panelOfATabThatIsNotEmptyStandsAtTheRightWithAnEqualShare()
     QCOMPARE(layout.currentTab().tree->shares(), (QVector<int>{3334, 3333, 3333}));
 }
 
-void tst_Layout::closingAPanelMergesWhatIsLeft()
+void tst_Layout::closingAPanelMergesTheRemainingSplits()
 {
     Layout layout = threePanels();
     layout.addPanel("Gauge", {}, LayoutTarget::beside("panel3", LayoutSide::Left));
@@ -129,14 +129,14 @@ void tst_Layout::panelCannotBeBesideItself()
     QVERIFY(layout == before);
 }
 
-void tst_Layout::floatingPanelComesBackToItsPlace_data()
+void tst_Layout::dockedPanelReturnsToItsPlace_data()
 {
     QTest::addColumn<QString>("panel");
     for (const char *panel : {"panel1", "panel2", "panel3", "panel4", "panel5"})
         QTest::newRow(panel) << panel;
 }
 
-void tst_Layout::floatingPanelComesBackToItsPlace()
+void tst_Layout::dockedPanelReturnsToItsPlace()
 {
     QFETCH(QString, panel);
     Layout layout = threePanels();
@@ -155,7 +155,7 @@ void tst_Layout::floatingPanelComesBackToItsPlace()
     QVERIFY(!layout.dockPanel(panel));
 }
 
-void tst_Layout::floatingPanelWhoseHomeIsGoneComesToTheCurrentTab()
+void tst_Layout::floatingPanelOfAClosedTabDocksIntoTheCurrentTab()
 {
     Layout layout = threePanels();
     layout.floatPanel("panel1", {0, 0, 300, 200});
@@ -187,7 +187,7 @@ void tst_Layout::sharesAreScaledToTheWhole()
     QCOMPARE(layout.currentTab().tree->shares(), (QVector<int>{2500, 7500}));
 }
 
-void tst_Layout::grownPanelTakesFromTheOthersInProportion()
+void tst_Layout::grownPanelShrinksTheOthersInProportion()
 {
     Layout layout = threePanels();
     layout.addPanel("Gauge", {}, LayoutTarget::inTab("tab1"));
@@ -203,7 +203,7 @@ void tst_Layout::grownPanelTakesFromTheOthersInProportion()
     QCOMPARE(layout.invariantError(), QString());
 }
 
-void tst_Layout::maximizedPanelIsRestoredWhenItGoes()
+void tst_Layout::leavingPanelEndsMaximization()
 {
     Layout layout = threePanels();
     QVERIFY(layout.setMaximized("panel2", true));
@@ -250,7 +250,7 @@ void tst_Layout::lastTabThatIsClosedLeavesAnEmptyOne()
     QCOMPARE(layout.invariantError(), QString());
 }
 
-void tst_Layout::titleIsASettingAndElseTheType()
+void tst_Layout::titleDefaultsToTheType()
 {
     Layout layout = threePanels();
     QCOMPARE(layout.panel("panel2")->title(), QStringLiteral("Gauge"));
@@ -261,7 +261,7 @@ void tst_Layout::titleIsASettingAndElseTheType()
     QCOMPARE(layout.panel("panel2")->settings, (QJsonObject{{"limit", 3}}));
 }
 
-void tst_Layout::editsOfThingsThatAreNotThereChangeNothing()
+void tst_Layout::editsOfMissingItemsChangeNothing()
 {
     Layout layout = threePanels();
     const Layout before = layout;

@@ -12,13 +12,13 @@ class tst_LayoutEditor : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void stepSaysWhatItDid();
-    void editThatChangesNothingIsNoStep();
+    void undoStepDescribesItsEdit();
+    void editWithoutEffectCreatesNoUndoStep();
     void successiveResizesOfOneSplitAreOneStep();
     void resizesOfTwoSplitsAreTwoSteps();
     void successiveSettingsOfOnePanelAreOneStep();
     void settingsThatAreSeparatedAreTwoSteps();
-    void settingsThatComeBackLeaveNoStep();
+    void revertedSettingsLeaveNoStep();
     void undoShowsTheTabWhereItHappens();
     void undoLeavesWindowsWhereTheyWerePut();
     void undoOfAnotherLayoutPutsItsWindowsBack();
@@ -26,7 +26,7 @@ private Q_SLOTS:
     void fullLayoutRefusesAnotherPanel();
 };
 
-void tst_LayoutEditor::stepSaysWhatItDid()
+void tst_LayoutEditor::undoStepDescribesItsEdit()
 {
     LayoutEditor editor(threePanels());
     const auto text = [&] { return editor.undoStack()->undoText(); };
@@ -46,7 +46,7 @@ void tst_LayoutEditor::stepSaysWhatItDid()
     QCOMPARE(text(), QStringLiteral("maximize of 'Gauge'"));
 }
 
-void tst_LayoutEditor::editThatChangesNothingIsNoStep()
+void tst_LayoutEditor::editWithoutEffectCreatesNoUndoStep()
 {
     LayoutEditor editor(threePanels());
     QSignalSpy changed(&editor, &LayoutEditor::layoutChanged);
@@ -105,7 +105,7 @@ void tst_LayoutEditor::settingsThatAreSeparatedAreTwoSteps()
     QCOMPARE(editor.layout().panel("panel1")->settings, (QJsonObject{{"gain", 1}}));
 }
 
-void tst_LayoutEditor::settingsThatComeBackLeaveNoStep()
+void tst_LayoutEditor::revertedSettingsLeaveNoStep()
 {
     LayoutEditor editor(threePanels());
     editor.setPanelSettings("panel2", {{"limit", 4}});

@@ -111,9 +111,9 @@ class tst_LayoutJson : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void keysThatNobodyKnowsAreWrittenBackToTheByte();
-    void otherKeysOutliveEdits();
-    void treeOfAPersonIsMended();
+    void unknownKeysAreWrittenBackByteForByte();
+    void unknownKeysSurviveEdits();
+    void handwrittenTreeIsRepaired();
     void badTextIsRefusedWithPlaceAndRemedy_data();
     void badTextIsRefusedWithPlaceAndRemedy();
     void fileIsWrittenAndReadBack();
@@ -121,7 +121,7 @@ private Q_SLOTS:
     void badFileIsNamed();
 };
 
-void tst_LayoutJson::keysThatNobodyKnowsAreWrittenBackToTheByte()
+void tst_LayoutJson::unknownKeysAreWrittenBackByteForByte()
 {
     QPlcParseError error;
     const std::optional<Layout> layout = layoutFromJson(WithOtherKeys, &error);
@@ -131,7 +131,7 @@ void tst_LayoutJson::keysThatNobodyKnowsAreWrittenBackToTheByte()
     QCOMPARE(layout->windows().front().geometry, QRect(10, -20, 300, 200));
 }
 
-void tst_LayoutJson::otherKeysOutliveEdits()
+void tst_LayoutJson::unknownKeysSurviveEdits()
 {
     Layout layout = *layoutFromJson(WithOtherKeys);
     layout.movePanel("panel1", LayoutTarget::inNewTab("Other"));
@@ -141,7 +141,7 @@ void tst_LayoutJson::otherKeysOutliveEdits()
         QVERIFY2(text.contains(key), key);
 }
 
-void tst_LayoutJson::treeOfAPersonIsMended()
+void tst_LayoutJson::handwrittenTreeIsRepaired()
 {
     const std::optional<Layout> layout = layoutFromJson(R"({"format": "QtPLC layout", "version": 1, "currentTab": "a",
         "windows": [], "tabs": [{"id": "a", "name": "A", "tree": {"split": "horizontal", "children": [

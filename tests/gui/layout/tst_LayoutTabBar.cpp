@@ -47,7 +47,7 @@ private Q_SLOTS:
     void tabIsDraggedByMouse();
     void tabsHaveTheirWholeNamesWhereThereIsRoom_data();
     void tabsHaveTheirWholeNamesWhereThereIsRoom();
-    void tabsOfANarrowWindowAreWholeAgainInAWideOne();
+    void widenedWindowShowsAllTabsAgain();
 };
 
 void tst_LayoutTabBar::tabsAreChosenRenamedMovedAndClosed()
@@ -112,7 +112,7 @@ void tst_LayoutTabBar::tabsHaveTheirWholeNamesWhereThereIsRoom()
     QTRY_COMPARE(hiddenIn(view.tabBar()), QString());
 }
 
-void tst_LayoutTabBar::tabsOfANarrowWindowAreWholeAgainInAWideOne()
+void tst_LayoutTabBar::widenedWindowShowsAllTabsAgain()
 {
     ViewFixture window(threeTabs(2));
     QCOMPARE(hiddenIn(window.view.tabBar()), QString());

@@ -15,32 +15,32 @@ private Q_SLOTS:
     void layoutIsOnTheScreen();
     void partsHaveTheirSharesInEverySize();
     void closeButtonClosesThePanel();
-    void floatButtonMakesAWindowAndBringsItBack();
+    void floatButtonFloatsAndDocksThePanel();
     void maximizeButtonShowsOnePanelAlone();
     void aNarrowTitleKeepsTheButtonsThatMatter();
-    void menuDoesWhatItSays_data();
-    void menuDoesWhatItSays();
+    void menuEntriesPerformTheirActions_data();
+    void menuEntriesPerformTheirActions();
     void menuOffersOnlyWhatIsPossible();
-    void menuBeginsWithWhatTheWidgetCan();
+    void menuBeginsWithTheActionsOfTheWidget();
     void manyActionsOfAWidgetHaveAMenuOfTheirOwn();
     void aWidgetFindsTheMenuOfItsPanel();
     void movedSplitterHandleIsAStep();
     void widgetsLiveWhileTheirPanelsMove();
-    void widgetOfAnotherTypeIsMadeAnew();
-    void widgetsAreTold();
-    void settingsFollowTheLayoutAndEditsOfAPersonBecomeSteps();
-    void wheelOpensTheSettings();
+    void typeChangeReplacesTheWidget();
+    void viewSignalsAddedAndRemovedWidgets();
+    void settingsFollowTheLayoutAndUserEditsBecomeUndoSteps();
+    void settingsButtonOpensTheSettings();
     void titleIsRenamedInPlace();
-    void renameThatIsOpenWhileThePanelMovesIsForgotten();
+    void movingThePanelCancelsAnOpenRename();
     void unknownTypeIsAPlaceholderUntilItsFactoryComes();
-    void buttonsThatAddAskTheWindow();
-    void panelWithTheKeyboardGoesQuietly();
+    void addButtonsSignalTheWindow();
+    void closingAFocusedPanelIsSafe();
     void keysReachEverything();
     void everythingHasAnAccessibleName();
     void closedWindowClosesItsPanels();
     void windowOfALargerScreenIsSeenWhole();
-    void movedWindowIsNoStep();
-    void thousandsOfFormerSplittersDoNotStay();
+    void movedWindowCreatesNoUndoStep();
+    void unusedSplittersAreDeleted();
 };
 
 void tst_LayoutView::layoutIsOnTheScreen()
@@ -80,7 +80,7 @@ void tst_LayoutView::closeButtonClosesThePanel()
     QCOMPARE(window.onScreen("panel1"), QStringLiteral("H[panel1 V[panel2 panel3]]"));
 }
 
-void tst_LayoutView::floatButtonMakesAWindowAndBringsItBack()
+void tst_LayoutView::floatButtonFloatsAndDocksThePanel()
 {
     ViewFixture window;
     DummyPanel *widget = window.panel("panel2");
@@ -141,7 +141,7 @@ void tst_LayoutView::aNarrowTitleKeepsTheButtonsThatMatter()
     QCOMPARE(shown(), all);
 }
 
-void tst_LayoutView::menuDoesWhatItSays_data()
+void tst_LayoutView::menuEntriesPerformTheirActions_data()
 {
     QTest::addColumn<QString>("path");
     QTest::addColumn<QString>("expected");
@@ -169,7 +169,7 @@ void tst_LayoutView::menuDoesWhatItSays_data()
                               << "H[panel1 V[panel2 panel3]] | -";
 }
 
-void tst_LayoutView::menuDoesWhatItSays()
+void tst_LayoutView::menuEntriesPerformTheirActions()
 {
     QFETCH(QString, path);
     QFETCH(QString, expected);
@@ -198,7 +198,7 @@ void tst_LayoutView::menuOffersOnlyWhatIsPossible()
         QVERIFY2(entry(menu.get(), path)->isEnabled(), path);
 }
 
-void tst_LayoutView::menuBeginsWithWhatTheWidgetCan()
+void tst_LayoutView::menuBeginsWithTheActionsOfTheWidget()
 {
     ViewFixture window;
     auto *own = new QAction(QStringLiteral("Reset the maximum"), window.panel("panel2"));
@@ -273,7 +273,7 @@ void tst_LayoutView::widgetsLiveWhileTheirPanelsMove()
     QCOMPARE(window.onScreen("panel1"), QStringLiteral("H[panel1 V[panel2 panel3]]"));
 }
 
-void tst_LayoutView::widgetOfAnotherTypeIsMadeAnew()
+void tst_LayoutView::typeChangeReplacesTheWidget()
 {
     ViewFixture window;
     const QPointer<DummyPanel> before = window.panel("panel1");
@@ -288,7 +288,7 @@ void tst_LayoutView::widgetOfAnotherTypeIsMadeAnew()
     QVERIFY(!before);
 }
 
-void tst_LayoutView::widgetsAreTold()
+void tst_LayoutView::viewSignalsAddedAndRemovedWidgets()
 {
     ViewFixture window;
     QStringList told;
@@ -300,7 +300,7 @@ void tst_LayoutView::widgetsAreTold()
     QCOMPARE(told, (QStringList{"+panel4", "-panel2"}));
 }
 
-void tst_LayoutView::settingsFollowTheLayoutAndEditsOfAPersonBecomeSteps()
+void tst_LayoutView::settingsFollowTheLayoutAndUserEditsBecomeUndoSteps()
 {
     ViewFixture window;
     QCOMPARE(window.panel("panel1")->waves(), 2);
@@ -315,7 +315,7 @@ void tst_LayoutView::settingsFollowTheLayoutAndEditsOfAPersonBecomeSteps()
     QCOMPARE(window.panel("panel2")->settings().value("limit").toInt(), 3);
 }
 
-void tst_LayoutView::wheelOpensTheSettings()
+void tst_LayoutView::settingsButtonOpensTheSettings()
 {
     ViewFixture window;
     window.click(window.frame("panel1")->settingsAction());
@@ -348,7 +348,7 @@ void tst_LayoutView::titleIsRenamedInPlace()
     QCOMPARE(window.frame("panel1")->titleBar()->title(), QStringLiteral("Time plot"));
 }
 
-void tst_LayoutView::renameThatIsOpenWhileThePanelMovesIsForgotten()
+void tst_LayoutView::movingThePanelCancelsAnOpenRename()
 {
     ViewFixture window;
     window.frame("panel1")->renameAction()->trigger();
@@ -378,7 +378,7 @@ void tst_LayoutView::unknownTypeIsAPlaceholderUntilItsFactoryComes()
     QCOMPARE(layoutToJson(window.editor.layout()), window.before);
 }
 
-void tst_LayoutView::buttonsThatAddAskTheWindow()
+void tst_LayoutView::addButtonsSignalTheWindow()
 {
     ViewFixture window{Layout()};
     QSignalSpy asked(&window.view, &LayoutView::addRequested);
@@ -395,7 +395,7 @@ void tst_LayoutView::buttonsThatAddAskTheWindow()
     QVERIFY(page->isVisible());
 }
 
-void tst_LayoutView::panelWithTheKeyboardGoesQuietly()
+void tst_LayoutView::closingAFocusedPanelIsSafe()
 {
     ViewFixture window;
     window.panel("panel2")->setFocus();
@@ -468,7 +468,7 @@ void tst_LayoutView::windowOfALargerScreenIsSeenWhole()
     QCOMPARE(window.editor.layout().windows().front().geometry, QRect(3000, 2000, 400, 300));  // for that screen
 }
 
-void tst_LayoutView::movedWindowIsNoStep()
+void tst_LayoutView::movedWindowCreatesNoUndoStep()
 {
     Layout layout = threePanels();
     layout.floatPanel("panel2", {30, 40, 400, 300});
@@ -478,7 +478,7 @@ void tst_LayoutView::movedWindowIsNoStep()
     QCOMPARE(window.editor.undoStack()->count(), 0);
 }
 
-void tst_LayoutView::thousandsOfFormerSplittersDoNotStay()
+void tst_LayoutView::unusedSplittersAreDeleted()
 {
     ViewFixture window;
     const int before = window.view.findChildren<QWidget *>().size();

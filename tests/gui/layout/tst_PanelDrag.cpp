@@ -71,17 +71,17 @@ private Q_SLOTS:
     void panelThatLeavesTheWindowFloats();
     void floatingPanelIsDraggedBack();
     void floatingPanelThatStaysOutsideMovesItsWindow();
-    void windowThatIsEmptiedHidesNoTarget();
+    void emptiedWindowDoesNotCoverTheDropTarget();
     void dropOnItselfChangesNothing();
     void escapeEndsTheDrag();
-    void panelThatGoesWhileItIsDraggedIsNoHarm();
-    void droppedSignalsSayPanelAndZone_data();
-    void droppedSignalsSayPanelAndZone();
-    void anAreaOfThePanelTakesWhatIsDroppedThere();
-    void droppedSignalsOfAnEmptyTabSayNoPanel();
+    void closingADraggedPanelIsSafe();
+    void dropOfSignalsReportsPanelAndZone_data();
+    void dropOfSignalsReportsPanelAndZone();
+    void ownDropAreaOfAPanelAcceptsSignals();
+    void dropOnAnEmptyTabReportsNoPanel();
     void signalsAreDroppedOnTabs();
     void panelIsDroppedIntoANewTab();
-    void otherThingsAreNotTaken();
+    void otherDropDataAreRefused();
 };
 
 void tst_PanelDrag::zoneIsTheNearestEdge_data()
@@ -228,7 +228,7 @@ void tst_PanelDrag::floatingPanelThatStaysOutsideMovesItsWindow()
     QCOMPARE(window.editor.undoStack()->count(), 0);
 }
 
-void tst_PanelDrag::windowThatIsEmptiedHidesNoTarget()
+void tst_PanelDrag::emptiedWindowDoesNotCoverTheDropTarget()
 {
     Layout layout = threePanels();
     layout.floatPanel("panel1", {300, 300, 400, 300});
@@ -263,7 +263,7 @@ void tst_PanelDrag::escapeEndsTheDrag()
     QCOMPARE(window.editor.undoStack()->count(), 0);
 }
 
-void tst_PanelDrag::panelThatGoesWhileItIsDraggedIsNoHarm()
+void tst_PanelDrag::closingADraggedPanelIsSafe()
 {
     ViewFixture window;
     const QPointer<QWidget> bar = window.frame("panel1")->titleBar();
@@ -276,7 +276,7 @@ void tst_PanelDrag::panelThatGoesWhileItIsDraggedIsNoHarm()
     QCOMPARE(window.shown(), QStringLiteral("V[panel2 panel3]"));
 }
 
-void tst_PanelDrag::droppedSignalsSayPanelAndZone_data()
+void tst_PanelDrag::dropOfSignalsReportsPanelAndZone_data()
 {
     QTest::addColumn<double>("x");
     QTest::addColumn<double>("y");
@@ -288,7 +288,7 @@ void tst_PanelDrag::droppedSignalsSayPanelAndZone_data()
     QTest::newRow("center") << 0.5 << 0.5 << int(DropZone::Center);
 }
 
-void tst_PanelDrag::droppedSignalsSayPanelAndZone()
+void tst_PanelDrag::dropOfSignalsReportsPanelAndZone()
 {
     QFETCH(double, x);
     QFETCH(double, y);
@@ -310,7 +310,7 @@ void tst_PanelDrag::droppedSignalsSayPanelAndZone()
     QCOMPARE(window.editor.undoStack()->count(), 0);
 }
 
-void tst_PanelDrag::anAreaOfThePanelTakesWhatIsDroppedThere()
+void tst_PanelDrag::ownDropAreaOfAPanelAcceptsSignals()
 {
     ViewFixture window;
     int where = -1;
@@ -328,7 +328,7 @@ void tst_PanelDrag::anAreaOfThePanelTakesWhatIsDroppedThere()
     QVERIFY(where != int(DropZone::Area));
 }
 
-void tst_PanelDrag::droppedSignalsOfAnEmptyTabSayNoPanel()
+void tst_PanelDrag::dropOnAnEmptyTabReportsNoPanel()
 {
     ViewFixture window{Layout()};
     int drops = 0;
@@ -373,7 +373,7 @@ void tst_PanelDrag::panelIsDroppedIntoANewTab()
     QCOMPARE(window.editor.undoStack()->count(), 1);
 }
 
-void tst_PanelDrag::otherThingsAreNotTaken()
+void tst_PanelDrag::otherDropDataAreRefused()
 {
     ViewFixture window;
     int drops = 0;

@@ -57,8 +57,8 @@ class tst_PanelPlace : public QObject
 private Q_SLOTS:
     void aNewPanelHasTheSizeThatItWants();
     void panelsShareThePageInsteadOfBecomingColumns();
-    void aNewPanelTakesRoomFromItsNeighbourAlone();
-    void aPageThatIsFullStillTakesPanels();
+    void newPanelShrinksOnlyItsNeighbour();
+    void fullPageAcceptsMorePanels();
 };
 
 void tst_PanelPlace::aNewPanelHasTheSizeThatItWants()
@@ -85,7 +85,7 @@ void tst_PanelPlace::panelsShareThePageInsteadOfBecomingColumns()
     QVERIFY(plot.width() >= 400 && plot.height() >= 250);
 }
 
-void tst_PanelPlace::aNewPanelTakesRoomFromItsNeighbourAlone()
+void tst_PanelPlace::newPanelShrinksOnlyItsNeighbour()
 {
     FilledPage filled(QStringLiteral("Time plot"));
     filled.add(QStringLiteral("Time plot"));
@@ -99,7 +99,7 @@ void tst_PanelPlace::aNewPanelTakesRoomFromItsNeighbourAlone()
     QCOMPARE(changed, 1);
 }
 
-void tst_PanelPlace::aPageThatIsFullStillTakesPanels()
+void tst_PanelPlace::fullPageAcceptsMorePanels()
 {
     FilledPage filled(QStringLiteral("Time plot"));
     for (int i = 0; i < 40; ++i)

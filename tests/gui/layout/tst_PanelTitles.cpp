@@ -8,10 +8,10 @@ class tst_PanelTitles : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void titleBarWindowAndStepsSayWhatAPanelShows();
+    void titleBarWindowAndUndoStepsNameThePanelContent();
 };
 
-void tst_PanelTitles::titleBarWindowAndStepsSayWhatAPanelShows()
+void tst_PanelTitles::titleBarWindowAndUndoStepsNameThePanelContent()
 {
     ViewFixture window;
     const auto step = [&] { return window.editor.undoStack()->undoText(); };

@@ -28,11 +28,11 @@ class tst_ShareSplitter : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void sharesWinOverWhatPartsWant_data();
-    void sharesWinOverWhatPartsWant();
+    void sharesOverrideSizeHints_data();
+    void sharesOverrideSizeHints();
 };
 
-void tst_ShareSplitter::sharesWinOverWhatPartsWant_data()
+void tst_ShareSplitter::sharesOverrideSizeHints_data()
 {
     QTest::addColumn<QVector<int>>("shares");
     QTest::newRow("equal") << QVector<int>{5000, 5000};
@@ -40,7 +40,7 @@ void tst_ShareSplitter::sharesWinOverWhatPartsWant_data()
     QTest::newRow("right") << QVector<int>{2000, 8000};
 }
 
-void tst_ShareSplitter::sharesWinOverWhatPartsWant()
+void tst_ShareSplitter::sharesOverrideSizeHints()
 {
     QFETCH(QVector<int>, shares);
     ShareSplitter splitter(Qt::Horizontal);

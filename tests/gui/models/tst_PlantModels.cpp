@@ -43,10 +43,10 @@ class tst_PlantModels : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void nodesComeAndGoInTheTable();
-    void whoeverIsMissedKeepsHisRow();
-    void whatStandsStillUntilAResetIsAnError();
-    void aPhaseThatBeginsMissesNobody();
+    void nodeTableFollowsRegistrations();
+    void missingNodeKeepsItsRow();
+    void safeStopIsAnErrorUntilReset();
+    void newPhaseReportsNoMissingNode();
     void figuresOfNodesAreDurationsAndCounters();
     void eventsAreShownAndAcknowledged();
     void theLogIsBounded();
@@ -54,13 +54,13 @@ private Q_SLOTS:
     void anAlarmIsActiveUntilItEndsAcknowledgedOrNot();
     void alarmsOfTwoPlantsDoNotEndEachOther();
     void anAlarmThatBeginsAgainIsActiveOnce();
-    void theFirstAlarmOfABurstSaysSo();
+    void firstAlarmOfABurstIsMarked();
     void eachPlantHasBurstsOfItsOwn();
-    void theEndOfAForgottenAlarmIsALineOnly();
-    void whatHappensToAPlantIsInTheLog();
+    void endOfADiscardedAlarmIsLoggedOnly();
+    void plantEventsAreLogged();
 };
 
-void tst_PlantModels::nodesComeAndGoInTheTable()
+void tst_PlantModels::nodeTableFollowsRegistrations()
 {
     RunningMaster north;
     RunningMaster south;
@@ -85,7 +85,7 @@ void tst_PlantModels::nodesComeAndGoInTheTable()
     QCOMPARE(namesOf(table), (QStringList{"Master", "Counter", "Window"}));  // one plant needs no name
 }
 
-void tst_PlantModels::whoeverIsMissedKeepsHisRow()
+void tst_PlantModels::missingNodeKeepsItsRow()
 {
     auto master = std::make_unique<RunningMaster>();
     const QString address = master->address();
@@ -118,7 +118,7 @@ void tst_PlantModels::whoeverIsMissedKeepsHisRow()
     QCOMPARE(table.rowCount(), 0);
 }
 
-void tst_PlantModels::whatStandsStillUntilAResetIsAnError()
+void tst_PlantModels::safeStopIsAnErrorUntilReset()
 {
     RunningMaster master;
     master.setInterval(std::chrono::milliseconds(100));  // a busy computer is not to be the reason
@@ -147,7 +147,7 @@ void tst_PlantModels::whatStandsStillUntilAResetIsAnError()
     echo.disconnectFromMaster();
 }
 
-void tst_PlantModels::aPhaseThatBeginsMissesNobody()
+void tst_PlantModels::newPhaseReportsNoMissingNode()
 {
     const auto state = [](messages::MasterState of, const QStringList &nodes) {
         messages::State answer;
@@ -317,7 +317,7 @@ void tst_PlantModels::anAlarmThatBeginsAgainIsActiveOnce()
     QCOMPARE(log.index(1, EventLogModel::State).data().toString(), QStringLiteral("Active"));
 }
 
-void tst_PlantModels::theFirstAlarmOfABurstSaysSo()
+void tst_PlantModels::firstAlarmOfABurstIsMarked()
 {
     EventLogModel log;
     const QAbstractItemModelTester tester(&log, fatal);
@@ -350,7 +350,7 @@ void tst_PlantModels::eachPlantHasBurstsOfItsOwn()
     QCOMPARE(log.index(1, 0).data(EventLogModel::FollowersRole).toInt(), 0);
 }
 
-void tst_PlantModels::theEndOfAForgottenAlarmIsALineOnly()
+void tst_PlantModels::endOfADiscardedAlarmIsLoggedOnly()
 {
     EventLogModel log;
     log.append(alarmOf(PlantEvent::Begins, "hot", 0));
@@ -361,7 +361,7 @@ void tst_PlantModels::theEndOfAForgottenAlarmIsALineOnly()
     QCOMPARE(log.rowCount(), EventLogModel::MostEvents);
 }
 
-void tst_PlantModels::whatHappensToAPlantIsInTheLog()
+void tst_PlantModels::plantEventsAreLogged()
 {
     PlantList plants;
     EventLogModel log;

@@ -51,23 +51,23 @@ class tst_SignalModels : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void anEmptyTreeIsAModel();
+    void emptyTreeIsAValidModel();
     void theTreeShowsPlantsNodesSignalsAndElements();
     void aSignalMovesToTheNodeThatWritesIt();
-    void aPlantThatGoesTakesItsRowsAlong();
-    void onlyWhatIsShownIsRenewedAndAtMostTenTimesASecond();
+    void removedPlantRemovesItsRows();
+    void visibleRowsAreUpdatedAtMostTenTimesASecond();
     void draggedRowsAreReferences();
     void everyWordOfASearchMustOccur_data();
     void everyWordOfASearchMustOccur();
     void chosenSignalsShowRangeQualityAndRate();
-    void placeholdersComeToLifeWithTheirSignal();
+    void placeholderShowsItsSignalWhenItAppears();
     void signalsAreDroppedIntoTheTableOnce();
     void textsAreShort();
     void numbersOfTheTreeFitInNineCharacters_data();
     void numbersOfTheTreeFitInNineCharacters();
 };
 
-void tst_SignalModels::anEmptyTreeIsAModel()
+void tst_SignalModels::emptyTreeIsAValidModel()
 {
     PlantList plants;
     SignalTreeModel tree(&plants);
@@ -125,7 +125,7 @@ void tst_SignalModels::aSignalMovesToTheNodeThatWritesIt()
     QCOMPARE(setpoint.data().toString(), QStringLiteral("setpoint"));
 }
 
-void tst_SignalModels::aPlantThatGoesTakesItsRowsAlong()
+void tst_SignalModels::removedPlantRemovesItsRows()
 {
     RunningMaster north;
     RunningMaster south;
@@ -144,7 +144,7 @@ void tst_SignalModels::aPlantThatGoesTakesItsRowsAlong()
              QStringLiteral("count"));
 }
 
-void tst_SignalModels::onlyWhatIsShownIsRenewedAndAtMostTenTimesASecond()
+void tst_SignalModels::visibleRowsAreUpdatedAtMostTenTimesASecond()
 {
     RunningMaster master;
     QVERIFY(master.startRealTime());
@@ -273,7 +273,7 @@ void tst_SignalModels::chosenSignalsShowRangeQualityAndRate()
     QCOMPARE(cell(table, 0, ValueTableModel::QualityColumn), QStringLiteral("not there"));
 }
 
-void tst_SignalModels::placeholdersComeToLifeWithTheirSignal()
+void tst_SignalModels::placeholderShowsItsSignalWhenItAppears()
 {
     RunningMaster master;
     PanelInWindow bench;

@@ -12,11 +12,11 @@ private Q_SLOTS:
     void init() { m_box = std::make_unique<NumberBox>(-1e12, 1e12); }
     void numbersOfAnySizeAreShown_data();
     void numbersOfAnySizeAreShown();
-    void aValueIsWhatWasSetUntilAPersonWritesAnother();
-    void whatIsWrittenIsTakenWhenItIsComplete_data();
-    void whatIsWrittenIsTakenWhenItIsComplete();
-    void unitsAreNoPartOfTheNumber();
-    void whatIsBeyondTheRangeIsNotTaken();
+    void valueKeepsFullPrecisionUntilTheUserEditsIt();
+    void completeNumbersAreAccepted_data();
+    void completeNumbersAreAccepted();
+    void unitsAreNotParsedAsNumber();
+    void typedValueStaysWithinTheRange();
     void stepsAreATenthOfTheFirstDigit_data();
     void stepsAreATenthOfTheFirstDigit();
 
@@ -51,7 +51,7 @@ void tst_NumberBox::numbersOfAnySizeAreShown()
     QVERIFY(m_box->value() == value);
 }
 
-void tst_NumberBox::aValueIsWhatWasSetUntilAPersonWritesAnother()
+void tst_NumberBox::valueKeepsFullPrecisionUntilTheUserEditsIt()
 {
     m_box->setValue(1.0 / 3.0);
     QSignalSpy changes(m_box.get(), qOverload<double>(&NumberBox::valueChanged));
@@ -64,7 +64,7 @@ void tst_NumberBox::aValueIsWhatWasSetUntilAPersonWritesAnother()
     QCOMPARE(changes.count(), 1);
 }
 
-void tst_NumberBox::whatIsWrittenIsTakenWhenItIsComplete_data()
+void tst_NumberBox::completeNumbersAreAccepted_data()
 {
     QTest::addColumn<QString>("text");
     QTest::addColumn<double>("value");
@@ -76,7 +76,7 @@ void tst_NumberBox::whatIsWrittenIsTakenWhenItIsComplete_data()
     QTest::newRow("letters are not taken") << QStringLiteral("a5x") << 5.0;
 }
 
-void tst_NumberBox::whatIsWrittenIsTakenWhenItIsComplete()
+void tst_NumberBox::completeNumbersAreAccepted()
 {
     QFETCH(QString, text);
     QFETCH(double, value);
@@ -85,7 +85,7 @@ void tst_NumberBox::whatIsWrittenIsTakenWhenItIsComplete()
     QCOMPARE(m_box->value(), value);
 }
 
-void tst_NumberBox::unitsAreNoPartOfTheNumber()
+void tst_NumberBox::unitsAreNotParsedAsNumber()
 {
     m_box->setPrefix(QStringLiteral("T "));
     m_box->setSuffix(QStringLiteral(" m/s"));
@@ -96,7 +96,7 @@ void tst_NumberBox::unitsAreNoPartOfTheNumber()
     QCOMPARE(m_box->text(), QStringLiteral("T 0.0001 m/s"));
 }
 
-void tst_NumberBox::whatIsBeyondTheRangeIsNotTaken()
+void tst_NumberBox::typedValueStaysWithinTheRange()
 {
     m_box->setRange(0.0, 100.0);
     m_box->setValue(20.0);

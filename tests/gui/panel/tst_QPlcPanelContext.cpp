@@ -81,11 +81,11 @@ private Q_SLOTS:
     void aSignalHasItsMetadataAndItsNewestValue();
     void anElementOfAnArrayIsANumber();
     void aFormulaIsASignal();
-    void aMissingSignalSaysWhatIsWrong();
-    void aReferenceMeansThePlantOfThePin();
+    void missingSignalReportsTheProblem();
+    void referenceUsesThePinnedPlant();
     void theHistoryHasEachCycle();
     void aLongHistoryHasFewStepsWithTheirExtremes();
-    void theHistoryIsInterruptedWhereThePlantWas();
+    void historyIsInterruptedWhereThePlantStopped();
     void thePastIsReadRowByRow();
     void thePastOfAFormulaFollowsItsPlant();
     void aPastOutlivesItsPlant();
@@ -94,13 +94,13 @@ private Q_SLOTS:
     void aPanelWritesIntoTheEventLog();
     void aPanelAcknowledgesEvents();
     void tablesOfAPanelAreModels();
-    void aNoteSaysWhyAValueIsNotOfNow();
+    void noteExplainsWhyAValueIsNotCurrent();
     void theWindowShowsThePast();
     void aLivePanelEndsWithItsOwnPlant();
-    void cursorsAreThoseOfTheWindow();
-    void aLostPlantIsToldAndSeen();
-    void changesAreToldTogetherAndNotToHiddenPanels();
-    void theThemeIsThatOfTheWindow();
+    void cursorsAreSharedWithTheWindow();
+    void lostPlantIsSignalledAndShown();
+    void changesAreSignalledTogetherAndOnlyToVisiblePanels();
+    void themeFollowsTheWindow();
     void numbersAreWrittenAsInTheWindow();
     void settingsAreSavedAndUndone();
 };
@@ -153,7 +153,7 @@ void tst_QPlcPanelContext::aFormulaIsASignal()
     QVERIFY(!fed.context().signal(QStringLiteral("= 2 * nothing")).problem.isEmpty());
 }
 
-void tst_QPlcPanelContext::aMissingSignalSaysWhatIsWrong()
+void tst_QPlcPanelContext::missingSignalReportsTheProblem()
 {
     FedPanel fed;
     const Context::Signal missing = fed.context().signal(QStringLiteral("nothing"));
@@ -164,7 +164,7 @@ void tst_QPlcPanelContext::aMissingSignalSaysWhatIsWrong()
     QVERIFY(fed.all(QStringLiteral("nothing")).isEmpty());
 }
 
-void tst_QPlcPanelContext::aReferenceMeansThePlantOfThePin()
+void tst_QPlcPanelContext::referenceUsesThePinnedPlant()
 {
     FedPanel fed;
     Plant *east = fed.add(QStringLiteral("east"));
@@ -214,7 +214,7 @@ void tst_QPlcPanelContext::aLongHistoryHasFewStepsWithTheirExtremes()
     QCOMPARE(fed.all(QStringLiteral("count"), 100).at(1).time, second);  // steps stay where they are
 }
 
-void tst_QPlcPanelContext::theHistoryIsInterruptedWhereThePlantWas()
+void tst_QPlcPanelContext::historyIsInterruptedWhereThePlantStopped()
 {
     FedPanel fed;
     fed.kite->feed()->stopped();
@@ -373,7 +373,7 @@ void tst_QPlcPanelContext::tablesOfAPanelAreModels()
     QTRY_COMPARE(value.data().toString(), QStringLiteral("10"));
 }
 
-void tst_QPlcPanelContext::aNoteSaysWhyAValueIsNotOfNow()
+void tst_QPlcPanelContext::noteExplainsWhyAValueIsNotCurrent()
 {
     FedPanel fed;
     QCOMPARE(fed.context().signal(QStringLiteral("count")).note, QString());
@@ -420,7 +420,7 @@ void tst_QPlcPanelContext::aLivePanelEndsWithItsOwnPlant()
     QCOMPARE(fed.context().end() - fed.context().begin(), fed.window.timeAxis()->span());
 }
 
-void tst_QPlcPanelContext::cursorsAreThoseOfTheWindow()
+void tst_QPlcPanelContext::cursorsAreSharedWithTheWindow()
 {
     FedPanel fed;
     fed.context().setCursor(Context::CursorB, start + 5);
@@ -433,7 +433,7 @@ void tst_QPlcPanelContext::cursorsAreThoseOfTheWindow()
     QVERIFY(!fed.context().pointer());
 }
 
-void tst_QPlcPanelContext::aLostPlantIsToldAndSeen()
+void tst_QPlcPanelContext::lostPlantIsSignalledAndShown()
 {
     FedPanel fed;
     QVERIFY(fed.context().plant().isConnected);
@@ -453,7 +453,7 @@ void tst_QPlcPanelContext::aLostPlantIsToldAndSeen()
     QVERIFY(fed.context().signal(QStringLiteral("count")).isCurrent);
 }
 
-void tst_QPlcPanelContext::changesAreToldTogetherAndNotToHiddenPanels()
+void tst_QPlcPanelContext::changesAreSignalledTogetherAndOnlyToVisiblePanels()
 {
     FedPanel fed;
     const QSignalSpy changed(&fed.context(), &Context::changed);
@@ -470,7 +470,7 @@ void tst_QPlcPanelContext::changesAreToldTogetherAndNotToHiddenPanels()
     QCOMPARE(changed.count(), 2);
 }
 
-void tst_QPlcPanelContext::theThemeIsThatOfTheWindow()
+void tst_QPlcPanelContext::themeFollowsTheWindow()
 {
     FedPanel fed;
     const QSignalSpy themeChanged(&fed.context(), &Context::themeChanged);

@@ -32,10 +32,10 @@ class tst_Theme : public QObject
 private Q_SLOTS:
     void textsStandOutFromTheirBackground_data();
     void textsStandOutFromTheirBackground();
-    void curvesAreAllDifferentAndSeen_data() { textsStandOutFromTheirBackground_data(); }
-    void curvesAreAllDifferentAndSeen();
-    void lineTellsCurvesOfOneColourApart();
-    void namesComeBack();
+    void curveColoursAreDistinctAndVisible_data() { textsStandOutFromTheirBackground_data(); }
+    void curveColoursAreDistinctAndVisible();
+    void lineStyleDistinguishesCurvesOfOneColour();
+    void namesAreConvertedToTextAndBack();
     void theSystemThemeIsOneOfTheOthers();
 };
 
@@ -60,7 +60,7 @@ void tst_Theme::textsStandOutFromTheirBackground()
     QVERIFY(contrast(theme.stale, theme.surface) >= 3.0);
 }
 
-void tst_Theme::curvesAreAllDifferentAndSeen()
+void tst_Theme::curveColoursAreDistinctAndVisible()
 {
     QFETCH(int, name);
     const Theme theme = Theme::byName(Theme::Name(name));
@@ -74,7 +74,7 @@ void tst_Theme::curvesAreAllDifferentAndSeen()
     QCOMPARE(theme.curve(8), theme.curve(0));
 }
 
-void tst_Theme::namesComeBack()
+void tst_Theme::namesAreConvertedToTextAndBack()
 {
     for (const Theme::Name name : {Theme::System, Theme::Light, Theme::Dark, Theme::Sunlight})
         QCOMPARE(Theme::nameOf(Theme::nameText(name)), name);
@@ -87,7 +87,7 @@ void tst_Theme::theSystemThemeIsOneOfTheOthers()
     QCOMPARE(system.window, Theme::byName(system.isDark ? Theme::Dark : Theme::Light).window);
 }
 
-void tst_Theme::lineTellsCurvesOfOneColourApart()
+void tst_Theme::lineStyleDistinguishesCurvesOfOneColour()
 {
     const Theme theme = Theme::byName(Theme::Light);
     QSet<QPair<QRgb, int>> looks;

@@ -105,12 +105,12 @@ class tst_HostilePlant : public QObject
 {
     Q_OBJECT
 private Q_SLOTS:
-    void nonsenseLeavesAWindowThatWorks_data();
-    void nonsenseLeavesAWindowThatWorks();
-    void anEndlessListOfEventsEnds();
+    void invalidAnswersLeaveTheWindowUsable_data();
+    void invalidAnswersLeaveTheWindowUsable();
+    void windowStopsReadingAnEndlessEventList();
 };
 
-void tst_HostilePlant::nonsenseLeavesAWindowThatWorks_data()
+void tst_HostilePlant::invalidAnswersLeaveTheWindowUsable_data()
 {
     QTest::addColumn<QJsonObject>("fields");
     QTest::addColumn<int>("kind");  // -1: the one that answers
@@ -138,7 +138,7 @@ void tst_HostilePlant::nonsenseLeavesAWindowThatWorks_data()
     QTest::newRow("another answer") << elements << int(QPlcMessage::Statistics);
 }
 
-void tst_HostilePlant::nonsenseLeavesAWindowThatWorks()
+void tst_HostilePlant::invalidAnswersLeaveTheWindowUsable()
 {
     QFETCH(QJsonObject, fields);
     QFETCH(int, kind);
@@ -157,7 +157,7 @@ void tst_HostilePlant::nonsenseLeavesAWindowThatWorks()
     QVERIFY(window.plant->leases().isEmpty());
 }
 
-void tst_HostilePlant::anEndlessListOfEventsEnds()
+void tst_HostilePlant::windowStopsReadingAnEndlessEventList()
 {
     AnsweringMaster master;
     master.answer = [](const QPlcMessage &request) {

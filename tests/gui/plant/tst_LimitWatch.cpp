@@ -60,17 +60,17 @@ class tst_LimitWatch : public QObject
 {
     Q_OBJECT
 private Q_SLOTS:
-    void whatIsInsideIsNoNews();
-    void aSignalThatLeavesItsLimitsIsToldOnceAndSoIsItsReturn();
-    void oneRowOutsideBetweenTwoLooksIsSeen();
-    void tremblingAboutTheLimitIsOneViolation();
+    void valuesWithinLimitsCauseNoAlarm();
+    void limitViolationAndReturnAreEachReportedOnce();
+    void singleViolatingRowBetweenTwoChecksIsReported();
+    void oscillationAboutTheLimitIsOneViolation();
     void everyElementHasAnAlarmOfItsOwn();
     void nanIsNotOutside();
-    void rowsOfBeforeDoNotCount();
+    void earlierRowsCauseNoAlarm();
     void anAlarmOfAPlantIsActiveWhileItLasts();
 };
 
-void tst_LimitWatch::whatIsInsideIsNoNews()
+void tst_LimitWatch::valuesWithinLimitsCauseNoAlarm()
 {
     Rows rows;
     QCOMPARE(rows.told(), QStringList());
@@ -79,7 +79,7 @@ void tst_LimitWatch::whatIsInsideIsNoNews()
     QCOMPARE(rows.told(), QStringList());
 }
 
-void tst_LimitWatch::aSignalThatLeavesItsLimitsIsToldOnceAndSoIsItsReturn()
+void tst_LimitWatch::limitViolationAndReturnAreEachReportedOnce()
 {
     Rows rows;
     rows.add(10, 11.0F);
@@ -95,7 +95,7 @@ void tst_LimitWatch::aSignalThatLeavesItsLimitsIsToldOnceAndSoIsItsReturn()
     QCOMPARE(rows.told(), QStringList{"+speed[0] -20"});
 }
 
-void tst_LimitWatch::oneRowOutsideBetweenTwoLooksIsSeen()
+void tst_LimitWatch::singleViolatingRowBetweenTwoChecksIsReported()
 {
     Rows rows;
     rows.add(500, 0.0F);
@@ -104,7 +104,7 @@ void tst_LimitWatch::oneRowOutsideBetweenTwoLooksIsSeen()
     QCOMPARE(rows.told(), (QStringList{"+speed[0] 10.5", "-speed[0] 10.5 after 1"}));
 }
 
-void tst_LimitWatch::tremblingAboutTheLimitIsOneViolation()
+void tst_LimitWatch::oscillationAboutTheLimitIsOneViolation()
 {
     Rows rows;
     QStringList told;
@@ -132,7 +132,7 @@ void tst_LimitWatch::nanIsNotOutside()
     QCOMPARE(rows.told(), QStringList());
 }
 
-void tst_LimitWatch::rowsOfBeforeDoNotCount()
+void tst_LimitWatch::earlierRowsCauseNoAlarm()
 {
     const QPlcSignalTable table = limitedTable();
     const ChannelMap channels(table);

@@ -26,19 +26,19 @@ class tst_Plant : public QObject
 private Q_SLOTS:
     void aPlantShowsWhatItsMasterHas_data();
     void aPlantShowsWhatItsMasterHas();
-    void commandsMoveTheMasterAndTellHowItWent();
-    void aRefusedCommandBringsTheSentenceOfTheMaster();
-    void withoutAConnectionCommandsFailAndNothingBlocks();
+    void commandsChangeTheMasterStateAndReportTheirResult();
+    void refusedCommandReportsTheReasonOfTheMaster();
+    void commandsWithoutConnectionFailWithoutBlocking();
     void valuesComeWhileNoCycleRuns();
     void valuesComeAtMostFiftyTimesASecond();
-    void aRateIsKeptAndTheRowsLieFurtherApart();
-    void aRateIsThatOfTheClockOfPeople();
+    void rateLimitIncreasesTheRowSpacing();
+    void rateLimitAppliesToWallClockTime();
     void aMasterThatComesLaterIsFound();
     void aLostMasterIsFoundAgainAndTheGapIsKept();
     void anotherTableReplacesSignalsAndStore();
-    void aPortThatSaysNothingIsGivenUpAndTriedAgain();
-    void aNodeNameInUseIsAnEventAndNoEnd();
-    void nodesThatComeAndGoAreEvents();
+    void silentPortTimesOutAndIsRetried();
+    void nodeNameInUseIsReportedAndKeepsThePlantConnected();
+    void nodeArrivalsAndDeparturesAreEvents();
     void aPlantIsClosedAndOpenedAgain();
     void pausesGrowFromAQuarterToFiveSeconds();
     void hostsAreLookedUpInTheBackground();
@@ -87,7 +87,7 @@ void tst_Plant::aPlantShowsWhatItsMasterHas()
     QTRY_VERIFY(plant.updateRate() > 50.0);
 }
 
-void tst_Plant::commandsMoveTheMasterAndTellHowItWent()
+void tst_Plant::commandsChangeTheMasterStateAndReportTheirResult()
 {
     RunningMaster master;
     Plant plant(master.address());
@@ -115,7 +115,7 @@ void tst_Plant::commandsMoveTheMasterAndTellHowItWent()
     QVERIFY(failed.isEmpty());
 }
 
-void tst_Plant::aRefusedCommandBringsTheSentenceOfTheMaster()
+void tst_Plant::refusedCommandReportsTheReasonOfTheMaster()
 {
     RunningMaster master;
     Plant plant(master.address());
@@ -131,7 +131,7 @@ void tst_Plant::aRefusedCommandBringsTheSentenceOfTheMaster()
     QCOMPARE(textsOf(events).filter(QStringLiteral("SetSignals failed")).size(), 1);
 }
 
-void tst_Plant::withoutAConnectionCommandsFailAndNothingBlocks()
+void tst_Plant::commandsWithoutConnectionFailWithoutBlocking()
 {
     Plant plant(QStringLiteral("127.0.0.1:%1").arg(freePort()));
     QSignalSpy failed(&plant, &Plant::commandFailed);
@@ -177,7 +177,7 @@ void tst_Plant::valuesComeAtMostFiftyTimesASecond()
              qPrintable(QString::number(updated.size())));
 }
 
-void tst_Plant::aRateIsKeptAndTheRowsLieFurtherApart()
+void tst_Plant::rateLimitIncreasesTheRowSpacing()
 {
     RunningMaster master;
     QVERIFY(master.startRealTime());
@@ -204,7 +204,7 @@ void tst_Plant::aRateIsKeptAndTheRowsLieFurtherApart()
     QCOMPARE(plant.connectionState(), PlantConnection::Connected);
 }
 
-void tst_Plant::aRateIsThatOfTheClockOfPeople()
+void tst_Plant::rateLimitAppliesToWallClockTime()
 {
     RunningMaster master;
     master.setClock(QPlcClock::scaled(5.0));  // 500 cycles in a second
@@ -279,7 +279,7 @@ void tst_Plant::anotherTableReplacesSignalsAndStore()
     QTRY_VERIFY(plant.values().rows() > 3);
 }
 
-void tst_Plant::aPortThatSaysNothingIsGivenUpAndTriedAgain()
+void tst_Plant::silentPortTimesOutAndIsRetried()
 {
     QTcpServer silent;
     QVERIFY(silent.listen(QHostAddress::LocalHost));
@@ -301,7 +301,7 @@ void tst_Plant::aPortThatSaysNothingIsGivenUpAndTriedAgain()
     QVERIFY(lost.last().at(1).toString().contains(QStringLiteral("not a QtPLC message")));
 }
 
-void tst_Plant::aNodeNameInUseIsAnEventAndNoEnd()
+void tst_Plant::nodeNameInUseIsReportedAndKeepsThePlantConnected()
 {
     RunningMaster master;
     QVERIFY(master.startRealTime());
@@ -318,7 +318,7 @@ void tst_Plant::aNodeNameInUseIsAnEventAndNoEnd()
     QTRY_VERIFY_WITH_TIMEOUT(second.values().rows() > 0, 10000);
 }
 
-void tst_Plant::nodesThatComeAndGoAreEvents()
+void tst_Plant::nodeArrivalsAndDeparturesAreEvents()
 {
     RunningMaster master;
     QVERIFY(master.startRealTime());

@@ -33,20 +33,20 @@ class tst_PlantLeases : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void aWindowTakesASignalOverAndGivesItBack();
-    void everyWindowSeesTheHolderAndOnlyOneIsIt();
-    void aSignalIsTakenFromAnotherOneOnlyIfThatIsSaid();
+    void windowAcquiresAndReleasesASignal();
+    void everyWindowSeesTheSingleHolder();
+    void leaseOfAnotherWindowIsAcquiredOnlyExplicitly();
     void aWindowThatDoesNothingKeepsItsLease();
     void aWindowThatHangsLosesItsLease();
     void aWindowThatEndsLeavesTheNeutralValue();
     void aWindowWithoutAMasterKnowsOfNoLease();
-    void eventsOfBeforeComeFirstAndOnce();
-    void whatTheMasterTellsIsNotToldAgain();
+    void earlierEventsAreDeliveredFirstAndOnce();
+    void eventsOfTheMasterAreReportedOnce();
     void eventsOfAnOldConnectionAreNotRepeated();
-    void anOlderMasterIsWatchedAsBefore();
+    void olderMasterIsMonitoredWithoutLeasesAndEvents();
 };
 
-void tst_PlantLeases::aWindowTakesASignalOverAndGivesItBack()
+void tst_PlantLeases::windowAcquiresAndReleasesASignal()
 {
     FlyingMaster master;
     QVERIFY(master.startRealTime());
@@ -73,7 +73,7 @@ void tst_PlantLeases::aWindowTakesASignalOverAndGivesItBack()
     QTRY_VERIFY(master.valueOf(echo) > 10.0);
 }
 
-void tst_PlantLeases::everyWindowSeesTheHolderAndOnlyOneIsIt()
+void tst_PlantLeases::everyWindowSeesTheSingleHolder()
 {
     FlyingMaster master;
     Plant first(master.address(), QString(), QStringLiteral("First"));
@@ -92,7 +92,7 @@ void tst_PlantLeases::everyWindowSeesTheHolderAndOnlyOneIsIt()
     QTRY_COMPARE(third.leases().size(), 2);  // from before it came
 }
 
-void tst_PlantLeases::aSignalIsTakenFromAnotherOneOnlyIfThatIsSaid()
+void tst_PlantLeases::leaseOfAnotherWindowIsAcquiredOnlyExplicitly()
 {
     FlyingMaster master;
     Plant first(master.address(), QString(), QStringLiteral("First"));
@@ -196,7 +196,7 @@ void tst_PlantLeases::aWindowWithoutAMasterKnowsOfNoLease()
 
 // ---- events ----
 
-void tst_PlantLeases::eventsOfBeforeComeFirstAndOnce()
+void tst_PlantLeases::earlierEventsAreDeliveredFirstAndOnce()
 {
     FlyingMaster master;
     for (int i = 0; i < 250; ++i) {  // more than one answer has
@@ -216,7 +216,7 @@ void tst_PlantLeases::eventsOfBeforeComeFirstAndOnce()
     QVERIFY(!eventsOf(events).first().isAcknowledged);
 }
 
-void tst_PlantLeases::whatTheMasterTellsIsNotToldAgain()
+void tst_PlantLeases::eventsOfTheMasterAreReportedOnce()
 {
     FlyingMaster master;
     Plant plant(master.address(), QStringLiteral("kite"));
@@ -254,7 +254,7 @@ void tst_PlantLeases::eventsOfAnOldConnectionAreNotRepeated()
     QCOMPARE(textsOf(events).filter(QStringLiteral("state Off")).size(), 1);  // while it was away
 }
 
-void tst_PlantLeases::anOlderMasterIsWatchedAsBefore()
+void tst_PlantLeases::olderMasterIsMonitoredWithoutLeasesAndEvents()
 {
     ScriptedMaster master;
     Plant plant(master.tcp().toString());

@@ -32,15 +32,15 @@ class tst_PlantPrograms : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void aKilledMasterIsFoundAgainAndNothingBlocks();
-    void valuesOfAStoppedMasterAreStaleUntilItGoesOn();
-    void aStoppedWindowSlowsNobodyAndHasAGap();
+    void killedMasterIsFoundAgainWithoutBlocking();
+    void valuesOfASuspendedMasterAreStaleUntilItContinues();
+    void suspendedWindowHasAGapAndDoesNotDelayTheMaster();
     void aSlowWindowKeepsABoundedBacklog();
-    void whatALostWindowHeldIsNeutralAndSeenByOthers_data();
-    void whatALostWindowHeldIsNeutralAndSeenByOthers();
+    void masterSetsSignalsOfALostWindowToNeutral_data();
+    void masterSetsSignalsOfALostWindowToNeutral();
 };
 
-void tst_PlantPrograms::aKilledMasterIsFoundAgainAndNothingBlocks()
+void tst_PlantPrograms::killedMasterIsFoundAgainWithoutBlocking()
 {
     std::unique_ptr<Program> master = startMaster(QStringLiteral("0"));
     QVERIFY(master);
@@ -71,7 +71,7 @@ void tst_PlantPrograms::aKilledMasterIsFoundAgainAndNothingBlocks()
     QVERIFY2(heartbeat.longest() < 1000, qPrintable(QString::number(heartbeat.longest())));
 }
 
-void tst_PlantPrograms::valuesOfAStoppedMasterAreStaleUntilItGoesOn()
+void tst_PlantPrograms::valuesOfASuspendedMasterAreStaleUntilItContinues()
 {
     std::unique_ptr<Program> master = startMaster(QStringLiteral("0"));
     QVERIFY(master);
@@ -89,7 +89,7 @@ void tst_PlantPrograms::valuesOfAStoppedMasterAreStaleUntilItGoesOn()
     QTRY_COMPARE_WITH_TIMEOUT(plant.quality(), Plant::Good, patience);
 }
 
-void tst_PlantPrograms::aStoppedWindowSlowsNobodyAndHasAGap()
+void tst_PlantPrograms::suspendedWindowHasAGapAndDoesNotDelayTheMaster()
 {
     RunningMaster master;
     QVERIFY(master.setInterval(std::chrono::milliseconds(1)));
@@ -123,14 +123,14 @@ void tst_PlantPrograms::aSlowWindowKeepsABoundedBacklog()
     QVERIFY2(largestBatch > 1000 && largestBatch <= 2048, qPrintable(QString::number(largestBatch)));
 }
 
-void tst_PlantPrograms::whatALostWindowHeldIsNeutralAndSeenByOthers_data()
+void tst_PlantPrograms::masterSetsSignalsOfALostWindowToNeutral_data()
 {
     QTest::addColumn<int>("signal");
     QTest::newRow("killed") << SIGKILL;
     QTest::newRow("stopped") << SIGSTOP;
 }
 
-void tst_PlantPrograms::whatALostWindowHeldIsNeutralAndSeenByOthers()
+void tst_PlantPrograms::masterSetsSignalsOfALostWindowToNeutral()
 {
     QFETCH(int, signal);
     const QString setpoint = QStringLiteral("setpoint");

@@ -56,26 +56,26 @@ private Q_SLOTS:
     void allTypesBecomeFloats();
     void anEmptyTableHasNoChannels();
     void rowsLieAPeriodApartFromTheBeginOfThePhase();
-    void whatNobodyHasWrittenIsNoValueOfACurve();
+    void unwrittenValuesAreGapsInCurves();
     void aJumpOfCyclesIsAGap();
-    void oneOfSoManyCyclesIsNoGap();
-    void aTurnWithoutAFrameIsAGap();
+    void reducedRateCausesNoGap();
+    void missingFrameAtReducedRateIsAGap();
     void anotherIntervalKeepsThePast();
-    void aNewPhaseBeginsAnewAndLater();
-    void anInterruptionIsNoGapOfCycles();
-    void framesOfAnotherTableAreNotTaken();
+    void newPhaseStartsANewSegmentAtALaterTime();
+    void interruptionIsNotCountedAsCycleGap();
+    void framesOfAnotherTableAreIgnored();
     void theStoreIsBoundedByTimeAndMemory();
     void aMuchShorterPeriodGetsALargerStore();
     void aBatchHoldsTheCyclesSinceTheLastOne();
     void valuesAtRestReplaceTheNewest();
     void referencesAreReadAndWritten_data();
     void referencesAreReadAndWritten();
-    void nonsenseIsNoReference_data();
-    void nonsenseIsNoReference();
-    void overrunsAreNewUntilTheNextStatistics();
+    void invalidTextIsNotAReference_data();
+    void invalidTextIsNotAReference();
+    void newOverrunsAreMarkedUntilTheNextStatistics();
     void aStatusKeepsTheFiguresOfItsNodes();
-    void nonsenseOfAMasterIsAnEmptyStatus();
-    void whatPeopleReadCommandsNoTerminal();
+    void invalidAnswersGiveAnEmptyStatus();
+    void displayedTextsContainNoEscapeCodes();
 };
 
 void tst_PlantValues::everyElementOfANumberHasAChannel()
@@ -135,7 +135,7 @@ void tst_PlantValues::rowsLieAPeriodApartFromTheBeginOfThePhase()
     QCOMPARE(values.gaps(), quint64(0));
 }
 
-void tst_PlantValues::whatNobodyHasWrittenIsNoValueOfACurve()
+void tst_PlantValues::unwrittenValuesAreGapsInCurves()
 {
     PlantValues values;
     values.setTable(table(), 10 * ms);
@@ -179,7 +179,7 @@ void tst_PlantValues::aJumpOfCyclesIsAGap()
     QCOMPARE(qint64(values.store()->time(2)), wall + 1000 * ms);
 }
 
-void tst_PlantValues::oneOfSoManyCyclesIsNoGap()
+void tst_PlantValues::reducedRateCausesNoGap()
 {
     PlantValues values;
     values.setTable(table(), 10 * ms);
@@ -195,7 +195,7 @@ void tst_PlantValues::oneOfSoManyCyclesIsNoGap()
     QCOMPARE(qint64(values.period()), 10 * ms);
 }
 
-void tst_PlantValues::aTurnWithoutAFrameIsAGap()
+void tst_PlantValues::missingFrameAtReducedRateIsAGap()
 {
     PlantValues values;
     values.setTable(table(), 10 * ms);
@@ -222,7 +222,7 @@ void tst_PlantValues::anotherIntervalKeepsThePast()
     QCOMPARE(qint64(store->time(10)), wall + 150 * ms);
 }
 
-void tst_PlantValues::aNewPhaseBeginsAnewAndLater()
+void tst_PlantValues::newPhaseStartsANewSegmentAtALaterTime()
 {
     PlantValues values;
     values.setTable(table(), 10 * ms);
@@ -240,7 +240,7 @@ void tst_PlantValues::aNewPhaseBeginsAnewAndLater()
     QCOMPARE(values.gaps(), quint64(0));
 }
 
-void tst_PlantValues::anInterruptionIsNoGapOfCycles()
+void tst_PlantValues::interruptionIsNotCountedAsCycleGap()
 {
     PlantValues values;
     values.setTable(table(), 10 * ms);
@@ -252,7 +252,7 @@ void tst_PlantValues::anInterruptionIsNoGapOfCycles()
     QCOMPARE(values.gaps(), quint64(0));
 }
 
-void tst_PlantValues::framesOfAnotherTableAreNotTaken()
+void tst_PlantValues::framesOfAnotherTableAreIgnored()
 {
     PlantValues values;
     const char frame[4] = {};
@@ -360,7 +360,7 @@ void tst_PlantValues::referencesAreReadAndWritten()
     QCOMPARE(SignalReference::fromString(QStringLiteral("  ") + text + QStringLiteral(" \n")), reference);
 }
 
-void tst_PlantValues::nonsenseIsNoReference_data()
+void tst_PlantValues::invalidTextIsNotAReference_data()
 {
     QTest::addColumn<QString>("text");
     for (const char *text :
@@ -369,7 +369,7 @@ void tst_PlantValues::nonsenseIsNoReference_data()
     QTest::newRow("too long") << QString(64, QLatin1Char('a'));
 }
 
-void tst_PlantValues::nonsenseIsNoReference()
+void tst_PlantValues::invalidTextIsNotAReference()
 {
     QFETCH(QString, text);
     QString error;
@@ -377,7 +377,7 @@ void tst_PlantValues::nonsenseIsNoReference()
     QVERIFY2(error.contains(QStringLiteral("write signal, signal[2] or plant/signal")), qPrintable(error));
 }
 
-void tst_PlantValues::overrunsAreNewUntilTheNextStatistics()
+void tst_PlantValues::newOverrunsAreMarkedUntilTheNextStatistics()
 {
     const auto statistics = [](double overruns) {
         messages::Statistics answer;
@@ -432,7 +432,7 @@ void tst_PlantValues::aStatusKeepsTheFiguresOfItsNodes()
     QVERIFY(status.nodes.isEmpty() && !status.node("Winch"));
 }
 
-void tst_PlantValues::nonsenseOfAMasterIsAnEmptyStatus()
+void tst_PlantValues::invalidAnswersGiveAnEmptyStatus()
 {
     PlantStatus status;
     status.handleState(answerOf<messages::State>({{"state", 7}, {"nodes", "many"}, {"period", "long"}}));
@@ -451,7 +451,7 @@ void tst_PlantValues::nonsenseOfAMasterIsAnEmptyStatus()
     QVERIFY(status.schedule.stages.isEmpty() && status.schedule.links.isEmpty());
 }
 
-void tst_PlantValues::whatPeopleReadCommandsNoTerminal()
+void tst_PlantValues::displayedTextsContainNoEscapeCodes()
 {
     const QString escape = QStringLiteral("a\x1b[31m");
     const QString shown = printable(escape);

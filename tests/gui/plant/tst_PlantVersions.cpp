@@ -67,10 +67,10 @@ class tst_PlantVersions : public QObject
     Q_OBJECT
 private Q_SLOTS:
     void aMasterOfAnotherVersionIsNamedInOneSentenceAndOnce();
-    void aMasterThatRefusesThisVersionToo();
+    void masterThatRefusesThisVersionIsReportedOnce();
     void whenTheVersionsFitAgainTheWindowWorks();
     void aTableOfANewerMasterIsReadAsFarAsItIsKnown();
-    void whatWasSeenBeforeTheMasterWasChangedStays();
+    void replacedMasterKeepsTheRecordedValues();
 };
 
 void tst_PlantVersions::aMasterOfAnotherVersionIsNamedInOneSentenceAndOnce()
@@ -89,7 +89,7 @@ void tst_PlantVersions::aMasterOfAnotherVersionIsNamedInOneSentenceAndOnce()
     QTRY_VERIFY(window.plant->stateText().contains(QStringLiteral("version 2")));
 }
 
-void tst_PlantVersions::aMasterThatRefusesThisVersionToo()
+void tst_PlantVersions::masterThatRefusesThisVersionIsReportedOnce()
 {
     OtherMaster master;
     master.answer = QPlcMessage(
@@ -125,7 +125,7 @@ void tst_PlantVersions::aTableOfANewerMasterIsReadAsFarAsItIsKnown()
     QVERIFY(window.plant->table().contains(QStringLiteral("speed")));
 }
 
-void tst_PlantVersions::whatWasSeenBeforeTheMasterWasChangedStays()
+void tst_PlantVersions::replacedMasterKeepsTheRecordedValues()
 {
     OtherMaster master;
     master.answer = helloOf(1, "[speed]\ntype = Real\n");

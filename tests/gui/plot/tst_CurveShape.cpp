@@ -51,7 +51,7 @@ private Q_SLOTS:
     void emptyStoreHasNoPoints();
     void fewRowsArePoints();
     void manyRowsAreColumns();
-    void oneSpikeInAMillionRowsIsThere();
+    void singleSpikeInAMillionRowsIsKept();
     void linesLeadOutOfTheView();
     void interruptionIsAGap();
     void interruptionWithinAColumnMakesTwoPoints();
@@ -59,8 +59,8 @@ private Q_SLOTS:
     void nanWithinAColumnIsNotJoinedWhereItTouchesTheNext();
     void rowsAtTheSameColumnsStayTogetherWhileTheViewMoves();
     void rowsFarAwayAreWithinIntegers();
-    void viewBesideTheRowsHasOnlyWhatLeadsToIt();
-    void overwrittenRowsAreNotThere();
+    void viewBesideTheRowsHasOnlyTheNearestRow();
+    void overwrittenRowsAreOmitted();
 };
 
 void tst_CurveShape::emptyStoreHasNoPoints()
@@ -102,7 +102,7 @@ void tst_CurveShape::manyRowsAreColumns()
     }
 }
 
-void tst_CurveShape::oneSpikeInAMillionRowsIsThere()
+void tst_CurveShape::singleSpikeInAMillionRowsIsKept()
 {
     SignalStore store(1, 1'000'000);
     fill(&store, 1'000'000, [](int i) { return i == 765'432 ? 9.0F : 0.0F; });
@@ -225,7 +225,7 @@ void tst_CurveShape::rowsFarAwayAreWithinIntegers()
     QVERIFY(shape.points().back().x > 1000);
 }
 
-void tst_CurveShape::viewBesideTheRowsHasOnlyWhatLeadsToIt()
+void tst_CurveShape::viewBesideTheRowsHasOnlyTheNearestRow()
 {
     SignalStore store(1, 100);
     fill(&store, 100, [](int i) { return float(i); });
@@ -237,7 +237,7 @@ void tst_CurveShape::viewBesideTheRowsHasOnlyWhatLeadsToIt()
     QVERIFY(between.points().back().isJoined);
 }
 
-void tst_CurveShape::overwrittenRowsAreNotThere()
+void tst_CurveShape::overwrittenRowsAreOmitted()
 {
     SignalStore store(1, 256);
     fill(&store, 1000, [](int i) { return float(i); });

@@ -42,19 +42,19 @@ private Q_SLOTS:
     void init();
     void rowsHaveTheTimesAndGapsOfTheirSource();
     void anEmptySourceGivesAnEmptyStore();
-    void thePastAndNewRowsGiveTheSame_data();
-    void thePastAndNewRowsGiveTheSame();
+    void incrementalCalculationEqualsCompleteCalculation_data();
+    void incrementalCalculationEqualsCompleteCalculation();
     void rowsThatTheSourceForgotAreAGap();
     void asManyRowsAreKeptAsInTheSource();
     void aClockThatBeginsAgainIsFollowed();
-    void theNormIsThatOfAllItsChannels();
-    void whatNoFloatHoldsIsAGap();
-    void tenMinutesOfAKilohertzAreThereSoon();
+    void normUsesAllChannels();
+    void valuesBeyondTheFloatRangeAreGaps();
+    void tenMinutesAtOneKilohertzAreCalculatedQuickly();
     void aFormulaOfAPlantFollowsIt();
     void aFormulaIsCalculatedOnceAndAsLongAsItIsHeld();
-    void whatIsHeldOutlivesPlantAndSources();
-    void formulasThatCannotBeSayWhy_data();
-    void formulasThatCannotBeSayWhy();
+    void heldSignalRemainsAfterPlantAndSourcesAreRemoved();
+    void invalidFormulasReportTheReason_data();
+    void invalidFormulasReportTheReason();
     void signalsOfTwoPlantsAreRefused();
 
 private:
@@ -108,7 +108,7 @@ void tst_DerivedSignals::anEmptySourceGivesAnEmptyStore()
     QCOMPARE(derived.store().endRow(), Row(1));
 }
 
-void tst_DerivedSignals::thePastAndNewRowsGiveTheSame_data()
+void tst_DerivedSignals::incrementalCalculationEqualsCompleteCalculation_data()
 {
     QTest::addColumn<QString>("text");
     for (const char *text : {"= derivative(a)", "= integral(a)", "= mean(a, 0.5)", "= lowpass(a, 0.2)",
@@ -116,7 +116,7 @@ void tst_DerivedSignals::thePastAndNewRowsGiveTheSame_data()
         QTest::newRow(text) << text;
 }
 
-void tst_DerivedSignals::thePastAndNewRowsGiveTheSame()
+void tst_DerivedSignals::incrementalCalculationEqualsCompleteCalculation()
 {
     QFETCH(QString, text);
     const Formula formula = formulaOf(text);
@@ -175,7 +175,7 @@ void tst_DerivedSignals::aClockThatBeginsAgainIsFollowed()
     QCOMPARE(derived.store().time(derived.store().firstRow()), m_source->time(m_source->firstRow()));
 }
 
-void tst_DerivedSignals::theNormIsThatOfAllItsChannels()
+void tst_DerivedSignals::normUsesAllChannels()
 {
     const float values[] = {2, 3, 6};
     m_source->append(ms, values);
@@ -184,7 +184,7 @@ void tst_DerivedSignals::theNormIsThatOfAllItsChannels()
     QCOMPARE(derived.store().value(0, 0), 73.0F);
 }
 
-void tst_DerivedSignals::whatNoFloatHoldsIsAGap()
+void tst_DerivedSignals::valuesBeyondTheFloatRangeAreGaps()
 {
     const float values[] = {2, 3, 6};
     m_source->append(ms, values);
@@ -193,7 +193,7 @@ void tst_DerivedSignals::whatNoFloatHoldsIsAGap()
     QVERIFY(std::isnan(derived.store().value(0, 0)));
 }
 
-void tst_DerivedSignals::tenMinutesOfAKilohertzAreThereSoon()
+void tst_DerivedSignals::tenMinutesAtOneKilohertzAreCalculatedQuickly()
 {
     m_source = std::make_unique<SignalStore>(3, 600'000);
     feed(600'000);
@@ -271,7 +271,7 @@ void tst_DerivedSignals::aFormulaIsCalculatedOnceAndAsLongAsItIsHeld()
     QVERIFY(signals_.find(text).derived != first.derived);
 }
 
-void tst_DerivedSignals::whatIsHeldOutlivesPlantAndSources()
+void tst_DerivedSignals::heldSignalRemainsAfterPlantAndSourcesAreRemoved()
 {
     RunningMaster master;
     QVERIFY(master.startRealTime());
@@ -289,7 +289,7 @@ void tst_DerivedSignals::whatIsHeldOutlivesPlantAndSources()
     QVERIFY(!std::isnan(source.store->value(0, source.store->endRow() - 1)));
 }
 
-void tst_DerivedSignals::formulasThatCannotBeSayWhy_data()
+void tst_DerivedSignals::invalidFormulasReportTheReason_data()
 {
     QTest::addColumn<QString>("text");
     QTest::addColumn<QString>("error");
@@ -309,7 +309,7 @@ void tst_DerivedSignals::formulasThatCannotBeSayWhy_data()
                                << "a formula needs a signal";
 }
 
-void tst_DerivedSignals::formulasThatCannotBeSayWhy()
+void tst_DerivedSignals::invalidFormulasReportTheReason()
 {
     QFETCH(QString, text);
     QFETCH(QString, error);

@@ -39,32 +39,32 @@ class tst_Formula : public QObject
 {
     Q_OBJECT
 private Q_SLOTS:
-    void formulasGiveWhatPaperGives_data();
-    void formulasGiveWhatPaperGives();
+    void formulasGiveTheExpectedResults_data();
+    void formulasGiveTheExpectedResults();
     void signalsAreFoundInFormulas();
-    void plantsAreFoundBeforeDivisions();
-    void nonsenseIsToldWithItsPlace_data();
-    void nonsenseIsToldWithItsPlace();
+    void plantNamesTakePrecedenceOverDivision();
+    void syntaxErrorIsReportedWithItsPosition_data();
+    void syntaxErrorIsReportedWithItsPosition();
     void unitsFollowFunctions_data();
     void unitsFollowFunctions();
     void theDerivativeOfALineIsItsSlope();
-    void theDerivativeOfAParabolaIsThatOfTheMiddle();
+    void derivativeOfAParabolaIsExactAtTheMidpoint();
     void theIntegralOfALineIsExact();
     void theDerivativeOfTheIntegralIsTheMeanOfNeighbours();
     void theLowPassAnswersAStepAsTheExponentialFunction();
     void theLowPassDoesNotDependOnTheRate();
-    void theMeanIsThatOfTheRowsOfItsTime();
+    void meanCoversTheRowsOfItsTimeWindow();
     void theMeanOfAWholePeriodIsZero();
     void aLargeValueLeavesNoTraceInTheMean();
     void theNormOfSeveralArgumentsIsTheRootOfTheirSquares();
-    void whatIsNestedIsCalculatedFromInside();
-    void interruptionsBeginEverythingAnew();
+    void nestedFunctionsAreCalculatedFromTheInside();
+    void interruptionRestartsEveryFunction();
     void cyclesThatWereLostAreAsNaN();
     void nanInIsNanOut();
-    void whatIsNoNumberIsNoValue();
+    void undefinedResultsGiveNoValue();
 };
 
-void tst_Formula::formulasGiveWhatPaperGives_data()
+void tst_Formula::formulasGiveTheExpectedResults_data()
 {
     QTest::addColumn<QString>("text");
     QTest::addColumn<double>("result");  // for x = 3
@@ -79,7 +79,7 @@ void tst_Formula::formulasGiveWhatPaperGives_data()
     QTest::newRow("names with an e") << "= x + 1e1 + 2e0" << 15.0;
 }
 
-void tst_Formula::formulasGiveWhatPaperGives()
+void tst_Formula::formulasGiveTheExpectedResults()
 {
     QFETCH(QString, text);
     QString error;
@@ -101,7 +101,7 @@ void tst_Formula::signalsAreFoundInFormulas()
     QVERIFY(!formula.operands().at(0).isNorm);
 }
 
-void tst_Formula::plantsAreFoundBeforeDivisions()
+void tst_Formula::plantNamesTakePrecedenceOverDivision()
 {
     const QStringList plants{"east", "127.0.0.1:5000", "a"};
     const auto referencesOf = [&](const QString &text) {
@@ -119,7 +119,7 @@ void tst_Formula::plantsAreFoundBeforeDivisions()
     QCOMPARE(referencesOf("= abs(a/b)"), QStringList{"a/b"});
 }
 
-void tst_Formula::nonsenseIsToldWithItsPlace_data()
+void tst_Formula::syntaxErrorIsReportedWithItsPosition_data()
 {
     QTest::addColumn<QString>("text");
     QTest::addColumn<QString>("what");
@@ -160,7 +160,7 @@ void tst_Formula::nonsenseIsToldWithItsPlace_data()
     row("= .", "'.' has no meaning", "at character 3 ");
 }
 
-void tst_Formula::nonsenseIsToldWithItsPlace()
+void tst_Formula::syntaxErrorIsReportedWithItsPosition()
 {
     QFETCH(QString, text);
     QFETCH(QString, what);
@@ -229,7 +229,7 @@ void tst_Formula::theDerivativeOfALineIsItsSlope()
     QVERIFY(areSame(resultsOf("= derivative(x)", {1, 1.5, 2, 2.5}, 0.25), {none, 2, 2, 2}));
 }
 
-void tst_Formula::theDerivativeOfAParabolaIsThatOfTheMiddle()
+void tst_Formula::derivativeOfAParabolaIsExactAtTheMidpoint()
 {
     QVERIFY(areSame(resultsOf("= derivative(x^2)", {0, 1, 2, 3}), {none, 1, 3, 5}));
 }
@@ -262,7 +262,7 @@ void tst_Formula::theLowPassDoesNotDependOnTheRate()
     QVERIFY(std::fabs(atOnce - resultsOf("= lowpass(x, 2)", fine, 0.001).back()) < 1e-12);
 }
 
-void tst_Formula::theMeanIsThatOfTheRowsOfItsTime()
+void tst_Formula::meanCoversTheRowsOfItsTimeWindow()
 {
     QVERIFY(areSame(resultsOf("= mean(x, 3)", {3, 6, 9, 12, 0}), {3, 4.5, 6, 9, 7}));
     QVERIFY(areSame(resultsOf("= mean(x, 0.5)", {3, 6, 9}), {3, 6, 9}));
@@ -291,12 +291,12 @@ void tst_Formula::theNormOfSeveralArgumentsIsTheRootOfTheirSquares()
     QCOMPARE(resultsOf("= 1 + norm(2*x) / 2", {-2}).front(), 3.0);
 }
 
-void tst_Formula::whatIsNestedIsCalculatedFromInside()
+void tst_Formula::nestedFunctionsAreCalculatedFromTheInside()
 {
     QVERIFY(areSame(resultsOf("= 10*mean(derivative(2*x) + 1, 2)", {0, 1, 2, 4}), {none, 30, 30, 40}));
 }
 
-void tst_Formula::interruptionsBeginEverythingAnew()
+void tst_Formula::interruptionRestartsEveryFunction()
 {
     const QStringList texts{"= derivative(x)", "= integral(x)", "= mean(x, 5)", "= lowpass(x, 5)"};
     for (const QString &text : texts) {
@@ -353,7 +353,7 @@ void tst_Formula::nanInIsNanOut()
         areSame(resultsOf("= lowpass(x, 3)", {1, 7, none, 3}), {1, resultsOf("= lowpass(x, 3)", {1, 7})[1], none, 3}));
 }
 
-void tst_Formula::whatIsNoNumberIsNoValue()
+void tst_Formula::undefinedResultsGiveNoValue()
 {
     QVERIFY(areSame(resultsOf("= 1/x", {0, 2}), {none, 0.5}));
     QVERIFY(areSame(resultsOf("= sqrt(x)", {-1, 4}), {none, 2}));

@@ -50,26 +50,26 @@ class tst_PixelSpans : public QObject
 {
     Q_OBJECT
 private Q_SLOTS:
-    void nothingIsNothing();
+    void emptyLineFillsNoPixel();
     void onePixelIsADot();
-    void onePixelBesideALineIsNoDot();
+    void singlePixelAtALineIsNotThickened();
     void horizontalLineIsOneRectangle();
     void neighboursMeetHalfWay();
     void linesHaveNoHolesAndFillNoPixelTwice_data();
     void linesHaveNoHolesAndFillNoPixelTwice();
-    void thickLineIsAsThickAsItShouldBe();
-    void tallColumnsAreFilledAsTheyAre();
+    void lineHasTheRequestedThickness();
+    void tallColumnsAreFilledExactly();
     void gapStaysOpen();
-    void nothingIsOutsideOfTheClip();
+    void spansStayWithinTheClip();
     void farAwayLinesPassThroughTheClip();
-    void beginForgets();
-    void dashesBeginWhereTheyShould();
+    void beginDiscardsTheUnfinishedLine();
+    void dashesFollowTheirPattern();
     void dashesKeepPeaksFromEndToEnd();
     void dashesFillNoPixelTwice();
     void shortLinesHaveNoDashes();
 };
 
-void tst_PixelSpans::nothingIsNothing()
+void tst_PixelSpans::emptyLineFillsNoPixel()
 {
     PixelSpans spans;
     spans.begin(clip, 1);
@@ -87,7 +87,7 @@ void tst_PixelSpans::onePixelIsADot()
 }
 
 /// Cycles that were lost within a pixel are no lump on the line.
-void tst_PixelSpans::onePixelBesideALineIsNoDot()
+void tst_PixelSpans::singlePixelAtALineIsNotThickened()
 {
     PixelSpans spans;
     for (const int pixel : {10, 14, 16}) {
@@ -171,7 +171,7 @@ void tst_PixelSpans::linesHaveNoHolesAndFillNoPixelTwice()
     }
 }
 
-void tst_PixelSpans::thickLineIsAsThickAsItShouldBe()
+void tst_PixelSpans::lineHasTheRequestedThickness()
 {
     for (int thickness = 1; thickness < 8; ++thickness) {
         PixelSpans spans;
@@ -185,7 +185,7 @@ void tst_PixelSpans::thickLineIsAsThickAsItShouldBe()
     }
 }
 
-void tst_PixelSpans::tallColumnsAreFilledAsTheyAre()
+void tst_PixelSpans::tallColumnsAreFilledExactly()
 {
     std::minstd_rand random(2);
     for (int trial = 0; trial < 300; ++trial) {
@@ -224,7 +224,7 @@ void tst_PixelSpans::gapStaysOpen()
     QCOMPARE(columnOf(pixels, 8), QPoint(10, 12));
 }
 
-void tst_PixelSpans::nothingIsOutsideOfTheClip()
+void tst_PixelSpans::spansStayWithinTheClip()
 {
     PixelSpans spans;
     spans.begin(clip, 3);
@@ -254,7 +254,7 @@ void tst_PixelSpans::farAwayLinesPassThroughTheClip()
     QCOMPARE(spans.rectangles(), std::vector<QRect>{QRect(0, 15, 40, 1)});
 }
 
-void tst_PixelSpans::beginForgets()
+void tst_PixelSpans::beginDiscardsTheUnfinishedLine()
 {
     PixelSpans spans;
     spans.begin(clip, 1);
@@ -264,7 +264,7 @@ void tst_PixelSpans::beginForgets()
     QVERIFY(spans.rectangles().empty());
 }
 
-void tst_PixelSpans::dashesBeginWhereTheyShould()
+void tst_PixelSpans::dashesFollowTheirPattern()
 {
     PixelSpans spans;
     for (const int first : {-3, 5, 13}) {

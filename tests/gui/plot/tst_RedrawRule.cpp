@@ -36,7 +36,7 @@ private Q_SLOTS:
     void samePictureIsNotDueAgain();
     void newDataAreDueOncePerColumn();
     void dataBehindTheViewAreNotDue();
-    void dataThatLeaveTheStoreAreDueWhereTheyAreSeen();
+    void discardedDataAreDueWhereTheyAreVisible();
     void aViewThatMovesByLessThanAColumnIsNotDue();
     void aWiderViewIsDue();
     void cursorsAndSettingsAreDue();
@@ -80,7 +80,7 @@ void tst_RedrawRule::dataBehindTheViewAreNotDue()
         QVERIFY(!rule.isDue(pictureUpTo(newest)));
 }
 
-void tst_RedrawRule::dataThatLeaveTheStoreAreDueWhereTheyAreSeen()
+void tst_RedrawRule::discardedDataAreDueWhereTheyAreVisible()
 {
     RedrawRule rule;
     Picture picture = pictureUpTo(40 * second);

@@ -42,16 +42,16 @@ class tst_StateRuns : public QObject
 {
     Q_OBJECT
 private Q_SLOTS:
-    void noRowsAreNoRuns();
+    void emptyStoreHasNoRuns();
     void aStateHoldsUntilTheNextOne();
     void manyRowsOfAColumnAreOneRun();
     void aStateShorterThanAColumnIsASpike();
-    void aChangeWithinAColumnIsNoSpike();
+    void changeWithinAColumnIsNotASpike();
     void gapsEndStates();
-    void aMarkIsAPartOfARunThatGoesOn();
+    void markedRowsStayPartOfTheRun();
 };
 
-void tst_StateRuns::noRowsAreNoRuns()
+void tst_StateRuns::emptyStoreHasNoRuns()
 {
     QCOMPARE(runsOf({}, 10), QString());
 }
@@ -80,7 +80,7 @@ void tst_StateRuns::aStateShorterThanAColumnIsASpike()
     QCOMPARE(spikes, QVector<int>{5});
 }
 
-void tst_StateRuns::aChangeWithinAColumnIsNoSpike()
+void tst_StateRuns::changeWithinAColumnIsNotASpike()
 {
     std::vector<float> values(1000, 1.0F);
     std::fill(values.begin() + 555, values.end(), 2.0F);
@@ -95,7 +95,7 @@ void tst_StateRuns::gapsEndStates()
     QCOMPARE(runsOf({1, 1, 1, 1}, 40, nullptr, 2), QStringLiteral("0-11:1 20-31:1"));
 }
 
-void tst_StateRuns::aMarkIsAPartOfARunThatGoesOn()
+void tst_StateRuns::markedRowsStayPartOfTheRun()
 {
     SignalStore store(1, 100);
     const float value = 1.0F;

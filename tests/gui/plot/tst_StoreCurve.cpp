@@ -19,7 +19,7 @@ class tst_StoreCurve : public QObject
 {
     Q_OBJECT
 private Q_SLOTS:
-    void withoutStoreOrRowsNothingIsDrawn();
+    void curveWithoutStoreOrRowsDrawsNothing();
     void spikeOfOneSampleReachesItsHeight();
     void eachColumnOfACurveIsDrawn();
     void gapsStayWhite();
@@ -28,10 +28,10 @@ private Q_SLOTS:
     void stepsHoldTheirValue_data();
     void stepsHoldTheirValue();
     void gainAndOffsetMoveTheCurve();
-    void lineWidthIsThatOfTheScreen_data();
-    void lineWidthIsThatOfTheScreen();
-    void translatedPainterDrawsElsewhere();
-    void turnedPainterDrawsTurned();
+    void lineWidthScalesWithTheScreen_data();
+    void lineWidthScalesWithTheScreen();
+    void curveFollowsATranslatedPainter();
+    void curveFollowsARotatedPainter();
     void logarithmicAxisIsFollowed();
     void valuesFarOutsideAreCut();
     void originMovesTheAxis();
@@ -41,11 +41,11 @@ private Q_SLOTS:
     void vectorPicturesHaveLines();
     void painterIsLeftAsItWas();
     void legendShowsTheColour();
-    void valueRangeIsThatOfTheView();
-    void drawingTakesNoMemoryOfItsOwn();
+    void valueRangeCoversTheView();
+    void drawingAllocatesNoMemory();
 };
 
-void tst_StoreCurve::withoutStoreOrRowsNothingIsDrawn()
+void tst_StoreCurve::curveWithoutStoreOrRowsDrawsNothing()
 {
     const SignalStore store(1, 16);
     Canvas canvas;
@@ -172,7 +172,7 @@ void tst_StoreCurve::gainAndOffsetMoveTheCurve()
     QCOMPARE(canvas.count(100), 21);
 }
 
-void tst_StoreCurve::lineWidthIsThatOfTheScreen_data()
+void tst_StoreCurve::lineWidthScalesWithTheScreen_data()
 {
     QTest::addColumn<double>("scale");
     QTest::addColumn<double>("lineWidth");
@@ -185,7 +185,7 @@ void tst_StoreCurve::lineWidthIsThatOfTheScreen_data()
     QTest::newRow("2x, half a pixel") << 2.0 << 0.5 << 1;
 }
 
-void tst_StoreCurve::lineWidthIsThatOfTheScreen()
+void tst_StoreCurve::lineWidthScalesWithTheScreen()
 {
     QFETCH(double, scale);
     QFETCH(double, lineWidth);
@@ -203,7 +203,7 @@ void tst_StoreCurve::lineWidthIsThatOfTheScreen()
     }
 }
 
-void tst_StoreCurve::translatedPainterDrawsElsewhere()
+void tst_StoreCurve::curveFollowsATranslatedPainter()
 {
     SignalStore store(1, 1000);
     fill(&store, 1000, [](int) { return 50.5F; });
@@ -219,7 +219,7 @@ void tst_StoreCurve::translatedPainterDrawsElsewhere()
     QVERIFY(canvas.isSet(399, 2 * 20 + 99));
 }
 
-void tst_StoreCurve::turnedPainterDrawsTurned()
+void tst_StoreCurve::curveFollowsARotatedPainter()
 {
     SignalStore store(1, 1000);
     fill(&store, 1000, [](int) { return 49.5F; });
@@ -360,7 +360,7 @@ void tst_StoreCurve::legendShowsTheColour()
     QCOMPARE(curve.legendIcon(0, QSizeF(8, 8)).toImage().pixelColor(4, 4), QColor(Qt::blue));
 }
 
-void tst_StoreCurve::valueRangeIsThatOfTheView()
+void tst_StoreCurve::valueRangeCoversTheView()
 {
     SignalStore store(1, 1000);
     fill(&store, 1000, [](int i) { return float(i); });
@@ -372,7 +372,7 @@ void tst_StoreCurve::valueRangeIsThatOfTheView()
     QVERIFY(curve.valueRange(5.0, 6.0).isEmpty());
 }
 
-void tst_StoreCurve::drawingTakesNoMemoryOfItsOwn()
+void tst_StoreCurve::drawingAllocatesNoMemory()
 {
     if (!ThreadCosts::areCounted())
         QSKIP("allocations are not counted under a sanitizer");

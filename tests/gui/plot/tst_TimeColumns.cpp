@@ -24,7 +24,7 @@ private Q_SLOTS:
     void firstColumnIsAtMostHalfAColumnAwayFromTheView();
     void viewUpToTheNewestTimeEndsWithItsColumn();
     void viewOfWholeColumnsIsFoundAgain();
-    void viewsOfAnySizeAreAsWideAsTheyAre();
+    void columnsCoverViewsOfAnyWidth();
     void emptyViewHasColumns();
 };
 
@@ -101,7 +101,7 @@ void tst_TimeColumns::viewOfWholeColumnsIsFoundAgain()
     }
 }
 
-void tst_TimeColumns::viewsOfAnySizeAreAsWideAsTheyAre()
+void tst_TimeColumns::columnsCoverViewsOfAnyWidth()
 {
     for (Time span = 1000; span < 1'000'000 * second; span = span * 3 / 2) {
         const TimeColumns columns(5 * second, 5 * second + span, 1920);

@@ -19,24 +19,24 @@ class tst_Trigger : public QObject
     Q_OBJECT
 private Q_SLOTS:
     void init();
-    void kindsSeeTheirEvents_data();
-    void kindsSeeTheirEvents();
+    void everyKindDetectsItsEvents_data();
+    void everyKindDetectsItsEvents();
     void anEventIsWhereTheLineMeetsTheLevel();
     void hysteresisLeavesNoiseAlone();
-    void theFirstValueIsNoEdge();
+    void firstValueIsNotAnEdge();
     void noEventIsSeenAcrossAnInterruption();
     void noEventIsSeenAcrossNan();
-    void rowsFromBeforeAreNotLookedAt();
-    void rowsThatHaveGoneAreAnInterruption();
-    void eventsWithinTheHoldOffAreNone();
+    void rowsBeforeArmingAreIgnored();
+    void overwrittenRowsAreAnInterruption();
+    void eventsWithinTheHoldOffAreIgnored();
     void theViewHasItsShareBeforeTheEvent();
-    void theViewStaysUntilAllOfItHasCome();
+    void viewIsKeptUntilItIsComplete();
     void singleShowsOneEventUntilItIsArmedAgain();
     void normalShowsTheLastEventForEver();
-    void autoRunsFreeAfterAWhileAndComesBack();
+    void autoModeRunsFreeAfterADelayUntilTheNextEvent();
     void oldEventsAreForgottenAndCounted();
-    void settingsComeBackAsTheyWere();
-    void settingsThatMakeNoSenseAreMended();
+    void settingsAreRestoredUnchanged();
+    void invalidSettingsAreCorrected();
 
 private:
     void feed(const std::vector<float> &values);
@@ -73,7 +73,7 @@ Trigger::Settings tst_Trigger::settings(Trigger::Kind kind, double level) const
     return settings;
 }
 
-void tst_Trigger::kindsSeeTheirEvents_data()
+void tst_Trigger::everyKindDetectsItsEvents_data()
 {
     QTest::addColumn<int>("kind");
     QTest::addColumn<Times>("events");
@@ -87,7 +87,7 @@ void tst_Trigger::kindsSeeTheirEvents_data()
     QTest::newRow("leaves") << int(Trigger::LeavesWindow) << Times{9 * s / 2, 15 * s / 2};
 }
 
-void tst_Trigger::kindsSeeTheirEvents()
+void tst_Trigger::everyKindDetectsItsEvents()
 {
     QFETCH(int, kind);
     QFETCH(Times, events);
@@ -120,7 +120,7 @@ void tst_Trigger::hysteresisLeavesNoiseAlone()
     QCOMPARE(m_trigger.count(), std::uint64_t(2));
 }
 
-void tst_Trigger::theFirstValueIsNoEdge()
+void tst_Trigger::firstValueIsNotAnEdge()
 {
     m_trigger.setSettings(settings(Trigger::EitherEdge));
     feed({1, 1, 1});
@@ -146,7 +146,7 @@ void tst_Trigger::noEventIsSeenAcrossNan()
     QCOMPARE(m_trigger.count(), std::uint64_t(0));
 }
 
-void tst_Trigger::rowsFromBeforeAreNotLookedAt()
+void tst_Trigger::rowsBeforeArmingAreIgnored()
 {
     m_trigger.setSettings(settings(Trigger::RisingEdge));
     feed({0});
@@ -159,7 +159,7 @@ void tst_Trigger::rowsFromBeforeAreNotLookedAt()
     QCOMPARE(m_trigger.count(), std::uint64_t(1));
 }
 
-void tst_Trigger::rowsThatHaveGoneAreAnInterruption()
+void tst_Trigger::overwrittenRowsAreAnInterruption()
 {
     m_store = std::make_unique<SignalStore>(1, 16);
     m_trigger.arm();
@@ -170,7 +170,7 @@ void tst_Trigger::rowsThatHaveGoneAreAnInterruption()
     QCOMPARE(m_trigger.count(), std::uint64_t(0));
 }
 
-void tst_Trigger::eventsWithinTheHoldOffAreNone()
+void tst_Trigger::eventsWithinTheHoldOffAreIgnored()
 {
     Trigger::Settings wanted = settings(Trigger::RisingEdge);
     wanted.holdOff = 4.0;
@@ -191,7 +191,7 @@ void tst_Trigger::theViewHasItsShareBeforeTheEvent()
     QCOMPARE(m_trigger.view()->end - m_trigger.view()->begin, 10 * s);
 }
 
-void tst_Trigger::theViewStaysUntilAllOfItHasCome()
+void tst_Trigger::viewIsKeptUntilItIsComplete()
 {
     m_trigger.setSettings(settings(Trigger::RisingEdge, 1.0));  // 2 s before, 8 s after the event
     feed({0, 1, 0, 1});
@@ -233,7 +233,7 @@ void tst_Trigger::normalShowsTheLastEventForEver()
     QCOMPARE(m_trigger.view()->begin, 0 * s);
 }
 
-void tst_Trigger::autoRunsFreeAfterAWhileAndComesBack()
+void tst_Trigger::autoModeRunsFreeAfterADelayUntilTheNextEvent()
 {
     Trigger::Settings wanted = settings(Trigger::RisingEdge, 1.0);
     wanted.mode = Trigger::Auto;
@@ -260,7 +260,7 @@ void tst_Trigger::oldEventsAreForgottenAndCounted()
     QCOMPARE(m_trigger.events().back(), m_now);
 }
 
-void tst_Trigger::settingsComeBackAsTheyWere()
+void tst_Trigger::settingsAreRestoredUnchanged()
 {
     QVERIFY(Trigger::Settings().toJson().isEmpty());
     Trigger::Settings all;
@@ -275,7 +275,7 @@ void tst_Trigger::settingsComeBackAsTheyWere()
     QVERIFY(Trigger::Settings::fromJson({}) == Trigger::Settings());
 }
 
-void tst_Trigger::settingsThatMakeNoSenseAreMended()
+void tst_Trigger::invalidSettingsAreCorrected()
 {
     const auto mended
         = Trigger::Settings::fromJson({{"kind", "sideways"}, {"hysteresis", -1.0}, {"pre", 7.0}, {"holdOff", -2}});

@@ -59,19 +59,19 @@ class tst_ChoiceAndKnob : public QObject
     Q_OBJECT
 private Q_SLOTS:
     void theListHasTheNamesAndSendsTheNumberOnce();
-    void theListShowsWhatIsAndNothingWhileItIsOpen();
+    void openListIsNotChangedByTheCurrentValue();
     void aListWithinLimitsHasFewerNames();
     void wheelAndLettersChooseNothing();
-    void aSignalWithoutNamesSaysWhatToDo();
+    void signalWithoutValueNamesShowsTheRemedy();
     void aSignalWithNamesThatIsDroppedBecomesAList();
-    void aNameCanBeTypedWhereNumbersAre();
-    void theKnobSendsOnceWhenTheMouseLetsGo();
-    void escapeTakesBackAKnobThatIsDragged();
+    void numberFieldAcceptsValueNames();
+    void knobSendsOnceOnMouseRelease();
+    void escapeRevertsADraggedKnob();
     void keysTurnTheKnobAndEnterSends();
-    void escapeTakesTheTurningBackAndNothingIsOverwritten();
-    void aKnobWithoutLimitsSaysWhatToDo();
-    void whatIsReadHasThePrefixOfTheRange();
-    void whatIsTypedHasTheUnitOfTheTable();
+    void escapeRevertsTheKnobWithoutSending();
+    void knobWithoutLimitsShowsTheRemedy();
+    void shownValueHasThePrefixOfTheRange();
+    void typedValueHasTheUnitOfTheTable();
 };
 
 void tst_ChoiceAndKnob::theListHasTheNamesAndSendsTheNumberOnce()
@@ -95,7 +95,7 @@ void tst_ChoiceAndKnob::theListHasTheNamesAndSendsTheNumberOnce()
     QTRY_VERIFY(labelsOf(&desk.setter).contains(QStringLiteral("Automatic")));  // the actual value
 }
 
-void tst_ChoiceAndKnob::theListShowsWhatIsAndNothingWhileItIsOpen()
+void tst_ChoiceAndKnob::openListIsNotChangedByTheCurrentValue()
 {
     Desk desk;
     QVERIFY(desk.show(settingsOf("mode", "list")));
@@ -135,7 +135,7 @@ void tst_ChoiceAndKnob::wheelAndLettersChooseNothing()
     QCOMPARE(desk.window.done.size(), 0);
 }
 
-void tst_ChoiceAndKnob::aSignalWithoutNamesSaysWhatToDo()
+void tst_ChoiceAndKnob::signalWithoutValueNamesShowsTheRemedy()
 {
     Desk desk;
     QVERIFY(desk.show(settingsOf("speed", "list")));
@@ -156,7 +156,7 @@ void tst_ChoiceAndKnob::aSignalWithNamesThatIsDroppedBecomesAList()
     QCOMPARE(desk.setter.settings(), (QJsonObject{{"signal", "speed"}}));
 }
 
-void tst_ChoiceAndKnob::aNameCanBeTypedWhereNumbersAre()
+void tst_ChoiceAndKnob::numberFieldAcceptsValueNames()
 {
     Desk desk;
     QVERIFY(desk.show(settingsOf("mode", "number")));
@@ -168,7 +168,7 @@ void tst_ChoiceAndKnob::aNameCanBeTypedWhereNumbersAre()
     QTRY_COMPARE(desk.valueOf("mode"), 1.0);
 }
 
-void tst_ChoiceAndKnob::theKnobSendsOnceWhenTheMouseLetsGo()
+void tst_ChoiceAndKnob::knobSendsOnceOnMouseRelease()
 {
     Desk desk;
     QVERIFY(desk.show(settingsOf("speed", "knob")));
@@ -194,7 +194,7 @@ void tst_ChoiceAndKnob::theKnobSendsOnceWhenTheMouseLetsGo()
     QTRY_COMPARE(desk.window.done.size(), 1);
 }
 
-void tst_ChoiceAndKnob::escapeTakesBackAKnobThatIsDragged()
+void tst_ChoiceAndKnob::escapeRevertsADraggedKnob()
 {
     Desk desk;
     QVERIFY(desk.show(settingsOf("speed", "knob")));
@@ -235,7 +235,7 @@ void tst_ChoiceAndKnob::keysTurnTheKnobAndEnterSends()
     QTRY_COMPARE(desk.window.done.size(), 1);
 }
 
-void tst_ChoiceAndKnob::escapeTakesTheTurningBackAndNothingIsOverwritten()
+void tst_ChoiceAndKnob::escapeRevertsTheKnobWithoutSending()
 {
     Desk desk;
     QVERIFY(desk.show(settingsOf("speed", "knob")));
@@ -255,7 +255,7 @@ void tst_ChoiceAndKnob::escapeTakesTheTurningBackAndNothingIsOverwritten()
     QCOMPARE(desk.window.done.size(), 0);
 }
 
-void tst_ChoiceAndKnob::aKnobWithoutLimitsSaysWhatToDo()
+void tst_ChoiceAndKnob::knobWithoutLimitsShowsTheRemedy()
 {
     Desk desk;
     QVERIFY(desk.show(settingsOf("mode", "knob")));
@@ -263,7 +263,7 @@ void tst_ChoiceAndKnob::aKnobWithoutLimitsSaysWhatToDo()
     QVERIFY(!desk.part<QwtKnob>()->isEnabled());
 }
 
-void tst_ChoiceAndKnob::whatIsReadHasThePrefixOfTheRange()
+void tst_ChoiceAndKnob::shownValueHasThePrefixOfTheRange()
 {
     Desk desk;
     QVERIFY(desk.show(settingsOf("pull", "knob")));
@@ -283,7 +283,7 @@ void tst_ChoiceAndKnob::whatIsReadHasThePrefixOfTheRange()
     QVERIFY(buttonOf(&desk.setter, QStringLiteral("Hold: 20 kN")));
 }
 
-void tst_ChoiceAndKnob::whatIsTypedHasTheUnitOfTheTable()
+void tst_ChoiceAndKnob::typedValueHasTheUnitOfTheTable()
 {
     Desk desk;
     QVERIFY(desk.show(settingsOf("work", "number")));

@@ -62,7 +62,7 @@ class tst_ManualControl : public QObject
 
 private Q_SLOTS:
     void keysThatRepeatThemselvesAreHeldOnce();
-    void aKeyIsReleasedAsWhatItWasPressedAs();
+    void releaseMatchesThePressedKeyDespiteModifiers();
     void axesHaveADeadZoneAndExpo();
     void bindingsAreTheSameAfterJson();
     void waveformsAreExact();
@@ -70,9 +70,9 @@ private Q_SLOTS:
     void sumsStayWithinTheTable();
     void axesActWhileTheyAreArmed();
     void withoutControlNothingIsWritten();
-    void whatIsHeldWhileControlIsTakenDoesNotAct();
-    void whoLosesSomeSignalsLetsGoOfAll();
-    void afterAReconnectionControlMayBeTakenAgain();
+    void keysHeldBeforeAcquiringControlDoNotAct();
+    void losingOneSignalSetsAllSignalsToNeutral();
+    void controlCanBeAcquiredAgainAfterAReconnection();
     void anElementIsWrittenIntoItsArray();
     void elementsOfAnArrayAreSteeredTogether();
     void aStreamEndsWithTheLastValueHoweverManyThereWere();
@@ -95,7 +95,7 @@ void tst_ManualControl::keysThatRepeatThemselvesAreHeldOnce()
 }
 
 /// The 4 of the keypad is Left, and 4 as soon as Shift is held.
-void tst_ManualControl::aKeyIsReleasedAsWhatItWasPressedAs()
+void tst_ManualControl::releaseMatchesThePressedKeyDespiteModifiers()
 {
     constexpr quint32 keypad4 = 83;
     constexpr quint32 left = 113;
@@ -238,7 +238,7 @@ void tst_ManualControl::withoutControlNothingIsWritten()
     QCOMPARE(window.done.size() + window.failed.size(), 0);
 }
 
-void tst_ManualControl::whatIsHeldWhileControlIsTakenDoesNotAct()
+void tst_ManualControl::keysHeldBeforeAcquiringControlDoNotAct()
 {
     FlyingMaster master;
     Pilot pilot(master);
@@ -252,7 +252,7 @@ void tst_ManualControl::whatIsHeldWhileControlIsTakenDoesNotAct()
     QCOMPARE(master.valueOf(setpoint.signal), 0.0);
 }
 
-void tst_ManualControl::whoLosesSomeSignalsLetsGoOfAll()
+void tst_ManualControl::losingOneSignalSetsAllSignalsToNeutral()
 {
     FlyingMaster master;
     QVERIFY(master.startRealTime());
@@ -268,7 +268,7 @@ void tst_ManualControl::whoLosesSomeSignalsLetsGoOfAll()
     QCOMPARE(control.control().state(), QPlcSignalControl::Other);
 }
 
-void tst_ManualControl::afterAReconnectionControlMayBeTakenAgain()
+void tst_ManualControl::controlCanBeAcquiredAgainAfterAReconnection()
 {
     FlyingMaster master;
     TestWindow window(master.address());

@@ -51,24 +51,24 @@ class tst_QPlcKeyboardControl : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void settingsComeBackAsTheyWere();
-    void aPersonTakesControlFliesAndGivesBack();
+    void settingsAreRestoredUnchanged();
+    void operatorAcquiresUsesAndReleasesControl();
     void sentencesAndNamesHaveRoomInNarrowPanels();
     void valuesAndKeysHaveOnePrefix();
-    void whatEndsTheHandleIsNeutralAtOnce_data();
-    void whatEndsTheHandleIsNeutralAtOnce();
-    void aKeyThatMeansSomethingElseWhenItIsReleasedIsReleased();
-    void aKilledConnectionIsNeutralByTheMaster();
-    void someoneElseIsShownAndTakenFromOnlyAfterAQuestion();
-    void aPlantThatIsLetGoIsMissing_data();
-    void aPlantThatIsLetGoIsMissing();
+    void losingFocusOrHidingThePanelSetsNeutralValues_data();
+    void losingFocusOrHidingThePanelSetsNeutralValues();
+    void keyReleasedWithAnotherModifierIsReleased();
+    void masterSetsNeutralValuesOnLostConnection();
+    void panelAsksBeforeItAcquiresControlFromAnotherPerson();
+    void removedPlantIsShownAsMissing_data();
+    void removedPlantIsShownAsMissing();
     void keysAreEdited();
     void valuesOfKeysMayBeSmall();
-    void withoutAGamepadNothingIsShownOfIt();
-    void withoutPlantOrKeysThePanelIsCalm();
+    void panelHidesGamepadControlsWithoutGamepad();
+    void panelWorksWithoutPlantOrKeys();
 };
 
-void tst_QPlcKeyboardControl::settingsComeBackAsTheyWere()
+void tst_QPlcKeyboardControl::settingsAreRestoredUnchanged()
 {
     QPlcKeyboardControl panel;
     QJsonObject settings = keySettings();
@@ -81,7 +81,7 @@ void tst_QPlcKeyboardControl::settingsComeBackAsTheyWere()
     QCOMPARE(panel.settings(), (QJsonObject{{"later", 1}}));
 }
 
-void tst_QPlcKeyboardControl::aPersonTakesControlFliesAndGivesBack()
+void tst_QPlcKeyboardControl::operatorAcquiresUsesAndReleasesControl()
 {
     FlyingMaster master;
     QVERIFY(master.startRealTime());
@@ -158,7 +158,7 @@ void tst_QPlcKeyboardControl::valuesAndKeysHaveOnePrefix()
     QCOMPARE(keys->valueText(1), QStringLiteral("0"));
 }
 
-void tst_QPlcKeyboardControl::whatEndsTheHandleIsNeutralAtOnce_data()
+void tst_QPlcKeyboardControl::losingFocusOrHidingThePanelSetsNeutralValues_data()
 {
     QTest::addColumn<int>("end");
     QTest::newRow("another field has the keyboard") << 0;
@@ -167,7 +167,7 @@ void tst_QPlcKeyboardControl::whatEndsTheHandleIsNeutralAtOnce_data()
     QTest::newRow("the panel is closed") << 3;
 }
 
-void tst_QPlcKeyboardControl::whatEndsTheHandleIsNeutralAtOnce()
+void tst_QPlcKeyboardControl::losingFocusOrHidingThePanelSetsNeutralValues()
 {
     QFETCH(int, end);
     FlyingMaster master;
@@ -200,7 +200,7 @@ void tst_QPlcKeyboardControl::whatEndsTheHandleIsNeutralAtOnce()
     QVERIFY(pilot->window.isMine(echo));
 }
 
-void tst_QPlcKeyboardControl::aKeyThatMeansSomethingElseWhenItIsReleasedIsReleased()
+void tst_QPlcKeyboardControl::keyReleasedWithAnotherModifierIsReleased()
 {
     FlyingMaster master;
     QVERIFY(master.startRealTime());
@@ -217,7 +217,7 @@ void tst_QPlcKeyboardControl::aKeyThatMeansSomethingElseWhenItIsReleasedIsReleas
     QTRY_COMPARE(master.valueOf(echo), 0.0);
 }
 
-void tst_QPlcKeyboardControl::aKilledConnectionIsNeutralByTheMaster()
+void tst_QPlcKeyboardControl::masterSetsNeutralValuesOnLostConnection()
 {
     FlyingMaster master;
     QVERIFY(master.startRealTime());
@@ -238,7 +238,7 @@ void tst_QPlcKeyboardControl::aKilledConnectionIsNeutralByTheMaster()
     QTRY_VERIFY(master.valueOf(echo) > 10.0);
 }
 
-void tst_QPlcKeyboardControl::someoneElseIsShownAndTakenFromOnlyAfterAQuestion()
+void tst_QPlcKeyboardControl::panelAsksBeforeItAcquiresControlFromAnotherPerson()
 {
     FlyingMaster master;
     TestWindow first(master.address(), QStringLiteral("First"));
@@ -260,14 +260,14 @@ void tst_QPlcKeyboardControl::someoneElseIsShownAndTakenFromOnlyAfterAQuestion()
     QTRY_VERIFY(!first.isMine(echo));
 }
 
-void tst_QPlcKeyboardControl::aPlantThatIsLetGoIsMissing_data()
+void tst_QPlcKeyboardControl::removedPlantIsShownAsMissing_data()
 {
     QTest::addColumn<bool>("isMine");
     QTest::newRow("written by a node") << false;
     QTest::newRow("under control") << true;
 }
 
-void tst_QPlcKeyboardControl::aPlantThatIsLetGoIsMissing()
+void tst_QPlcKeyboardControl::removedPlantIsShownAsMissing()
 {
     QFETCH(bool, isMine);
     FlyingMaster master;
@@ -318,7 +318,7 @@ void tst_QPlcKeyboardControl::valuesOfKeysMayBeSmall()
     QCOMPARE(panel.settings().value("keys").toArray().at(0).toObject().value("value").toDouble(), -4e-5);
 }
 
-void tst_QPlcKeyboardControl::withoutAGamepadNothingIsShownOfIt()
+void tst_QPlcKeyboardControl::panelHidesGamepadControlsWithoutGamepad()
 {
     if (Gamepad().isConnected())
         QSKIP("a gamepad is plugged in", "");
@@ -342,7 +342,7 @@ void tst_QPlcKeyboardControl::withoutAGamepadNothingIsShownOfIt()
     QVERIFY(labelsOf(&panel).contains(QStringLiteral("gamepad")));  // there is nothing else to steer with
 }
 
-void tst_QPlcKeyboardControl::withoutPlantOrKeysThePanelIsCalm()
+void tst_QPlcKeyboardControl::panelWorksWithoutPlantOrKeys()
 {
     QPlcKeyboardControl bare;
     bare.show();

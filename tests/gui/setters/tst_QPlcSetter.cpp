@@ -27,29 +27,29 @@ class tst_QPlcSetter : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void settingsComeBackAsTheyWere();
+    void settingsAreRestoredUnchanged();
     void enterSendsOnceAndTypingNever();
-    void whatIsEditedIsNotOverwrittenAndEscTakesItBack();
+    void editedTextIsKeptUntilEscapeRevertsIt();
     void valuesBeyondTheTableBecomeTheLimit();
     void keysStepByShareOfTheRange();
-    void aSliderSendsLittleOnTheWayAndTheEndAlways();
-    void aSliderWithoutLimitsSaysSo();
+    void sliderLimitsItsRateAndAlwaysSendsTheEndValue();
+    void sliderReportsMissingLimits();
     void aSwitchSendsOnceForEachClick();
-    void aButtonIsAValueWhileItIsHeld_data();
-    void aButtonIsAValueWhileItIsHeld();
+    void buttonSetsItsValueWhileHeld_data();
+    void buttonSetsItsValueWhileHeld();
     void aHeldButtonIsNeutralWhenTheWindowIsLost();
     void aGeneratorKeepsNumbersOfAnySize();
-    void controlBeginsWithTheValueThatIsTakenOver_data();
-    void controlBeginsWithTheValueThatIsTakenOver();
+    void controlStartsFromTheCurrentValue_data();
+    void controlStartsFromTheCurrentValue();
     void aGeneratorRunsAndEndsInNeutral_data();
     void aGeneratorRunsAndEndsInNeutral();
-    void whatANodeWritesIsTakenOverFirst();
+    void signalOfANodeRequiresControlFirst();
     void aRefusalIsShown();
     void aDroppedSignalReplacesTheOneBefore();
-    void withoutPlantOrSignalThePanelIsCalm();
+    void panelWorksWithoutPlantOrSignal();
 };
 
-void tst_QPlcSetter::settingsComeBackAsTheyWere()
+void tst_QPlcSetter::settingsAreRestoredUnchanged()
 {
     const QJsonObject waveform{{"shape", "step"}, {"amplitude", 2.0}, {"offset", -1.0}, {"period", 4.0}};
     for (const QJsonObject &settings :
@@ -103,7 +103,7 @@ void tst_QPlcSetter::enterSendsOnceAndTypingNever()
     QTRY_VERIFY(labelsOf(&setter).contains(QStringLiteral("2 m/s")));  // the actual value
 }
 
-void tst_QPlcSetter::whatIsEditedIsNotOverwrittenAndEscTakesItBack()
+void tst_QPlcSetter::editedTextIsKeptUntilEscapeRevertsIt()
 {
     FlyingMaster master;
     QVERIFY(master.startRealTime());
@@ -174,7 +174,7 @@ void tst_QPlcSetter::keysStepByShareOfTheRange()
     QTRY_COMPARE(master.valueOf(setpoint), 10.0);
 }
 
-void tst_QPlcSetter::aSliderSendsLittleOnTheWayAndTheEndAlways()
+void tst_QPlcSetter::sliderLimitsItsRateAndAlwaysSendsTheEndValue()
 {
     FlyingMaster master;
     TestWindow window(master.address());
@@ -203,7 +203,7 @@ void tst_QPlcSetter::aSliderSendsLittleOnTheWayAndTheEndAlways()
     QCOMPARE(slider->value(), 750);
 }
 
-void tst_QPlcSetter::aSliderWithoutLimitsSaysSo()
+void tst_QPlcSetter::sliderReportsMissingLimits()
 {
     FlyingMaster master;
     TestWindow window(master.address());
@@ -237,7 +237,7 @@ void tst_QPlcSetter::aSwitchSendsOnceForEachClick()
     QTRY_VERIFY(button->isChecked());  // by somebody else
 }
 
-void tst_QPlcSetter::aButtonIsAValueWhileItIsHeld_data()
+void tst_QPlcSetter::buttonSetsItsValueWhileHeld_data()
 {
     QTest::addColumn<int>("end");
     QTest::newRow("released") << 0;
@@ -246,7 +246,7 @@ void tst_QPlcSetter::aButtonIsAValueWhileItIsHeld_data()
     QTest::newRow("another signal") << 3;
 }
 
-void tst_QPlcSetter::aButtonIsAValueWhileItIsHeld()
+void tst_QPlcSetter::buttonSetsItsValueWhileHeld()
 {
     QFETCH(int, end);
     FlyingMaster master;
@@ -311,7 +311,7 @@ void tst_QPlcSetter::aGeneratorKeepsNumbersOfAnySize()
     QCOMPARE(setter.settings(), settings());
 }
 
-void tst_QPlcSetter::controlBeginsWithTheValueThatIsTakenOver_data()
+void tst_QPlcSetter::controlStartsFromTheCurrentValue_data()
 {
     QTest::addColumn<bool>("moves");  // whether a key moves it
     QTest::newRow("slider") << true;
@@ -323,7 +323,7 @@ void tst_QPlcSetter::controlBeginsWithTheValueThatIsTakenOver_data()
 }
 
 /// The writer counts up: a value that falls is a jump.
-void tst_QPlcSetter::controlBeginsWithTheValueThatIsTakenOver()
+void tst_QPlcSetter::controlStartsFromTheCurrentValue()
 {
     QFETCH(bool, moves);
     FlyingMaster master;
@@ -410,7 +410,7 @@ void tst_QPlcSetter::aGeneratorRunsAndEndsInNeutral()
     QVERIFY(buttonOf(&setter, QStringLiteral("Start")));
 }
 
-void tst_QPlcSetter::whatANodeWritesIsTakenOverFirst()
+void tst_QPlcSetter::signalOfANodeRequiresControlFirst()
 {
     FlyingMaster master;
     QVERIFY(master.startRealTime());
@@ -477,7 +477,7 @@ void tst_QPlcSetter::aDroppedSignalReplacesTheOneBefore()
     QCOMPARE(setter.settings(), settingsOf(setpoint, QStringLiteral("momentary")));
 }
 
-void tst_QPlcSetter::withoutPlantOrSignalThePanelIsCalm()
+void tst_QPlcSetter::panelWorksWithoutPlantOrSignal()
 {
     for (const char *style : {"number", "slider", "toggle", "momentary", "generator"}) {
         QPlcSetter bare;

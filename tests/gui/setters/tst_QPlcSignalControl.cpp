@@ -42,12 +42,12 @@ class tst_QPlcSignalControl : public QObject
     Q_OBJECT
 private Q_SLOTS:
     void aFreeSignalIsSetWithinItsLimits();
-    void whatANodeWritesIsTakenFirst();
-    void whatAnotherPersonHoldsIsTakenOnlyOnPurpose();
-    void controlIsGivenBackWithThePanel();
+    void signalOfANodeRequiresControlFirst();
+    void signalHeldByAnotherPersonIsAcquiredOnlyExplicitly();
+    void closingThePanelReleasesControl();
     void aMissingSignalIsNamed();
-    void nothingIsSetInALostPlant();
-    void anElementKeepsTheOthers();
+    void lostPlantAcceptsNoValues();
+    void settingOneElementKeepsTheOtherElements();
     void elementsAreSetTogether();
     void textsAndArraysAreSent();
     void eachSentValueReachesTheMaster();
@@ -71,7 +71,7 @@ void tst_QPlcSignalControl::aFreeSignalIsSetWithinItsLimits()
     QCOMPARE(bench.control->neutral(setpoint), 0.0);
 }
 
-void tst_QPlcSignalControl::whatANodeWritesIsTakenFirst()
+void tst_QPlcSignalControl::signalOfANodeRequiresControlFirst()
 {
     Bench bench({echo, setpoint});
     QTRY_COMPARE(bench.control->state(), Control::Written);
@@ -90,7 +90,7 @@ void tst_QPlcSignalControl::whatANodeWritesIsTakenFirst()
     QTRY_VERIFY(bench.master.valueOf(echo) > 10.0);
 }
 
-void tst_QPlcSignalControl::whatAnotherPersonHoldsIsTakenOnlyOnPurpose()
+void tst_QPlcSignalControl::signalHeldByAnotherPersonIsAcquiredOnlyExplicitly()
 {
     Bench bench({echo});
     TestWindow other(bench.master.address(), QStringLiteral("Other window"));
@@ -105,7 +105,7 @@ void tst_QPlcSignalControl::whatAnotherPersonHoldsIsTakenOnlyOnPurpose()
     QTRY_VERIFY(!other.isMine(echo));
 }
 
-void tst_QPlcSignalControl::controlIsGivenBackWithThePanel()
+void tst_QPlcSignalControl::closingThePanelReleasesControl()
 {
     Bench bench({echo});
     QTRY_COMPARE(bench.control->state(), Control::Written);
@@ -127,7 +127,7 @@ void tst_QPlcSignalControl::aMissingSignalIsNamed()
     QVERIFY(!bench.control->set(setpoint, 1.0));
 }
 
-void tst_QPlcSignalControl::nothingIsSetInALostPlant()
+void tst_QPlcSignalControl::lostPlantAcceptsNoValues()
 {
     Bench bench({setpoint});
     QTRY_COMPARE(bench.control->state(), Control::Free);
@@ -140,7 +140,7 @@ void tst_QPlcSignalControl::nothingIsSetInALostPlant()
     QVERIFY(bench.master.valueOf(setpoint) != 4.0);
 }
 
-void tst_QPlcSignalControl::anElementKeepsTheOthers()
+void tst_QPlcSignalControl::settingOneElementKeepsTheOtherElements()
 {
     Bench bench({QStringLiteral("vector[1]")});
     QTRY_COMPARE(bench.control->state(), Control::Free);

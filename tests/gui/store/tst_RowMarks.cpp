@@ -17,11 +17,11 @@ class tst_RowMarks : public QObject
     Q_OBJECT
 private Q_SLOTS:
     void rowsWithoutMarksCostNothing();
-    void answersLikeAListOfAllMarks();
+    void marksMatchAReferenceList();
     void ofVeryManyStretchesNoMarkIsLost();
     void theNewestStretchesOfVeryManyAreExact();
-    void whatIsForgottenGivesItsRoom();
-    void aLongStretchIsOne();
+    void discardedMarksFreeTheirMemory();
+    void longStretchIsStoredOnce();
     void aStoreKeepsMarksOfEachChannel();
     void aStoreForgetsMarksWithTheirRows();
 };
@@ -34,7 +34,7 @@ void tst_RowMarks::rowsWithoutMarksCostNothing()
     QCOMPARE(marks.greatest(0, 1000), RowMarks::None);
 }
 
-void tst_RowMarks::answersLikeAListOfAllMarks()
+void tst_RowMarks::marksMatchAReferenceList()
 {
     std::minstd_rand random(7);
     RowMarks marks;
@@ -74,7 +74,7 @@ void tst_RowMarks::theNewestStretchesOfVeryManyAreExact()
         QCOMPARE(int(marks.greatest(row, row + 1)), row % 2 == 0 ? 1 : 0);
 }
 
-void tst_RowMarks::whatIsForgottenGivesItsRoom()
+void tst_RowMarks::discardedMarksFreeTheirMemory()
 {
     RowMarks marks;
     marks.mark(5, 1);
@@ -89,7 +89,7 @@ void tst_RowMarks::whatIsForgottenGivesItsRoom()
     QVERIFY(marks.isEmpty());
 }
 
-void tst_RowMarks::aLongStretchIsOne()
+void tst_RowMarks::longStretchIsStoredOnce()
 {
     RowMarks marks;
     for (Row row = 0; row < 100'000; ++row)

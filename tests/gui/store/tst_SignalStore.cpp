@@ -159,36 +159,36 @@ class tst_SignalStore : public QObject
 {
     Q_OBJECT
 private Q_SLOTS:
-    void answersLikeANaiveStore_data();
-    void answersLikeANaiveStore();
+    void storeMatchesAReferenceStore_data();
+    void storeMatchesAReferenceStore();
     void aSpikeIsSeenInEachRangeThatHasIt();
-    void keepsAtLeastItsCapacity_data();
-    void keepsAtLeastItsCapacity();
+    void storeKeepsAtLeastItsCapacity_data();
+    void storeKeepsAtLeastItsCapacity();
     void emptyStoreHasNoRows();
     void storeWithoutChannelsKeepsTimes();
     void timesThatDoNotRiseAreRefused();
     void refusedRowKeepsTheInterruptionForTheNextOne();
-    void nanAloneIsNoValue();
+    void rangeOfOnlyNanIsEmpty();
     void infinityIsAValue();
-    void clearForgetsRowsButNotTheirNumbers();
-    void binsOfForgottenRowsDoNotAnswer();
+    void clearRemovesRowsAndContinuesTheirNumbers();
+    void binsIgnoreClearedRows();
     void timesFarApartAndBelowZeroAreFound();
     void aValueHoldsUntilTheNextRow();
     void aValueDoesNotHoldAcrossAnInterruption();
-    void theNewestValueHoldsAsLongAsValuesMayBeOld();
-    void memoryIsTakenAtTheBegin();
+    void newestValueHoldsUntilTheStaleLimit();
+    void memoryIsAllocatedAtConstruction();
     void fourHundredSignalsForTenMinutesFit();
-    void memoryIsWhatTheHeapGives();
+    void reportedMemoryEqualsTheAllocatedMemory();
 };
 
-void tst_SignalStore::answersLikeANaiveStore_data()
+void tst_SignalStore::storeMatchesAReferenceStore_data()
 {
     QTest::addColumn<int>("capacity");
     for (const int capacity : {16, 17, 31, 32, 255, 256, 257, 300, 1000, 4096, 4097, 5000})
         QTest::addRow("capacity %d", capacity) << capacity;
 }
 
-void tst_SignalStore::answersLikeANaiveStore()
+void tst_SignalStore::storeMatchesAReferenceStore()
 {
     QFETCH(int, capacity);
     Trial trial(2, capacity, unsigned(capacity));
@@ -222,14 +222,14 @@ void tst_SignalStore::aSpikeIsSeenInEachRangeThatHasIt()
     }
 }
 
-void tst_SignalStore::keepsAtLeastItsCapacity_data()
+void tst_SignalStore::storeKeepsAtLeastItsCapacity_data()
 {
     QTest::addColumn<int>("capacity");
     for (const int capacity : {16, 17, 255, 256, 257})
         QTest::addRow("capacity %d", capacity) << capacity;
 }
 
-void tst_SignalStore::keepsAtLeastItsCapacity()
+void tst_SignalStore::storeKeepsAtLeastItsCapacity()
 {
     QFETCH(int, capacity);
     SignalStore store(1, capacity);
@@ -289,7 +289,7 @@ void tst_SignalStore::refusedRowKeepsTheInterruptionForTheNextOne()
     QVERIFY(!store.beginsAnew(3));
 }
 
-void tst_SignalStore::nanAloneIsNoValue()
+void tst_SignalStore::rangeOfOnlyNanIsEmpty()
 {
     SignalStore store(1, 1000);
     appendValues(&store, std::vector<float>(600, noValue));
@@ -311,7 +311,7 @@ void tst_SignalStore::infinityIsAValue()
     QVERIFY(isSame(store.range(0, 60, 70), {-infinity, infinity}));
 }
 
-void tst_SignalStore::clearForgetsRowsButNotTheirNumbers()
+void tst_SignalStore::clearRemovesRowsAndContinuesTheirNumbers()
 {
     SignalStore store(1, 16);
     appendValues(&store, std::vector<float>(100, 1.0F));
@@ -324,7 +324,7 @@ void tst_SignalStore::clearForgetsRowsButNotTheirNumbers()
     QCOMPARE(store.rowAt(-2000), Row(100));
 }
 
-void tst_SignalStore::binsOfForgottenRowsDoNotAnswer()
+void tst_SignalStore::binsIgnoreClearedRows()
 {
     SignalStore store(1, 512);
     appendValues(&store, std::vector<float>(200, 9.0F));
@@ -377,7 +377,7 @@ void tst_SignalStore::aValueDoesNotHoldAcrossAnInterruption()
     QVERIFY(!store.rowHoldingAt(201));
 }
 
-void tst_SignalStore::theNewestValueHoldsAsLongAsValuesMayBeOld()
+void tst_SignalStore::newestValueHoldsUntilTheStaleLimit()
 {
     constexpr Time s = 1'000'000'000;
     SignalStore store(0, 16);
@@ -390,7 +390,7 @@ void tst_SignalStore::theNewestValueHoldsAsLongAsValuesMayBeOld()
     QVERIFY(!store.rowHoldingAt(std::numeric_limits<Time>::max() / 2));
 }
 
-void tst_SignalStore::memoryIsTakenAtTheBegin()
+void tst_SignalStore::memoryIsAllocatedAtConstruction()
 {
     if (!ThreadCosts::areCounted())
         QSKIP("allocations are not counted under a sanitizer");
@@ -415,7 +415,7 @@ void tst_SignalStore::fourHundredSignalsForTenMinutesFit()
     QVERIFY(double(store.memory()) <= 150e6);
 }
 
-void tst_SignalStore::memoryIsWhatTheHeapGives()
+void tst_SignalStore::reportedMemoryEqualsTheAllocatedMemory()
 {
     if (!ThreadCosts::areCounted())
         QSKIP("the heap of a sanitizer does not tell");

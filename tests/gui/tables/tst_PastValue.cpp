@@ -18,13 +18,13 @@ class tst_PastValue : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void nothingIsKnownWithoutAPlantOrBeforeTheFirstRow();
+    void valueIsInvalidWithoutPlantOrBeforeTheFirstRow();
     void aValueHoldsUntilTheNextRow();
-    void anInterruptionIsNoValue();
-    void arraysElementsAndTypesAreThoseOfTheSignal();
+    void valueDuringAnInterruptionIsInvalid();
+    void valuesKeepTheTypeAndElementsOfTheSignal();
 };
 
-void tst_PastValue::nothingIsKnownWithoutAPlantOrBeforeTheFirstRow()
+void tst_PastValue::valueIsInvalidWithoutPlantOrBeforeTheFirstRow()
 {
     RunningMaster master;
     PlantList plants;
@@ -59,7 +59,7 @@ void tst_PastValue::aValueHoldsUntilTheNextRow()
     QCOMPARE(pastValue(count, store.time(row + 1)).toReal(), double(store.value(count.channel(), row + 1)));
 }
 
-void tst_PastValue::anInterruptionIsNoValue()
+void tst_PastValue::valueDuringAnInterruptionIsInvalid()
 {
     RunningMaster master;
     PlantList plants;
@@ -76,7 +76,7 @@ void tst_PastValue::anInterruptionIsNoValue()
     QVERIFY(!pastValue(signalOf(plants, "count"), end + hold + 1'000).isValid());
 }
 
-void tst_PastValue::arraysElementsAndTypesAreThoseOfTheSignal()
+void tst_PastValue::valuesKeepTheTypeAndElementsOfTheSignal()
 {
     RunningMaster master;
     PlantList plants;

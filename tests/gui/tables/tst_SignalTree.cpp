@@ -56,21 +56,21 @@ class tst_SignalTree : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void settingsComeBackByteForByte();
-    void withoutAWindowItIsEmptyAndCalm();
-    void plantsAndNodesAreUnfoldedTriplesAreNot();
+    void settingsAreRestoredByteForByte();
+    void treeWithoutWindowIsEmpty();
+    void plantsAndNodesAreExpandedButVectorsAreNot();
     void keysAskForPanels();
     void enterInTheSearchShowsTheFirstHit();
     void lettersInTheSearchAreText();
-    void aNodeStandsForItsSignals();
-    void whatIsFoldedStaysSo();
+    void selectedNodeSelectsItsSignals();
+    void collapsedAndExpandedNodesKeepTheirState();
     void aSearchUnfoldsAndItsEndFoldsAgain();
     void selectedRowsAreDraggedAsReferences();
     void frozenPlotsShowThePastInTheTree();
     void namesHaveMostOfANarrowTree();
 };
 
-void tst_SignalTree::settingsComeBackByteForByte()
+void tst_SignalTree::settingsAreRestoredByteForByte()
 {
     const QByteArray json = R"({"collapsed":["kite"],"columns":["name","age"],"expanded":["kite/x/vector"],"later":1,)"
                             R"("search":"count","title":"T"})";
@@ -86,7 +86,7 @@ void tst_SignalTree::settingsComeBackByteForByte()
     QCOMPARE(bench.search->text(), QString());
 }
 
-void tst_SignalTree::withoutAWindowItIsEmptyAndCalm()
+void tst_SignalTree::treeWithoutWindowIsEmpty()
 {
     QPlcSignalTree tree;
     QSignalSpy requests(&tree, &QPlcSignalTree::showRequested);
@@ -96,7 +96,7 @@ void tst_SignalTree::withoutAWindowItIsEmptyAndCalm()
     QVERIFY(tree.selectedReferences().isEmpty());
 }
 
-void tst_SignalTree::plantsAndNodesAreUnfoldedTriplesAreNot()
+void tst_SignalTree::plantsAndNodesAreExpandedButVectorsAreNot()
 {
     TreeBench bench;
     QVERIFY(bench.isThere());
@@ -149,7 +149,7 @@ void tst_SignalTree::lettersInTheSearchAreText()
     QCOMPARE(bench.tree.settings().value(QStringLiteral("search")).toString(), QStringLiteral("wg"));
 }
 
-void tst_SignalTree::aNodeStandsForItsSignals()
+void tst_SignalTree::selectedNodeSelectsItsSignals()
 {
     TreeBench bench;
     QVERIFY(bench.isThere());
@@ -157,7 +157,7 @@ void tst_SignalTree::aNodeStandsForItsSignals()
     QCOMPARE(bench.tree.selectedReferences(), (QStringList{"count", "sum"}));
 }
 
-void tst_SignalTree::whatIsFoldedStaysSo()
+void tst_SignalTree::collapsedAndExpandedNodesKeepTheirState()
 {
     TreeBench bench;
     QVERIFY(bench.isThere());

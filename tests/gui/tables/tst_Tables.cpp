@@ -103,26 +103,26 @@ class tst_Tables : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void settingsComeBackByteForByte();
+    void settingsAreRestoredByteForByte();
     void signalsAreAddedOnceAndRemoved();
     void aSignalIsAddedByKeys();
-    void aRowThatIsNotThereComesToLife();
+    void missingSignalsAndStaleValuesAreMarked();
     void valuesAreSortedAsNumbersAndDoNotJump();
-    void whatIsSelectedIsCopiedWithTabs();
-    void valuesOfThePastSayTheirTime();
+    void selectedRowsAreCopiedWithTabs();
+    void pastValuesShowTheirTime();
     void columnsAreChosenInAMenu();
-    void nodesHaveAStopLight();
+    void nodeTableShowsTheHealthOfEachNode();
     void columnsOfNodesGrowWithTheirTexts();
     void aLongNameGetsItsSpace();
-    void longNamesLoseTheirMiddle();
+    void longNamesAreElidedInTheMiddle();
     void aWindowWithoutPlantsHasAnEmptyTable();
     void eventsAreFilteredAndAcknowledged();
-    void theLogFollowsUnlessSomebodyReads();
+    void logScrollsToNewEventsUnlessTheUserScrolledBack();
     void aNoteIsWrittenIntoTheLog();
     void anEventLeadsToItsTime();
 };
 
-void tst_Tables::settingsComeBackByteForByte()
+void tst_Tables::settingsAreRestoredByteForByte()
 {
     verifySettings<QPlcValueTable>(
         R"({"columns":["signal","rate"],"descending":true,"later":1,"search":"count","signals":["count",)"
@@ -167,7 +167,7 @@ void tst_Tables::aSignalIsAddedByKeys()
     QTRY_COMPARE(edit->text(), QString());
 }
 
-void tst_Tables::aRowThatIsNotThereComesToLife()
+void tst_Tables::missingSignalsAndStaleValuesAreMarked()
 {
     Bench<QPlcValueTable> bench({{"signals", QJsonArray{"kite/count", "nowhere"}}});
     QTRY_COMPARE(bench.cell(0, ValueTableModel::QualityColumn), QStringLiteral("at rest"));
@@ -211,7 +211,7 @@ void tst_Tables::valuesAreSortedAsNumbersAndDoNotJump()
     QVERIFY(!bench.panel.settings().contains(QStringLiteral("sort")));
 }
 
-void tst_Tables::whatIsSelectedIsCopiedWithTabs()
+void tst_Tables::selectedRowsAreCopiedWithTabs()
 {
     Bench<QPlcValueTable> bench(
         {{"signals", QJsonArray{"count", "setpoint", "nowhere"}}, {"columns", QJsonArray{"signal", "unit"}}});
@@ -223,7 +223,7 @@ void tst_Tables::whatIsSelectedIsCopiedWithTabs()
     QCOMPARE(QGuiApplication::clipboard()->text(), QStringLiteral("Signal\tUnit\nsetpoint\tm/s\n"));
 }
 
-void tst_Tables::valuesOfThePastSayTheirTime()
+void tst_Tables::pastValuesShowTheirTime()
 {
     Bench<QPlcValueTable> bench({{"signals", QJsonArray{"count"}}});
     QVERIFY(bench.master.startRealTime());
@@ -265,7 +265,7 @@ void tst_Tables::columnsAreChosenInAMenu()
     popup->close();
 }
 
-void tst_Tables::nodesHaveAStopLight()
+void tst_Tables::nodeTableShowsTheHealthOfEachNode()
 {
     Bench<QPlcNodeTable> bench;
     QTRY_COMPARE(bench.cells(NodeTableModel::Name), (QStringList{"Master", "Counter", "Window"}));
@@ -309,7 +309,7 @@ void tst_Tables::aLongNameGetsItsSpace()
     QTRY_VERIFY(bench.view->columnWidth(NodeTableModel::Name) > before);
 }
 
-void tst_Tables::longNamesLoseTheirMiddle()
+void tst_Tables::longNamesAreElidedInTheMiddle()
 {
     class Open : public TableDelegate
     {
@@ -372,7 +372,7 @@ void tst_Tables::eventsAreFilteredAndAcknowledged()
     QVERIFY(edits.size() > 0);
 }
 
-void tst_Tables::theLogFollowsUnlessSomebodyReads()
+void tst_Tables::logScrollsToNewEventsUnlessTheUserScrolledBack()
 {
     WindowContext context;
     QPlcEventLog log;

@@ -49,8 +49,8 @@ class tst_ValueTableSearch : public QObject
 
 private Q_SLOTS:
     void aSearchShowsTheRowsThatFit();
-    void theSearchOfATableGoesByKeys();
-    void whatIsAddedIsSeenInSpiteOfASearch();
+    void keysControlTheTableSearch();
+    void addedSignalClearsTheSearch();
 };
 
 void tst_ValueTableSearch::aSearchShowsTheRowsThatFit()
@@ -77,7 +77,7 @@ void tst_ValueTableSearch::aSearchShowsTheRowsThatFit()
     QVERIFY(!hint->isVisible());
 }
 
-void tst_ValueTableSearch::theSearchOfATableGoesByKeys()
+void tst_ValueTableSearch::keysControlTheTableSearch()
 {
     TableBench bench({{"signals", QJsonArray{"count", "setpoint", "sum"}}});
     bench.panel.activateWindow();
@@ -104,7 +104,7 @@ void tst_ValueTableSearch::theSearchOfATableGoesByKeys()
     QVERIFY(!bench.panel.settings().contains("search"));
 }
 
-void tst_ValueTableSearch::whatIsAddedIsSeenInSpiteOfASearch()
+void tst_ValueTableSearch::addedSignalClearsTheSearch()
 {
     TableBench bench({{"signals", QJsonArray{"count"}}, {"search", "count"}});
     QVERIFY(bench.panel.addSignals({"sum"}));

@@ -51,13 +51,13 @@ private Q_SLOTS:
     void unknownFactoryIsNull();
     void factoryThatIsRegisteredTwiceIsOne();
     void factoryMakesWidgetsOfItsType();
-    void titleIsThatOfTheFactoryUntilItHasItsOwn();
-    void newTitleIsToldOnce();
-    void settingsComeBack();
+    void titleDefaultsToTheFactoryName();
+    void newTitleIsSignalledOnce();
+    void settingsAreRestored();
     void settingsThatAreNotKnownAreKept();
     void missingSettingsLeaveThingsAsTheyAre();
-    void titleThatIsTakenAwayIsNoSetting();
-    void newSignalsAreTold();
+    void removedTitleIsNotASetting();
+    void changedSignalListsAreSignalled();
 
 private:
     QPlcWidgetFactory *m_factory = nullptr;
@@ -98,7 +98,7 @@ void tst_QPlcWidget::factoryMakesWidgetsOfItsType()
     QCOMPARE(made->parentWidget(), &parent);
 }
 
-void tst_QPlcWidget::titleIsThatOfTheFactoryUntilItHasItsOwn()
+void tst_QPlcWidget::titleDefaultsToTheFactoryName()
 {
     Compass compass;
     QCOMPARE(compass.title(), QStringLiteral("Compass"));
@@ -109,7 +109,7 @@ void tst_QPlcWidget::titleIsThatOfTheFactoryUntilItHasItsOwn()
     QCOMPARE(Lonely().title(), QString());
 }
 
-void tst_QPlcWidget::newTitleIsToldOnce()
+void tst_QPlcWidget::newTitleIsSignalledOnce()
 {
     Compass compass;
     const QSignalSpy told(&compass, &QPlcWidget::titleChanged);
@@ -118,7 +118,7 @@ void tst_QPlcWidget::newTitleIsToldOnce()
     QCOMPARE(told.count(), 1);
 }
 
-void tst_QPlcWidget::settingsComeBack()
+void tst_QPlcWidget::settingsAreRestored()
 {
     Compass compass;
     QCOMPARE(compass.settings(), QJsonObject());
@@ -148,7 +148,7 @@ void tst_QPlcWidget::missingSettingsLeaveThingsAsTheyAre()
     QCOMPARE(compass.settings(), (QJsonObject{{"later", 1}, {"other", 2}, {"title", "Heading"}}));
 }
 
-void tst_QPlcWidget::titleThatIsTakenAwayIsNoSetting()
+void tst_QPlcWidget::removedTitleIsNotASetting()
 {
     Compass compass;
     compass.applySettings({{"title", "Heading"}});
@@ -158,7 +158,7 @@ void tst_QPlcWidget::titleThatIsTakenAwayIsNoSetting()
     QCOMPARE(compass.settings(), QJsonObject());
 }
 
-void tst_QPlcWidget::newSignalsAreTold()
+void tst_QPlcWidget::changedSignalListsAreSignalled()
 {
     Compass compass;
     const QSignalSpy inputs(&compass, &QPlcWidget::inputSignalIndicesChanged);

@@ -36,11 +36,11 @@ class tst_ColorSchemePortal : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void valuesAreRead();
-    void theDesktopTellsItsSchemeAndEachChange();
+    void portalValuesMapToSchemes();
+    void portalReportsTheSchemeAndEachChange();
 };
 
-void tst_ColorSchemePortal::valuesAreRead()
+void tst_ColorSchemePortal::portalValuesMapToSchemes()
 {
     QCOMPARE(ColorSchemePortal::schemeOf(0U), ColorSchemePortal::NoPreference);
     QCOMPARE(ColorSchemePortal::schemeOf(1U), ColorSchemePortal::Dark);
@@ -52,7 +52,7 @@ void tst_ColorSchemePortal::valuesAreRead()
     QCOMPARE(ColorSchemePortal::schemeOf(within), ColorSchemePortal::Dark);
 }
 
-void tst_ColorSchemePortal::theDesktopTellsItsSchemeAndEachChange()
+void tst_ColorSchemePortal::portalReportsTheSchemeAndEachChange()
 {
     const QString daemon = QStandardPaths::findExecutable(QStringLiteral("dbus-daemon"));
     if (daemon.isEmpty())

@@ -39,12 +39,12 @@ private Q_SLOTS:
     void theSystemThemeFollowsTheDesktop();
     void aChosenThemeStaysWhenTheDesktopChanges();
     void targetsForFingersAreLarge();
-    void targetsAreRemembered();
-    void aFingerThatStaysOpensTheContextMenu();
-    void aFingerThatMovesOrLeavesOpensNone();
-    void aMouseThatStaysOpensNone();
-    void errorsAreHeardOnceInAWhile();
-    void whatIsOldOrOnlyAWarningIsQuiet();
+    void touchAndSoundSettingsAreRestored();
+    void longTouchOpensTheContextMenu();
+    void movedOrShortTouchOpensNoContextMenu();
+    void longMousePressOpensNoContextMenu();
+    void alarmSoundRateIsLimited();
+    void oldEventsAndWarningsPlayNoSound();
 
 private:
     QTouchDevice *m_finger = nullptr;
@@ -122,7 +122,7 @@ void tst_Comfort::targetsForFingersAreLarge()
     QCOMPARE(closeButton->size(), QSize(20, 20));
 }
 
-void tst_Comfort::targetsAreRemembered()
+void tst_Comfort::touchAndSoundSettingsAreRestored()
 {
     {
         WindowFixture fixture;
@@ -164,7 +164,7 @@ struct Pressed
 
 }  // namespace
 
-void tst_Comfort::aFingerThatStaysOpensTheContextMenu()
+void tst_Comfort::longTouchOpensTheContextMenu()
 {
     Pressed pressed;
     QTest::touchEvent(&pressed.button, m_finger).press(0, QPoint(50, 50), &pressed.button);
@@ -176,7 +176,7 @@ void tst_Comfort::aFingerThatStaysOpensTheContextMenu()
     QCOMPARE(pressed.menus, 1);
 }
 
-void tst_Comfort::aFingerThatMovesOrLeavesOpensNone()
+void tst_Comfort::movedOrShortTouchOpensNoContextMenu()
 {
     Pressed pressed;
     QTest::touchEvent(&pressed.button, m_finger).press(0, QPoint(50, 50), &pressed.button);
@@ -190,7 +190,7 @@ void tst_Comfort::aFingerThatMovesOrLeavesOpensNone()
     QCOMPARE(pressed.clicks, 2);
 }
 
-void tst_Comfort::aMouseThatStaysOpensNone()
+void tst_Comfort::longMousePressOpensNoContextMenu()
 {
     Pressed pressed;
     QTest::mousePress(&pressed.button, Qt::LeftButton);
@@ -200,7 +200,7 @@ void tst_Comfort::aMouseThatStaysOpensNone()
     QCOMPARE(pressed.clicks, 1);
 }
 
-void tst_Comfort::errorsAreHeardOnceInAWhile()
+void tst_Comfort::alarmSoundRateIsLimited()
 {
     EventLogModel events;
     int played = 0;
@@ -211,7 +211,7 @@ void tst_Comfort::errorsAreHeardOnceInAWhile()
     QCOMPARE(played, 1);
 }
 
-void tst_Comfort::whatIsOldOrOnlyAWarningIsQuiet()
+void tst_Comfort::oldEventsAndWarningsPlayNoSound()
 {
     EventLogModel events;
     int played = 0;

@@ -31,21 +31,21 @@ class tst_ControlByHand : public QObject
 
 private Q_SLOTS:
     void init() { m_settings = std::make_unique<TestSettings>(); }
-    void nothingIsSaidWhileNobodyControls();
-    void whatThisWindowHoldsIsToldAndGivenBackByAClick();
-    void allIsGivenBackByKeys();
-    void othersAreNamedAndTheirsIsNotGivenBack();
-    void whatIsLostIsToldWithWhatToDo();
-    void severalFactsAreTwoLinesAndTheRestIsInTheToolTip();
-    void ofSeveralPlantsTheNamesAreTold();
-    void takingControlMovesNothing();
+    void noticeIsEmptyWithoutManualControl();
+    void noticeShowsHeldSignalsAndAClickReleasesThem();
+    void keysReleaseAllSignals();
+    void noticeNamesOtherHoldersWithoutReleasingTheirSignals();
+    void noticeReportsLostControlWithTheRemedy();
+    void noticeShowsTwoLinesAndTheRestInTheToolTip();
+    void noticeNamesThePlantsAmongSeveral();
+    void acquiringControlDoesNotMoveTheLayout();
     void aSetterOutlivesItsPlant();
 
 private:
     std::unique_ptr<TestSettings> m_settings;
 };
 
-void tst_ControlByHand::nothingIsSaidWhileNobodyControls()
+void tst_ControlByHand::noticeIsEmptyWithoutManualControl()
 {
     FlyingMaster master;
     WindowFixture fixture;
@@ -60,7 +60,7 @@ void tst_ControlByHand::nothingIsSaidWhileNobodyControls()
     QVERIFY(isSilent());
 }
 
-void tst_ControlByHand::whatThisWindowHoldsIsToldAndGivenBackByAClick()
+void tst_ControlByHand::noticeShowsHeldSignalsAndAClickReleasesThem()
 {
     FlyingMaster master;
     QVERIFY(master.startRealTime());
@@ -82,7 +82,7 @@ void tst_ControlByHand::whatThisWindowHoldsIsToldAndGivenBackByAClick()
     QVERIFY(!notice->giveBackButton()->isVisible());
 }
 
-void tst_ControlByHand::allIsGivenBackByKeys()
+void tst_ControlByHand::keysReleaseAllSignals()
 {
     FlyingMaster master;
     WindowFixture fixture;
@@ -95,7 +95,7 @@ void tst_ControlByHand::allIsGivenBackByKeys()
     QTRY_VERIFY_WITH_TIMEOUT(!fixture.action("Give back control")->isEnabled(), patience);
 }
 
-void tst_ControlByHand::othersAreNamedAndTheirsIsNotGivenBack()
+void tst_ControlByHand::noticeNamesOtherHoldersWithoutReleasingTheirSignals()
 {
     FlyingMaster master;
     WindowFixture fixture;
@@ -113,7 +113,7 @@ void tst_ControlByHand::othersAreNamedAndTheirsIsNotGivenBack()
     QCOMPARE(master.leases().size(), 1);
 }
 
-void tst_ControlByHand::whatIsLostIsToldWithWhatToDo()
+void tst_ControlByHand::noticeReportsLostControlWithTheRemedy()
 {
     FlyingMaster master;
     QVERIFY(master.startRealTime());
@@ -134,7 +134,7 @@ void tst_ControlByHand::whatIsLostIsToldWithWhatToDo()
     QTRY_VERIFY_WITH_TIMEOUT(notice->lines().isEmpty(), patience);
 }
 
-void tst_ControlByHand::severalFactsAreTwoLinesAndTheRestIsInTheToolTip()
+void tst_ControlByHand::noticeShowsTwoLinesAndTheRestInTheToolTip()
 {
     FlyingMaster master;
     WindowFixture fixture;
@@ -151,7 +151,7 @@ void tst_ControlByHand::severalFactsAreTwoLinesAndTheRestIsInTheToolTip()
     QTRY_COMPARE_WITH_TIMEOUT(notice->lines().value(1), setpoint, patience);  // theirs is left
 }
 
-void tst_ControlByHand::ofSeveralPlantsTheNamesAreTold()
+void tst_ControlByHand::noticeNamesThePlantsAmongSeveral()
 {
     FlyingMaster first;
     FlyingMaster second;
@@ -171,7 +171,7 @@ void tst_ControlByHand::ofSeveralPlantsTheNamesAreTold()
     QVERIFY(notice->lines().isEmpty());
 }
 
-void tst_ControlByHand::takingControlMovesNothing()
+void tst_ControlByHand::acquiringControlDoesNotMoveTheLayout()
 {
     FlyingMaster master;
     WindowFixture fixture;

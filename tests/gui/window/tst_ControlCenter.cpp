@@ -13,20 +13,20 @@ class tst_ControlCenter : public QObject
 
 private Q_SLOTS:
     void init() { m_settings = std::make_unique<TestSettings>(); }
-    void withoutAPlantThereIsTheStartPage();
+    void windowWithoutPlantShowsTheStartPage();
     void aTypedAddressConnectsAndTheNextActionStarts();
     void stopWorksByButtonAndByKeys();
-    void withSeveralPlantsStopSaysWhichAndOthersGoOn();
-    void aWrongAddressIsToldAndNothingElseHappens();
+    void stopNamesItsPlantAndTheOthersContinue();
+    void invalidAddressIsReportedWithoutConnecting();
     void barsCannotBeMovedHiddenOrCut_data();
     void barsCannotBeMovedHiddenOrCut();
-    void freezingTellsHowFarBehindAndLComesBack();
-    void theBottomLineSaysLiveOnlyWhileThereAreNewValues();
+    void frozenTimeBarShowsTheDelayAndTheLKeyGoesLive();
+    void timeBarShowsLiveOnlyWhileNewValuesArrive();
     void theBottomLineKeepsItsPlaceWhileNumbersCount();
-    void theRateIsThatOfAllPlantsAndIsRemembered();
-    void theWindowComesBackAsItWasClosed();
-    void theTreeOfSignalsComesBackAsItWas();
-    void withoutRestoreViewNothingIsSaved();
+    void rateAppliesToAllPlantsAndIsRestored();
+    void closedWindowIsRestored();
+    void signalTreeIsRestored();
+    void windowSavesNothingWithoutRestoreView();
     void themesReachPanelsAndPalette();
     void eventsAreOnTheLineUntilAcknowledged();
     void aWindowEndsInEveryState();
@@ -35,7 +35,7 @@ private:
     std::unique_ptr<TestSettings> m_settings;
 };
 
-void tst_ControlCenter::withoutAPlantThereIsTheStartPage()
+void tst_ControlCenter::windowWithoutPlantShowsTheStartPage()
 {
     WindowFixture fixture;
     QAction demo(QStringLiteral("Fly the demo kite"));
@@ -105,7 +105,7 @@ void tst_ControlCenter::stopWorksByButtonAndByKeys()
     QVERIFY(master.waitForState(QPlcMasterNode::Off));
 }
 
-void tst_ControlCenter::withSeveralPlantsStopSaysWhichAndOthersGoOn()
+void tst_ControlCenter::stopNamesItsPlantAndTheOthersContinue()
 {
     RunningMaster first;
     RunningMaster second;
@@ -126,7 +126,7 @@ void tst_ControlCenter::withSeveralPlantsStopSaysWhichAndOthersGoOn()
     QCOMPARE(fixture.window.plants(), QStringList{QStringLiteral("kite")});
 }
 
-void tst_ControlCenter::aWrongAddressIsToldAndNothingElseHappens()
+void tst_ControlCenter::invalidAddressIsReportedWithoutConnecting()
 {
     WindowFixture fixture;
     fixture.connectTo(QStringLiteral("127.0.0.1:kite"));
@@ -172,7 +172,7 @@ void tst_ControlCenter::barsCannotBeMovedHiddenOrCut()
     QVERIFY(fixture.topBar()->stopButton()->width() >= 120);
 }
 
-void tst_ControlCenter::freezingTellsHowFarBehindAndLComesBack()
+void tst_ControlCenter::frozenTimeBarShowsTheDelayAndTheLKeyGoesLive()
 {
     WindowFixture fixture;
     QPlcTimeAxis *view = fixture.window.context()->timeAxis();
@@ -192,7 +192,7 @@ void tst_ControlCenter::freezingTellsHowFarBehindAndLComesBack()
     QVERIFY(!view->isLive());
 }
 
-void tst_ControlCenter::theBottomLineSaysLiveOnlyWhileThereAreNewValues()
+void tst_ControlCenter::timeBarShowsLiveOnlyWhileNewValuesArrive()
 {
     WindowFixture fixture;
     auto *bar = fixture.part<TimeBar>();
@@ -229,7 +229,7 @@ void tst_ControlCenter::theBottomLineKeepsItsPlaceWhileNumbersCount()
     QTRY_COMPARE(fixture.part<EventLine>()->x(), place);
 }
 
-void tst_ControlCenter::theWindowComesBackAsItWasClosed()
+void tst_ControlCenter::closedWindowIsRestored()
 {
     RunningMaster master;
     QByteArray layout;
@@ -254,7 +254,7 @@ void tst_ControlCenter::theWindowComesBackAsItWasClosed()
     again.setTheme(QPlcControlCenter::SystemTheme);
 }
 
-void tst_ControlCenter::theRateIsThatOfAllPlantsAndIsRemembered()
+void tst_ControlCenter::rateAppliesToAllPlantsAndIsRestored()
 {
     RunningMaster master;
     QVERIFY(master.startRealTime());
@@ -278,7 +278,7 @@ void tst_ControlCenter::theRateIsThatOfAllPlantsAndIsRemembered()
     QTRY_VERIFY_WITH_TIMEOUT(fixture.plant()->values().rows() > 3, patience);
 }
 
-void tst_ControlCenter::theTreeOfSignalsComesBackAsItWas()
+void tst_ControlCenter::signalTreeIsRestored()
 {
     const QString address = QStringLiteral("127.0.0.1:%1").arg(freePort());
     const QJsonObject settings{{QStringLiteral("search"), QStringLiteral("tether")},
@@ -302,7 +302,7 @@ void tst_ControlCenter::theTreeOfSignalsComesBackAsItWas()
     QCOMPARE(dock->tree()->findChild<QLineEdit *>()->text(), QStringLiteral("tether"));
 }
 
-void tst_ControlCenter::withoutRestoreViewNothingIsSaved()
+void tst_ControlCenter::windowSavesNothingWithoutRestoreView()
 {
     {
         WindowFixture fixture;

@@ -70,19 +70,19 @@ class tst_ControlCenterPanels : public QObject
 private Q_SLOTS:
     void init() { m_settings = std::make_unique<TestSettings>(); }
     void everyActionHasKeysOrIsInThePalette();
-    void thePaletteRunsWhatIsTyped();
+    void paletteRunsTheTypedCommand();
     void signalsOfTheTreeArePlottedByEnterAndUndone();
     void droppedSignalsAreSteps();
     void aDropOnAPanelIsOneStep_data();
     void aDropOnAPanelIsOneStep();
-    void aFileWithAnErrorIsToldInTheWindow();
+    void invalidLayoutFileIsReportedInTheWindow();
     void layoutsKeepUnknownKeysAndTypes();
     void aLayoutFromBeforeThePanelApiOpens();
-    void aPanelThatPaintsNothingStandsOnTheColourOfPanels();
+    void unpaintedPanelHasThePanelColour();
     void valuesReachPanelsThatWantThem();
     void keysAreListed();
     void focusMovesByKeys();
-    void keysOfThePanelWithTheFocusComeFirst();
+    void keysOfTheFocusedPanelTakePrecedence();
 
 private:
     std::unique_ptr<TestSettings> m_settings;
@@ -118,7 +118,7 @@ void tst_ControlCenterPanels::everyActionHasKeysOrIsInThePalette()
     QVERIFY(!palette->list()->findItems(QStringLiteral("setpoint"), Qt::MatchExactly).isEmpty());
 }
 
-void tst_ControlCenterPanels::thePaletteRunsWhatIsTyped()
+void tst_ControlCenterPanels::paletteRunsTheTypedCommand()
 {
     WindowFixture fixture;
     DummyFactories factories;
@@ -232,7 +232,7 @@ void tst_ControlCenterPanels::aDropOnAPanelIsOneStep()
     QCOMPARE(editor->layout().panel(id)->settings, QJsonObject());
 }
 
-void tst_ControlCenterPanels::aFileWithAnErrorIsToldInTheWindow()
+void tst_ControlCenterPanels::invalidLayoutFileIsReportedInTheWindow()
 {
     QTemporaryDir folder;
     const QString name = folder.filePath(QStringLiteral("broken.json"));
@@ -294,7 +294,7 @@ void tst_ControlCenterPanels::aLayoutFromBeforeThePanelApiOpens()
     QCOMPARE(missing, QStringList({QStringLiteral("3D view"), QStringLiteral("Wind window")}));
 }
 
-void tst_ControlCenterPanels::aPanelThatPaintsNothingStandsOnTheColourOfPanels()
+void tst_ControlCenterPanels::unpaintedPanelHasThePanelColour()
 {
     QPlcWidgetFactoryOf<Listening> factory;
     WindowFixture fixture;
@@ -365,7 +365,7 @@ void tst_ControlCenterPanels::focusMovesByKeys()
     QCOMPARE(view->tabBar()->currentIndex(), 1);
 }
 
-void tst_ControlCenterPanels::keysOfThePanelWithTheFocusComeFirst()
+void tst_ControlCenterPanels::keysOfTheFocusedPanelTakePrecedence()
 {
     QPlcWidgetFactoryOf<Listening> factory;
     WindowFixture fixture;

@@ -13,13 +13,13 @@ class tst_ControlCenterPrograms : public QObject
 
 private Q_SLOTS:
     void init() { m_settings = std::make_unique<TestSettings>(); }
-    void aKilledMasterIsToldAndFoundAgain();
+    void killedMasterIsReportedAndFoundAgain();
 
 private:
     std::unique_ptr<TestSettings> m_settings;
 };
 
-void tst_ControlCenterPrograms::aKilledMasterIsToldAndFoundAgain()
+void tst_ControlCenterPrograms::killedMasterIsReportedAndFoundAgain()
 {
     std::unique_ptr<Program> master = startMaster(QStringLiteral("0"));
     QVERIFY(master);

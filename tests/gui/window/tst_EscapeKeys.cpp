@@ -287,8 +287,8 @@ class tst_EscapeKeys : public QObject
 
 private Q_SLOTS:
     void init() { m_settings = std::make_unique<TestSettings>(); }
-    void escapeTwiceWithNothingOpenStopsAndALineTellsIt();
-    void theStopButtonAndOthersAreTold();
+    void escapeTwiceWithNothingOpenStopsThePlantAndShowsIt();
+    void noticeShowsWhichPersonStoppedThePlant();
     void withAnythingOpenEscapeNeverStops();
     void aListWithTheFocusKeepsNoEscape();
     void escapeEndsADragAndTwiceMoreStops();
@@ -297,7 +297,7 @@ private:
     std::unique_ptr<TestSettings> m_settings;
 };
 
-void tst_EscapeKeys::escapeTwiceWithNothingOpenStopsAndALineTellsIt()
+void tst_EscapeKeys::escapeTwiceWithNothingOpenStopsThePlantAndShowsIt()
 {
     FlyingWindow fixture;
     QVERIFY(fixture.isReady);
@@ -323,7 +323,7 @@ void tst_EscapeKeys::escapeTwiceWithNothingOpenStopsAndALineTellsIt()
     QTRY_VERIFY_WITH_TIMEOUT(!notice->isVisible(), patience);
 }
 
-void tst_EscapeKeys::theStopButtonAndOthersAreTold()
+void tst_EscapeKeys::noticeShowsWhichPersonStoppedThePlant()
 {
     FlyingWindow fixture;
     QVERIFY(fixture.isReady);

@@ -147,11 +147,11 @@ private Q_SLOTS:
     void actionsOfAPanelRunByTheirKeysOrAreInThePalette();
     void actionsOfTheWindowRunByTheirKeysWhereverTheFocusIs();
     void actionsOfTheWindowRunByTheirKeysInAFloatingPanel();
-    void keysOfCommandsToThePlantMeanNothingElse();
-    void keysOfAPanelComeBeforeThoseOfTheTabs();
+    void keysOfPlantCommandsAreUnique();
+    void keysOfAPanelTakePrecedenceOverThoseOfTheTabs();
     void noButtonIsForTheMouseOnly_data();
     void noButtonIsForTheMouseOnly();
-    void theMenuOfAPanelOpensByKeysAndHoldsWhatHasNone();
+    void keyboardOpensThePanelMenu();
 
 private:
     static void addTypes();
@@ -217,7 +217,7 @@ void tst_EverythingByKeys::actionsOfTheWindowRunByTheirKeysInAFloatingPanel()
     }
 }
 
-void tst_EverythingByKeys::keysOfCommandsToThePlantMeanNothingElse()
+void tst_EverythingByKeys::keysOfPlantCommandsAreUnique()
 {
     PanelFixture fixture(QStringLiteral("Gauge"));
     for (const QPlcWidgetFactory *factory : standardWidgets())
@@ -237,7 +237,7 @@ void tst_EverythingByKeys::keysOfCommandsToThePlantMeanNothingElse()
     }
 }
 
-void tst_EverythingByKeys::keysOfAPanelComeBeforeThoseOfTheTabs()
+void tst_EverythingByKeys::keysOfAPanelTakePrecedenceOverThoseOfTheTabs()
 {
     PanelFixture fixture(QStringLiteral("Setter"));
     QVERIFY(fixture.isReady && fixture.enterPanel());
@@ -278,7 +278,7 @@ void tst_EverythingByKeys::noButtonIsForTheMouseOnly()
     QVERIFY2(found.isEmpty(), qPrintable(found.join(QStringLiteral("; "))));
 }
 
-void tst_EverythingByKeys::theMenuOfAPanelOpensByKeysAndHoldsWhatHasNone()
+void tst_EverythingByKeys::keyboardOpensThePanelMenu()
 {
     PanelFixture fixture(QStringLiteral("Gauge"));
     QVERIFY(fixture.enterPanel());

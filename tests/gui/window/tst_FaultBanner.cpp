@@ -11,15 +11,15 @@ class tst_FaultBanner : public QObject
 
 private Q_SLOTS:
     void init() { m_settings = std::make_unique<TestSettings>(); }
-    void thereIsNoneWhereNobodyInjectsFaults();
-    void whoInjectsWhatIsToldAcrossTheWindow();
-    void itGoesWithThePlantAlone();
+    void bannerIsHiddenWithoutInjectedFaults();
+    void bannerNamesEveryInjectorAndItsFaults();
+    void bannerDisappearsWithItsPlant();
 
 private:
     std::unique_ptr<TestSettings> m_settings;
 };
 
-void tst_FaultBanner::thereIsNoneWhereNobodyInjectsFaults()
+void tst_FaultBanner::bannerIsHiddenWithoutInjectedFaults()
 {
     RunningMaster master;
     WindowFixture fixture;
@@ -31,7 +31,7 @@ void tst_FaultBanner::thereIsNoneWhereNobodyInjectsFaults()
     QVERIFY(banner->text().isEmpty());
 }
 
-void tst_FaultBanner::whoInjectsWhatIsToldAcrossTheWindow()
+void tst_FaultBanner::bannerNamesEveryInjectorAndItsFaults()
 {
     TestMaster master(QPlcClock::realTime());
     QVERIFY(master.setFaultPlan(QStringLiteral("delay=1ms,jitter=1ms,seed=7")));
@@ -56,7 +56,7 @@ void tst_FaultBanner::whoInjectsWhatIsToldAcrossTheWindow()
     QVERIFY(banner->isVisible());
 }
 
-void tst_FaultBanner::itGoesWithThePlantAlone()
+void tst_FaultBanner::bannerDisappearsWithItsPlant()
 {
     TestMaster master(QPlcClock::realTime());
     QVERIFY(master.setFaultPlan(QStringLiteral("loss=5%")));

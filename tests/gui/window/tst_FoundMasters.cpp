@@ -14,18 +14,18 @@ class tst_FoundMasters : public QObject
 
 private Q_SLOTS:
     void init() { m_settings = std::make_unique<TestSettings>(); }
-    void withoutAMasterThereIsACalmLine();
-    void mastersAreShownAndGoAgain();
+    void startPageStatesThatNoMasterIsFound();
+    void foundMastersAppearAndDisappear();
     void aClickConnects();
-    void keysReachThemAndConnect();
-    void theStripShowsThem();
-    void keysStayWhereTheyAreWhileOthersComeAndGo();
-    void nothingAboveMovesWhenOthersCome();
-    void keysOnOneThatGoesAreNotLost();
-    void namesOfStrangersTakeNoKeysAndNoRoom();
+    void keysSelectAndConnectFoundMasters();
+    void connectStripShowsFoundMasters();
+    void focusStaysOnAMasterWhileOthersChange();
+    void newMastersDoNotMoveTheButtonsAbove();
+    void focusMovesOnWhenItsMasterDisappears();
+    void foundNamesGetNoShortcutAndLimitedWidth();
     void onlyTheFirstFiveAreShown();
-    void whoIsConnectedIsShownAgain();
-    void theSearchRunsWhileSomebodyLooks();
+    void clickOnAConnectedMasterShowsItsPlant();
+    void searchRunsOnlyWhileItsResultsAreVisible();
 
 private:
     static FoundMaster master(int port, const char *name = "kite", bool isLocal = true)
@@ -59,7 +59,7 @@ private:
     std::unique_ptr<TestSettings> m_settings;
 };
 
-void tst_FoundMasters::withoutAMasterThereIsACalmLine()
+void tst_FoundMasters::startPageStatesThatNoMasterIsFound()
 {
     WindowFixture fixture;
     QVERIFY(saysNone(fixture));
@@ -69,7 +69,7 @@ void tst_FoundMasters::withoutAMasterThereIsACalmLine()
     QVERIFY(!fixture.part<ConnectStrip>()->findChild<FoundMasters *>()->isVisible());
 }
 
-void tst_FoundMasters::mastersAreShownAndGoAgain()
+void tst_FoundMasters::foundMastersAppearAndDisappear()
 {
     WindowFixture fixture;
     tell(fixture, {master(50000), master(50001, "winch", false)});
@@ -98,7 +98,7 @@ void tst_FoundMasters::aClickConnects()
     QVERIFY(!fixture.window.isStartPageShown());
 }
 
-void tst_FoundMasters::keysReachThemAndConnect()
+void tst_FoundMasters::keysSelectAndConnectFoundMasters()
 {
     RunningMaster running;
     WindowFixture fixture;
@@ -112,7 +112,7 @@ void tst_FoundMasters::keysReachThemAndConnect()
     QTRY_VERIFY_WITH_TIMEOUT(fixture.window.isConnected(running.address()), patience);
 }
 
-void tst_FoundMasters::theStripShowsThem()
+void tst_FoundMasters::connectStripShowsFoundMasters()
 {
     RunningMaster running;
     WindowFixture fixture;
@@ -125,7 +125,7 @@ void tst_FoundMasters::theStripShowsThem()
     QTRY_VERIFY_WITH_TIMEOUT(fixture.window.isConnected(running.address()), patience);
 }
 
-void tst_FoundMasters::keysStayWhereTheyAreWhileOthersComeAndGo()
+void tst_FoundMasters::focusStaysOnAMasterWhileOthersChange()
 {
     WindowFixture fixture;
     tell(fixture, {master(50000, "b")});
@@ -139,7 +139,7 @@ void tst_FoundMasters::keysStayWhereTheyAreWhileOthersComeAndGo()
     QCOMPARE(button->text(), QStringLiteral("another name"));
 }
 
-void tst_FoundMasters::nothingAboveMovesWhenOthersCome()
+void tst_FoundMasters::newMastersDoNotMoveTheButtonsAbove()
 {
     WindowFixture fixture;
     const QWidget *connectButton = fixture.part<StartPage>()->buttons().constFirst();
@@ -149,7 +149,7 @@ void tst_FoundMasters::nothingAboveMovesWhenOthersCome()
     QVERIFY(buttons<StartPage>(fixture).constFirst()->mapToGlobal(QPoint()).y() > before.y());
 }
 
-void tst_FoundMasters::keysOnOneThatGoesAreNotLost()
+void tst_FoundMasters::focusMovesOnWhenItsMasterDisappears()
 {
     WindowFixture fixture;
     tell(fixture, {master(50000), master(50001)});
@@ -163,7 +163,7 @@ void tst_FoundMasters::keysOnOneThatGoesAreNotLost()
     QVERIFY(fixture.part<ConnectStrip>()->addressLine()->hasFocus());
 }
 
-void tst_FoundMasters::namesOfStrangersTakeNoKeysAndNoRoom()
+void tst_FoundMasters::foundNamesGetNoShortcutAndLimitedWidth()
 {
     WindowFixture fixture;
     tell(fixture, {master(50000, "<b>&Stop</b> WWWWWWWWWWWWWWWWWWWWWWWWWWWW")});
@@ -187,7 +187,7 @@ void tst_FoundMasters::onlyTheFirstFiveAreShown()
     QVERIFY(fixture.part<ConnectStrip>()->minimumSizeHint().width() < 1000);
 }
 
-void tst_FoundMasters::whoIsConnectedIsShownAgain()
+void tst_FoundMasters::clickOnAConnectedMasterShowsItsPlant()
 {
     RunningMaster running;
     WindowFixture fixture;
@@ -199,7 +199,7 @@ void tst_FoundMasters::whoIsConnectedIsShownAgain()
     QVERIFY(!fixture.window.isStartPageShown());
 }
 
-void tst_FoundMasters::theSearchRunsWhileSomebodyLooks()
+void tst_FoundMasters::searchRunsOnlyWhileItsResultsAreVisible()
 {
     const RuntimeFolder folder;
     RunningMaster running;

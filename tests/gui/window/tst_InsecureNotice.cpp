@@ -11,14 +11,14 @@ class tst_InsecureNotice : public QObject
 
 private Q_SLOTS:
     void initTestCase() { m_settings = std::make_unique<TestSettings>(); }
-    void aMasterOfThisComputerIsNoReason();
+    void localMasterShowsNoInsecureNotice();
     void anOpenMasterIsNamedUntilItIsLeft();
 
 private:
     std::unique_ptr<TestSettings> m_settings;
 };
 
-void tst_InsecureNotice::aMasterOfThisComputerIsNoReason()
+void tst_InsecureNotice::localMasterShowsNoInsecureNotice()
 {
     RunningMaster master;
     WindowFixture fixture;

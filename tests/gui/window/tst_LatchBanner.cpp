@@ -13,9 +13,9 @@ class tst_LatchBanner : public QObject
 private Q_SLOTS:
     void aSafeStopIsShownWithItsReasonUntilItIsReset_data();
     void aSafeStopIsShownWithItsReasonUntilItIsReset();
-    void whatRemainsIsSaidAndTheButtonWaits();
-    void theBarGoesThroughInitializeArmAndStart();
-    void anotherPlantThanTheChosenOneIsShownToo();
+    void bannerNamesPendingConditionsAndDisablesReset();
+    void nextButtonStepsThroughInitializeArmAndStart();
+    void safeStopOfAnUnselectedPlantIsShown();
 
 private:
     TestSettings m_settings;
@@ -60,7 +60,7 @@ void tst_LatchBanner::aSafeStopIsShownWithItsReasonUntilItIsReset()
     QTRY_COMPARE_WITH_TIMEOUT(fixture.plant()->nextAction(), Plant::Start, patience);
 }
 
-void tst_LatchBanner::whatRemainsIsSaidAndTheButtonWaits()
+void tst_LatchBanner::bannerNamesPendingConditionsAndDisablesReset()
 {
     RunningMaster master;
     master.setInterval(std::chrono::milliseconds(100));  // a busy computer is not to be the reason
@@ -84,7 +84,7 @@ void tst_LatchBanner::whatRemainsIsSaidAndTheButtonWaits()
     critical.disconnectFromMaster();
 }
 
-void tst_LatchBanner::theBarGoesThroughInitializeArmAndStart()
+void tst_LatchBanner::nextButtonStepsThroughInitializeArmAndStart()
 {
     RunningMaster master;
     master.setArmingRequired(true);
@@ -100,7 +100,7 @@ void tst_LatchBanner::theBarGoesThroughInitializeArmAndStart()
     QTRY_COMPARE_WITH_TIMEOUT(master.state(), QPlcMasterNode::RealTime, patience);
 }
 
-void tst_LatchBanner::anotherPlantThanTheChosenOneIsShownToo()
+void tst_LatchBanner::safeStopOfAnUnselectedPlantIsShown()
 {
     RunningMaster chosen;
     RunningMaster other;

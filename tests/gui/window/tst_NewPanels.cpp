@@ -16,9 +16,9 @@ class tst_NewPanels : public QObject
 private Q_SLOTS:
     void init() { m_settings = std::make_unique<TestSettings>(); }
     void ctrlNFindsAPanelByTypingAPartOfItsName();
-    void everyButtonThatAddsOpensTheMenuThatTakesTyping();
-    void everyNewPanelCanBeReadAtOnce_data();
-    void everyNewPanelCanBeReadAtOnce();
+    void everyAddButtonOpensTheSearchableMenu();
+    void everyNewPanelHasAReadableSize_data();
+    void everyNewPanelHasAReadableSize();
 
 private:
     std::unique_ptr<TestSettings> m_settings;
@@ -49,7 +49,7 @@ void tst_NewPanels::ctrlNFindsAPanelByTypingAPartOfItsName()
     QCOMPARE(fixture.part<LayoutView>()->findChildren<QPlcWidget *>().size(), before + 1);
 }
 
-void tst_NewPanels::everyButtonThatAddsOpensTheMenuThatTakesTyping()
+void tst_NewPanels::everyAddButtonOpensTheSearchableMenu()
 {
     RunningMaster master;
     WindowFixture fixture;
@@ -77,7 +77,7 @@ void tst_NewPanels::everyButtonThatAddsOpensTheMenuThatTakesTyping()
     QCOMPARE(offered(), byKey);
 }
 
-void tst_NewPanels::everyNewPanelCanBeReadAtOnce_data()
+void tst_NewPanels::everyNewPanelHasAReadableSize_data()
 {
     QTest::addColumn<QString>("type");
     QTest::addColumn<QSize>("least");
@@ -88,7 +88,7 @@ void tst_NewPanels::everyNewPanelCanBeReadAtOnce_data()
     QTest::newRow("node table") << "Node table" << QSize(300, 130);
 }
 
-void tst_NewPanels::everyNewPanelCanBeReadAtOnce()
+void tst_NewPanels::everyNewPanelHasAReadableSize()
 {
     QFETCH(QString, type);
     QFETCH(QSize, least);

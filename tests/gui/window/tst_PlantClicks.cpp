@@ -290,7 +290,7 @@ private Q_SLOTS:
     void init() { m_settings = std::make_unique<TestSettings>(); }
     void noCommandReachesAPlantThatTheWindowDoesNotName_data();
     void noCommandReachesAPlantThatTheWindowDoesNotName();
-    void theSessionsDidSomething();
+    void randomSessionsSendEveryKindOfCommand();
 
 private:
     std::unique_ptr<TestSettings> m_settings;
@@ -335,7 +335,7 @@ void tst_PlantClicks::noCommandReachesAPlantThatTheWindowDoesNotName()
     }
 }
 
-void tst_PlantClicks::theSessionsDidSomething()
+void tst_PlantClicks::randomSessionsSendEveryKindOfCommand()
 {
     for (const auto kind : {QPlcMessage::SetSignals, QPlcMessage::TakeLease, QPlcMessage::ReleaseLease,
                             QPlcMessage::Stop, QPlcMessage::StartRealTime})

@@ -43,11 +43,11 @@ class tst_PlantFeed : public QObject
 
 private Q_SLOTS:
     void aFedPlantHasStateAndNextAction();
-    void valuesArriveWithThoseThatAreLeftOut();
+    void omittedValuesKeepTheirLastValue();
     void rowsFollowTheWallClock_data();
     void rowsFollowTheWallClock();
     void aPauseInterruptsTheCurves();
-    void nothingIsTakenWithoutAConnection();
+    void feedIsIgnoredWithoutConnection();
     void commandsGoOutAndAreDone();
     void theStoreStaysOverLostConnections();
 };
@@ -70,7 +70,7 @@ void tst_PlantFeed::aFedPlantHasStateAndNextAction()
     QCOMPARE(fed.plant->nextAction(), Plant::NoAction);
 }
 
-void tst_PlantFeed::valuesArriveWithThoseThatAreLeftOut()
+void tst_PlantFeed::omittedValuesKeepTheirLastValue()
 {
     FedPlant fed;
     fed.feed().started();
@@ -134,7 +134,7 @@ void tst_PlantFeed::aPauseInterruptsTheCurves()
     QCOMPARE(store->time(5), begin + 3000 * millisecond);
 }
 
-void tst_PlantFeed::nothingIsTakenWithoutAConnection()
+void tst_PlantFeed::feedIsIgnoredWithoutConnection()
 {
     PlantList plants;
     Plant *plant = plants.addFed(QStringLiteral("fed"));

@@ -14,12 +14,12 @@ private Q_SLOTS:
     void init();
     void cleanup();
     void anOperatorInitializesArmsAndStarts();
-    void withoutArmingAnOperatorStarts();
+    void operatorStartsDirectlyWhenArmingIsNotRequired();
     void anObserverSeesAndMayStopAndNothingElse();
-    void whoIsNotKnownIsTold();
+    void unknownIdentityIsReported();
     void aPlainAndASecuredPlantAreInOneWindow();
-    void anAddressThatCannotBeUsedIsTold_data();
-    void anAddressThatCannotBeUsedIsTold();
+    void unusableAddressIsReported_data();
+    void unusableAddressIsReported();
 
 private:
     /// Presses the one next thing to do when it is \a text.
@@ -69,7 +69,7 @@ void tst_SecuredPlant::anOperatorInitializesArmsAndStarts()
     QVERIFY(m_master->waitForState(QPlcMasterNode::Off));
 }
 
-void tst_SecuredPlant::withoutArmingAnOperatorStarts()
+void tst_SecuredPlant::operatorStartsDirectlyWhenArmingIsNotRequired()
 {
     m_master->setArmingRequired(false);
     QPlcSecurity::setCurrent(m_files.anna());
@@ -93,7 +93,7 @@ void tst_SecuredPlant::anObserverSeesAndMayStopAndNothingElse()
     QVERIFY(m_master->waitForState(QPlcMasterNode::Off));
 }
 
-void tst_SecuredPlant::whoIsNotKnownIsTold()
+void tst_SecuredPlant::unknownIdentityIsReported()
 {
     QPlcSecurity::setCurrent(m_files.of(QStringLiteral("mallory"), 'f'));
     WindowFixture fixture;
@@ -128,7 +128,7 @@ void tst_SecuredPlant::aPlainAndASecuredPlantAreInOneWindow()
     QCOMPARE(m_master->state(), QPlcMasterNode::Off);
 }
 
-void tst_SecuredPlant::anAddressThatCannotBeUsedIsTold_data()
+void tst_SecuredPlant::unusableAddressIsReported_data()
 {
     QTest::addColumn<QString>("query");
     QTest::addColumn<QString>("sentence");
@@ -140,7 +140,7 @@ void tst_SecuredPlant::anAddressThatCannotBeUsedIsTold_data()
                                   << "/nowhere/anna.ini";
 }
 
-void tst_SecuredPlant::anAddressThatCannotBeUsedIsTold()
+void tst_SecuredPlant::unusableAddressIsReported()
 {
     QFETCH(QString, query);
     QFETCH(QString, sentence);

@@ -28,29 +28,29 @@ class tst_SeveralPlants : public QObject
 
 private Q_SLOTS:
     void init() { m_settings = std::make_unique<TestSettings>(); }
-    void withOnePlantNothingIsSaid();
+    void badgesAreHiddenWithOnePlant();
     void panelsFollowTheSelectedPlantAndNameIt();
     void aQualifiedOrPinnedPanelStaysWithItsPlant();
-    void aPanelIsPinnedByItsMenuAndThatIsUndone();
-    void aPanelSaysWhichPlantItMissesInsteadOfShowingAnotherOne();
-    void whatIsTypedForOnePlantIsNotSentToTheNext();
-    void whatIsHeldEndsInItsOwnPlant();
-    void keysEndInTheirOwnPlant();
-    void controlIsTakenOfThePlantThatIsShown();
-    void stopMeansThePlantThatAPersonControls();
-    void escEscMeansThePlantThatAPersonControls();
+    void panelMenuPinsThePanelAsAnUndoStep();
+    void panelNamesItsMissingPlantAndShowsNoOther();
+    void typedValueIsNotSentToTheNextPlant();
+    void heldButtonIsReleasedInItsOwnPlant();
+    void heldKeysAreReleasedInTheirOwnPlant();
+    void controlIsAcquiredFromTheShownPlant();
+    void stopActsOnTheControlledPlant();
+    void escapeTwiceStopsTheControlledPlant();
     void stopNeverMovesToAnotherPlantWhenTheControlledOneIsLost();
-    void withSeveralControlledPlantsStopAsks();
-    void theAnswerToAQuestionSaysHowItWasGiven();
-    void aBadgeThatHasRoomIsReadWhole();
-    void theKeyOfABannerIsThatOfTheSelectedPlant();
+    void stopAsksWhenSeveralPlantsAreControlled();
+    void stopReasonRecordsHowTheQuestionWasAnswered();
+    void badgeIsNotElidedWhenItFits();
+    void resetKeyBelongsToTheSelectedPlant();
     void histogramsFollowTheSelectedPlant();
 
 private:
     std::unique_ptr<TestSettings> m_settings;
 };
 
-void tst_SeveralPlants::withOnePlantNothingIsSaid()
+void tst_SeveralPlants::badgesAreHiddenWithOnePlant()
 {
     TwoPlants fixture;
     QPlcSetter *setter = fixture.addSetter(setpoint, number);
@@ -107,7 +107,7 @@ void tst_SeveralPlants::aQualifiedOrPinnedPanelStaysWithItsPlant()
     QCOMPARE(fixture.southTap.commands().size(), 0);
 }
 
-void tst_SeveralPlants::aPanelIsPinnedByItsMenuAndThatIsUndone()
+void tst_SeveralPlants::panelMenuPinsThePanelAsAnUndoStep()
 {
     TwoPlants fixture;
     QPlcSetter *setter = fixture.addSetter(setpoint, number);
@@ -124,7 +124,7 @@ void tst_SeveralPlants::aPanelIsPinnedByItsMenuAndThatIsUndone()
     QCOMPARE(TwoPlants::badgeOf(setter), QStringLiteral("north"));
 }
 
-void tst_SeveralPlants::aPanelSaysWhichPlantItMissesInsteadOfShowingAnotherOne()
+void tst_SeveralPlants::panelNamesItsMissingPlantAndShowsNoOther()
 {
     TwoPlants fixture;
     QPlcSetter *setter = fixture.addSetter(setpoint, number, QStringLiteral("east"));
@@ -133,7 +133,7 @@ void tst_SeveralPlants::aPanelSaysWhichPlantItMissesInsteadOfShowingAnotherOne()
     QVERIFY(!setter->findChild<QLineEdit *>()->isEnabled());
 }
 
-void tst_SeveralPlants::whatIsTypedForOnePlantIsNotSentToTheNext()
+void tst_SeveralPlants::typedValueIsNotSentToTheNextPlant()
 {
     TwoPlants fixture;
     QPlcSetter *setter = fixture.addSetter(setpoint, number);
@@ -147,7 +147,7 @@ void tst_SeveralPlants::whatIsTypedForOnePlantIsNotSentToTheNext()
     QVERIFY(fixture.south.valueOf(setpoint) != 7.5);
 }
 
-void tst_SeveralPlants::whatIsHeldEndsInItsOwnPlant()
+void tst_SeveralPlants::heldButtonIsReleasedInItsOwnPlant()
 {
     TwoPlants fixture;
     QPlcSetter *setter = fixture.addSetter(setpoint, momentary);
@@ -164,7 +164,7 @@ void tst_SeveralPlants::whatIsHeldEndsInItsOwnPlant()
     QCOMPARE(fixture.southTap.commands().size(), 0);
 }
 
-void tst_SeveralPlants::keysEndInTheirOwnPlant()
+void tst_SeveralPlants::heldKeysAreReleasedInTheirOwnPlant()
 {
     TwoPlants fixture;
     QPlcKeyboardControl *keyboard = fixture.addKeyboard();
@@ -183,7 +183,7 @@ void tst_SeveralPlants::keysEndInTheirOwnPlant()
     QVERIFY(labelsOf(keyboard).contains(QStringLiteral("south: ")));
 }
 
-void tst_SeveralPlants::controlIsTakenOfThePlantThatIsShown()
+void tst_SeveralPlants::controlIsAcquiredFromTheShownPlant()
 {
     TwoPlants fixture;
     QPlcSetter *setter = fixture.addSetter(echo, number);
@@ -194,7 +194,7 @@ void tst_SeveralPlants::controlIsTakenOfThePlantThatIsShown()
     QCOMPARE(fixture.northTap.commands().size(), 0);
 }
 
-void tst_SeveralPlants::stopMeansThePlantThatAPersonControls()
+void tst_SeveralPlants::stopActsOnTheControlledPlant()
 {
     TwoPlants fixture;
     QPlcSetter *setter = fixture.addSetter(QStringLiteral("south/echo"), number);
@@ -212,7 +212,7 @@ void tst_SeveralPlants::stopMeansThePlantThatAPersonControls()
     QCOMPARE(fixture.northTap.commands().size(), 0);
 }
 
-void tst_SeveralPlants::escEscMeansThePlantThatAPersonControls()
+void tst_SeveralPlants::escapeTwiceStopsTheControlledPlant()
 {
     TwoPlants fixture;
     QPlcSetter *setter = fixture.addSetter(QStringLiteral("south/echo"), number);
@@ -252,7 +252,7 @@ void tst_SeveralPlants::stopNeverMovesToAnotherPlantWhenTheControlledOneIsLost()
     QTRY_COMPARE_WITH_TIMEOUT(fixture.north.state(), QPlcMasterNode::Off, patience);
 }
 
-void tst_SeveralPlants::theAnswerToAQuestionSaysHowItWasGiven()
+void tst_SeveralPlants::stopReasonRecordsHowTheQuestionWasAnswered()
 {
     TwoPlants fixture;
     QPlcSetter *ofNorth = fixture.addSetter(QStringLiteral("north/echo"), number);
@@ -268,7 +268,7 @@ void tst_SeveralPlants::theAnswerToAQuestionSaysHowItWasGiven()
 }
 
 /// Letters have widths that are no whole pixels.
-void tst_SeveralPlants::aBadgeThatHasRoomIsReadWhole()
+void tst_SeveralPlants::badgeIsNotElidedWhenItFits()
 {
     PanelTitleBar title;
     title.resize(600, 24);
@@ -287,7 +287,7 @@ void tst_SeveralPlants::aBadgeThatHasRoomIsReadWhole()
     }
 }
 
-void tst_SeveralPlants::withSeveralControlledPlantsStopAsks()
+void tst_SeveralPlants::stopAsksWhenSeveralPlantsAreControlled()
 {
     TwoPlants fixture;
     QPlcSetter *ofNorth = fixture.addSetter(QStringLiteral("north/echo"), number);
@@ -321,7 +321,7 @@ void tst_SeveralPlants::withSeveralControlledPlantsStopAsks()
     QTRY_VERIFY_WITH_TIMEOUT(question->isHidden(), patience);
 }
 
-void tst_SeveralPlants::theKeyOfABannerIsThatOfTheSelectedPlant()
+void tst_SeveralPlants::resetKeyBelongsToTheSelectedPlant()
 {
     TwoPlants fixture;
     QVERIFY(fixture.isReady());

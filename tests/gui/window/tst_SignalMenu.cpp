@@ -99,23 +99,23 @@ class tst_SignalMenu : public QObject
 
 private Q_SLOTS:
     void init() { m_settings = std::make_unique<TestSettings>(); }
-    void theMenuSaysAllThatCanBeDone();
-    void signalsGoWhereTheMenuSays_data();
-    void signalsGoWhereTheMenuSays();
-    void theMenuGoesByKeysAlone();
-    void keysOfTheMenuWorkWithoutIt_data() { signalsGoWhereTheMenuSays_data(); }
-    void keysOfTheMenuWorkWithoutIt();
+    void menuListsAllPossibleActions();
+    void menuEntriesPlaceTheSignal_data();
+    void menuEntriesPlaceTheSignal();
+    void menuWorksByKeyboard();
+    void menuKeysWorkWithoutOpeningTheMenu_data() { menuEntriesPlaceTheSignal_data(); }
+    void menuKeysWorkWithoutOpeningTheMenu();
     void theCurrentPanelIsTheOneThatHadTheKeyboardLast();
-    void theCurrentPanelTakesTheSignal();
-    void whatTheMasterMeasuresHasNoSetter();
-    void withoutASignalNothingIsOffered();
+    void currentPanelAcceptsTheSignal();
+    void signalsOfTheMasterHaveNoSetter();
+    void menuDisablesSignalEntriesWithoutASignal();
     void aTreeInAPanelHasTheMenuToo();
 
 private:
     std::unique_ptr<TestSettings> m_settings;
 };
 
-void tst_SignalMenu::theMenuSaysAllThatCanBeDone()
+void tst_SignalMenu::menuListsAllPossibleActions()
 {
     MenuFixture fixture;
     QVERIFY(fixture.isReady);
@@ -149,7 +149,7 @@ void tst_SignalMenu::theMenuSaysAllThatCanBeDone()
     QVERIFY(fixture.rows->hasFocus());
 }
 
-void tst_SignalMenu::signalsGoWhereTheMenuSays_data()
+void tst_SignalMenu::menuEntriesPlaceTheSignal_data()
 {
     QTest::addColumn<QString>("text");
     QTest::addColumn<QString>("layout");
@@ -171,7 +171,7 @@ void tst_SignalMenu::signalsGoWhereTheMenuSays_data()
     row("Into a new tab", "H[panel1 V[panel2 panel3]] | panel4", "Time plot", "T");
 }
 
-void tst_SignalMenu::signalsGoWhereTheMenuSays()
+void tst_SignalMenu::menuEntriesPlaceTheSignal()
 {
     QFETCH(QString, text);
     QFETCH(QString, layout);
@@ -189,7 +189,7 @@ void tst_SignalMenu::signalsGoWhereTheMenuSays()
     QVERIFY(fixture.editor->layout() == threePanels());
 }
 
-void tst_SignalMenu::theMenuGoesByKeysAlone()
+void tst_SignalMenu::menuWorksByKeyboard()
 {
     MenuFixture fixture;
     QVERIFY(fixture.isReady);
@@ -207,7 +207,7 @@ void tst_SignalMenu::theMenuGoesByKeysAlone()
     fixture.closeMenu();
 }
 
-void tst_SignalMenu::keysOfTheMenuWorkWithoutIt()
+void tst_SignalMenu::menuKeysWorkWithoutOpeningTheMenu()
 {
     QFETCH(QString, layout);
     QFETCH(QStringList, types);
@@ -248,7 +248,7 @@ void tst_SignalMenu::theCurrentPanelIsTheOneThatHadTheKeyboardLast()
     QCOMPARE(described(fixture.editor->layout()), QStringLiteral("H[panel1 V[panel2 panel4]] | panel5"));
 }
 
-void tst_SignalMenu::theCurrentPanelTakesTheSignal()
+void tst_SignalMenu::currentPanelAcceptsTheSignal()
 {
     MenuFixture fixture;
     QVERIFY(fixture.isReady);
@@ -262,7 +262,7 @@ void tst_SignalMenu::theCurrentPanelTakesTheSignal()
     QCOMPARE(fixture.newPanels(), QStringList());
 }
 
-void tst_SignalMenu::whatTheMasterMeasuresHasNoSetter()
+void tst_SignalMenu::signalsOfTheMasterHaveNoSetter()
 {
     MenuFixture fixture;
     QVERIFY(fixture.isReady);
@@ -275,7 +275,7 @@ void tst_SignalMenu::whatTheMasterMeasuresHasNoSetter()
     QVERIFY(fixture.entry(menu, "Show as a gauge")->isEnabled());
 }
 
-void tst_SignalMenu::withoutASignalNothingIsOffered()
+void tst_SignalMenu::menuDisablesSignalEntriesWithoutASignal()
 {
     MenuFixture fixture;
     QVERIFY(fixture.isReady);

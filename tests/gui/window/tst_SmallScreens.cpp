@@ -26,7 +26,7 @@ private Q_SLOTS:
     void everythingIsReachedOnASmallScreen_data();
     void everythingIsReachedOnASmallScreen();
     void theBarHasRoomForLongNamesAndForControl();
-    void whoControlsIsReadOnASmallScreen();
+    void controlNoticeIsReadableOnASmallScreen();
 
 private:
     std::unique_ptr<TestSettings> m_settings;
@@ -99,7 +99,7 @@ void tst_SmallScreens::theBarHasRoomForLongNamesAndForControl()
         QVERIFY2(placeOf(parts[i]).right() < placeOf(parts[i + 1]).left(), qPrintable(parts[i]->objectName()));
 }
 
-void tst_SmallScreens::whoControlsIsReadOnASmallScreen()
+void tst_SmallScreens::controlNoticeIsReadableOnASmallScreen()
 {
     FlyingMaster master;
     WindowFixture fixture;

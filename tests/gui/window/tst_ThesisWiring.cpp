@@ -144,13 +144,13 @@ class tst_ThesisWiring : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void theWiringOfTheThesisFlies();
+    void wiringOfTheThesisWorks();
     void aRefusedConnectionIsSeenInTheWindow();
-    void aWiredPlantHasTheNameThatItsProgramSays();
+    void wiredPlantHasTheNameSetByItsProgram();
     void aTableThatIsReadLaterIsThatOfTheWiredPlant();
 };
 
-void tst_ThesisWiring::theWiringOfTheThesisFlies()
+void tst_ThesisWiring::wiringOfTheThesisWorks()
 {
     QTemporaryDir folder;
     QCoreApplication::setOrganizationName(QStringLiteral("QtPlcTest"));
@@ -226,7 +226,7 @@ void tst_ThesisWiring::aRefusedConnectionIsSeenInTheWindow()
     QVERIFY2(strip->error().contains(QStringLiteral("TimeoutError")), qPrintable(strip->error()));
 }
 
-void tst_ThesisWiring::aWiredPlantHasTheNameThatItsProgramSays()
+void tst_ThesisWiring::wiredPlantHasTheNameSetByItsProgram()
 {
     QPlcSignalIndexTable::setCurrent(testTable());
     QPlcControlCenter nameless;

@@ -37,7 +37,7 @@ private Q_SLOTS:
     void fiveEventsAreSeenInTheDefaultLayout();
     void theLogIsInTheOrderOfTime();
     void startsAndStopsAreOnTheBottomLine();
-    void aPersonHasOneNameInEventsAndLeases();
+    void eventsAndLeasesUseTheSamePersonName();
 
 private:
     std::unique_ptr<TestSettings> m_settings;
@@ -97,7 +97,7 @@ void tst_WindowEvents::startsAndStopsAreOnTheBottomLine()
     QVERIFY2(line->detail().contains(PlantLeases::whoever()), qPrintable(line->detail()));
 }
 
-void tst_WindowEvents::aPersonHasOneNameInEventsAndLeases()
+void tst_WindowEvents::eventsAndLeasesUseTheSamePersonName()
 {
     FlyingMaster master;
     QVERIFY(master.startRealTime());

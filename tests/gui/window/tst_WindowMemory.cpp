@@ -29,12 +29,12 @@ class tst_WindowMemory : public QObject
 private Q_SLOTS:
     void init() { m_settings = std::make_unique<TestSettings>(); }
     void settingsHaveTheFolderOfTheOrganization();
-    void settingsOfUnknownOrganizationAreTakenOverOnce();
-    void anotherOrganizationTakesNothingOver();
-    void savingSaysWhere();
+    void settingsOfUnknownOrganizationAreMigratedOnce();
+    void namedOrganizationMigratesNoSettings();
+    void eventLineShowsTheSavedFile();
     void documentsAreFoundWhereTheyAreInstalledAndInTheSourceTree();
     void helpShowsTheDocuments();
-    void helpSaysVersionAndLicences();
+    void helpShowsVersionAndLicences();
 
 private:
     std::unique_ptr<TestSettings> m_settings;
@@ -50,7 +50,7 @@ void tst_WindowMemory::settingsHaveTheFolderOfTheOrganization()
     QVERIFY(!WindowSettings().fileName().contains(QLatin1String("Unknown")));
 }
 
-void tst_WindowMemory::settingsOfUnknownOrganizationAreTakenOverOnce()
+void tst_WindowMemory::settingsOfUnknownOrganizationAreMigratedOnce()
 {
     QCoreApplication::setOrganizationName({});
     {
@@ -67,7 +67,7 @@ void tst_WindowMemory::settingsOfUnknownOrganizationAreTakenOverOnce()
     QCOMPARE(WindowSettings().value(QStringLiteral("ControlCenter/theme")).toString(), QStringLiteral("Dark"));
 }
 
-void tst_WindowMemory::anotherOrganizationTakesNothingOver()
+void tst_WindowMemory::namedOrganizationMigratesNoSettings()
 {
     QCoreApplication::setOrganizationName({});
     QSettings().setValue(QStringLiteral("ControlCenter/theme"), QStringLiteral("Sunlight"));
@@ -75,7 +75,7 @@ void tst_WindowMemory::anotherOrganizationTakesNothingOver()
     QVERIFY(!WindowSettings().contains(QStringLiteral("ControlCenter/theme")));
 }
 
-void tst_WindowMemory::savingSaysWhere()
+void tst_WindowMemory::eventLineShowsTheSavedFile()
 {
     QTemporaryDir folder;
     const QString fileName = folder.filePath(QStringLiteral("mine.json"));
@@ -123,7 +123,7 @@ void tst_WindowMemory::helpShowsTheDocuments()
     QVERIFY(help->browser()->toPlainText().startsWith(QLatin1String("The Control Center")));
 }
 
-void tst_WindowMemory::helpSaysVersionAndLicences()
+void tst_WindowMemory::helpShowsVersionAndLicences()
 {
     WindowFixture fixture;
     fixture.action("Version and licences")->trigger();

@@ -29,29 +29,29 @@ class tst_WindowParts : public QObject
 
 private Q_SLOTS:
     void init() { m_settings = std::make_unique<TestSettings>(); }
-    void lettersInOrderFitAndOthersDoNot();
-    void wholeRunsAndBeginsOfWordsFitBest();
+    void fuzzySearchMatchesLettersInOrder();
+    void fuzzySearchPrefersRunsAndWordStarts();
     void thePaletteShowsTheBestFirstAndNotTooMany();
-    void addressesAreJudgedBeforeAnybodyConnects();
-    void recentMastersAreNewestFirstAndFew();
-    void escapeTwiceIsHeardAndOnceIsNot();
-    void onePressOfEscapeIsOneHoweverLongItTakes_data();
-    void onePressOfEscapeIsOneHoweverLongItTakes();
+    void addressesAreValidatedBeforeConnecting();
+    void recentMastersAreLimitedAndNewestFirst();
+    void doublePressOfEscapeIsDetectedAndASinglePressIsNot();
+    void slowlyHandledEscapeCountsOnce_data();
+    void slowlyHandledEscapeCountsOnce();
     void escapeTwiceIsJudgedByWhenItWasPressed();
-    void aLayoutWithAnErrorIsNotTakenAndSaysWhere();
+    void invalidLayoutIsRefusedWithTheErrorPosition();
     void theFirstLayoutIsTheDefault();
     void theDefaultLayoutHasSignalsAndRealTime();
     void droppedSignalsBecomeAPlotAtTheZone();
-    void spansAreWrittenAsPeopleSayThem();
+    void timeSpansHaveReadableUnits();
     void violationsAreNewForTenSeconds();
-    void theBarTellsOfLossOnTheLink();
-    void theBarTellsHowAPlantIs();
+    void barShowsDelayAndLossOfTheLink();
+    void barShowsTheConditionOfAPlant();
 
 private:
     std::unique_ptr<TestSettings> m_settings;
 };
 
-void tst_WindowParts::lettersInOrderFitAndOthersDoNot()
+void tst_WindowParts::fuzzySearchMatchesLettersInOrder()
 {
     QVERIFY(fuzzyScore(QStringLiteral("tsp"), QStringLiteral("tetherSpeed")) > 0);
     QVERIFY(fuzzyScore(QStringLiteral("SPEED teth"), QStringLiteral("tetherSpeed")) > 0);
@@ -62,7 +62,7 @@ void tst_WindowParts::lettersInOrderFitAndOthersDoNot()
     QVERIFY(fuzzyScore(QString(200, QLatin1Char('a')), QStringLiteral("aaa")) < 0);
 }
 
-void tst_WindowParts::wholeRunsAndBeginsOfWordsFitBest()
+void tst_WindowParts::fuzzySearchPrefersRunsAndWordStarts()
 {
     const QString pattern = QStringLiteral("sp");
     const auto score = [&](const char *text) { return fuzzyScore(pattern, QString::fromLatin1(text)); };
@@ -84,7 +84,7 @@ void tst_WindowParts::thePaletteShowsTheBestFirstAndNotTooMany()
     QVERIFY(CommandPalette::matches({}, QStringLiteral("start"), 10).isEmpty());
 }
 
-void tst_WindowParts::addressesAreJudgedBeforeAnybodyConnects()
+void tst_WindowParts::addressesAreValidatedBeforeConnecting()
 {
     for (const char *good :
          {"127.0.0.1:50000", "qtplc://127.0.0.1:1", "[::1]:50000", "winch.local", "udp://10.0.0.1:3", "localhost"})
@@ -93,7 +93,7 @@ void tst_WindowParts::addressesAreJudgedBeforeAnybodyConnects()
         QVERIFY2(!ConnectStrip::errorOf(QString::fromLatin1(bad)).isEmpty(), bad);
 }
 
-void tst_WindowParts::recentMastersAreNewestFirstAndFew()
+void tst_WindowParts::recentMastersAreLimitedAndNewestFirst()
 {
     RecentMasters recent;
     QVERIFY(recent.addresses().isEmpty());
@@ -105,7 +105,7 @@ void tst_WindowParts::recentMastersAreNewestFirstAndFew()
              (QStringList{QStringLiteral("9"), QStringLiteral("11"), QStringLiteral("10")}));
 }
 
-void tst_WindowParts::escapeTwiceIsHeardAndOnceIsNot()
+void tst_WindowParts::doublePressOfEscapeIsDetectedAndASinglePressIsNot()
 {
     DoubleEscape escape;
     QSignalSpy pressed(&escape, &DoubleEscape::pressed);
@@ -127,14 +127,14 @@ void tst_WindowParts::escapeTwiceIsHeardAndOnceIsNot()
     QCOMPARE(pressed.count(), 1);
 }
 
-void tst_WindowParts::onePressOfEscapeIsOneHoweverLongItTakes_data()
+void tst_WindowParts::slowlyHandledEscapeCountsOnce_data()
 {
     QTest::addColumn<ulong>("time");
     QTest::newRow("of a keyboard") << 1000UL;
     QTest::newRow("of a program") << 0UL;
 }
 
-void tst_WindowParts::onePressOfEscapeIsOneHoweverLongItTakes()
+void tst_WindowParts::slowlyHandledEscapeCountsOnce()
 {
     QFETCH(ulong, time);
     /// Whoever gets the key first takes his time.
@@ -171,7 +171,7 @@ void tst_WindowParts::escapeTwiceIsJudgedByWhenItWasPressed()
     QTRY_COMPARE(pressed.count(), 1);
 }
 
-void tst_WindowParts::aLayoutWithAnErrorIsNotTakenAndSaysWhere()
+void tst_WindowParts::invalidLayoutIsRefusedWithTheErrorPosition()
 {
     LayoutEditor editor;
     LayoutShelf shelf(&editor);
@@ -242,7 +242,7 @@ void tst_WindowParts::droppedSignalsBecomeAPlotAtTheZone()
     QVERIFY(panels().empty());
 }
 
-void tst_WindowParts::spansAreWrittenAsPeopleSayThem()
+void tst_WindowParts::timeSpansHaveReadableUnits()
 {
     QCOMPARE(spanText(200'000), QStringLiteral("0.2 ms"));
     QCOMPARE(spanText(30'000'000'000), QStringLiteral("30 s"));
@@ -274,7 +274,7 @@ void tst_WindowParts::violationsAreNewForTenSeconds()
     QCOMPARE(watch.total(), quint64(2));
 }
 
-void tst_WindowParts::theBarTellsOfLossOnTheLink()
+void tst_WindowParts::barShowsDelayAndLossOfTheLink()
 {
     QCOMPARE(linkText(164e3, 0), QStringLiteral("link 164 µs"));
     QCOMPARE(linkText(12.3e6, 7), QStringLiteral("link 12.3 ms, 7 lost"));
@@ -287,7 +287,7 @@ void tst_WindowParts::theBarTellsOfLossOnTheLink()
     QCOMPARE(plant->ownNode()->info.name, QStringLiteral("Window"));
 }
 
-void tst_WindowParts::theBarTellsHowAPlantIs()
+void tst_WindowParts::barShowsTheConditionOfAPlant()
 {
     QCOMPARE(StateStep::of(nullptr, false).step, StateStep::None);
     PlantList plants;

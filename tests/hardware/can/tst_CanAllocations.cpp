@@ -9,10 +9,10 @@ class tst_CanAllocations : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void cyclesNeitherTakeMemoryNorLocks();
+    void cyclesAllocateNothingAndLockNothing();
 };
 
-void tst_CanAllocations::cyclesNeitherTakeMemoryNorLocks()
+void tst_CanAllocations::cyclesAllocateNothingAndLockNothing()
 {
     if (!ThreadCosts::areCounted())
         QSKIP("a sanitizer owns the functions of the C library");

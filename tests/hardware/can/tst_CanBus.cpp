@@ -92,27 +92,27 @@ class tst_CanBus : public QObject
 private Q_SLOTS:
     void init();
     void cleanup();
-    void textThatNamesNoBusIsRefused_data();
-    void textThatNamesNoBusIsRefused();
+    void invalidBusNameIsRefused_data();
+    void invalidBusNameIsRefused();
     void missingInterfaceIsNamed();
     void frameGoesToAllOthersUnchanged_data() { addBuses(); }
     void frameGoesToAllOthersUnchanged();
-    void busesOfOtherNamesHearNothing();
-    void onlyWantedMessagesComeIn_data() { addBuses(); }
-    void onlyWantedMessagesComeIn();
+    void frameStaysOnItsOwnBus();
+    void filterPassesOnlySelectedMessages_data() { addBuses(); }
+    void filterPassesOnlySelectedMessages();
     void framesStayInOrder_data() { addBuses(); }
     void framesStayInOrder();
     void slowReceiverLosesNothingThatFits();
-    void whatDoesNotFitIsCountedByTheReceiver();
-    void whoJoinsLaterHearsNothingOfBefore();
-    void placeOfTheDeadIsTaken();
+    void receiverCountsFramesThatDoNotFit();
+    void lateParticipantReceivesNoEarlierFrames();
+    void placeOfKilledParticipantIsReused();
     void tooManyParticipantsAreRefused();
     void folderWithALongNameIsRefused();
-    void errorFramesTellTheState_data() { addBuses(); }
-    void errorFramesTellTheState();
+    void errorFramesSetTheControllerState_data() { addBuses(); }
+    void errorFramesSetTheControllerState();
     void overflowOfTheControllerIsALoss_data() { addBuses(); }
     void overflowOfTheControllerIsALoss();
-    void anotherProcessAnswers();
+    void processesExchangeFramesOverTheBus();
     void stampsFollowTheMonotonicClock();
     void stampsSurviveAStepOfTheWallClock();
     void virtualPluginCarriesFrames();
@@ -133,7 +133,7 @@ void tst_CanBus::cleanup()
     qunsetenv("QTPLC_FAKE_DEVICES");
 }
 
-void tst_CanBus::textThatNamesNoBusIsRefused_data()
+void tst_CanBus::invalidBusNameIsRefused_data()
 {
     QTest::addColumn<QString>("error");
     const auto row = [](const char *device, const char *error) { QTest::newRow(device) << QString::fromLatin1(error); };
@@ -146,7 +146,7 @@ void tst_CanBus::textThatNamesNoBusIsRefused_data()
     row("qtcan:peakcan", "'qtcan:peakcan");
 }
 
-void tst_CanBus::textThatNamesNoBusIsRefused()
+void tst_CanBus::invalidBusNameIsRefused()
 {
     QFETCH(QString, error);
     QString message;
@@ -190,7 +190,7 @@ void tst_CanBus::frameGoesToAllOthersUnchanged()
     QCOMPARE(b->counters().received, quint64(1));
 }
 
-void tst_CanBus::busesOfOtherNamesHearNothing()
+void tst_CanBus::frameStaysOnItsOwnBus()
 {
     const auto a = join(testBus);
     const auto b = join(QStringLiteral("fake:other"));
@@ -199,7 +199,7 @@ void tst_CanBus::busesOfOtherNamesHearNothing()
     QVERIFY(receiveAll(*b).empty());
 }
 
-void tst_CanBus::onlyWantedMessagesComeIn()
+void tst_CanBus::filterPassesOnlySelectedMessages()
 {
     QFETCH(QString, device);
     CanBus::Options options;
@@ -260,7 +260,7 @@ void tst_CanBus::slowReceiverLosesNothingThatFits()
     QCOMPARE(b->counters().lost, quint64(0));
 }
 
-void tst_CanBus::whatDoesNotFitIsCountedByTheReceiver()
+void tst_CanBus::receiverCountsFramesThatDoNotFit()
 {
     const auto a = join(testBus);
     const auto b = join(testBus);
@@ -278,7 +278,7 @@ void tst_CanBus::whatDoesNotFitIsCountedByTheReceiver()
     QCOMPARE(received + b->counters().lost, quint64(10000));
 }
 
-void tst_CanBus::whoJoinsLaterHearsNothingOfBefore()
+void tst_CanBus::lateParticipantReceivesNoEarlierFrames()
 {
     const auto a = join(testBus);
     auto b = join(testBus);
@@ -295,7 +295,7 @@ void tst_CanBus::whoJoinsLaterHearsNothingOfBefore()
     QCOMPARE(frames[0].id, 0x777U);
 }
 
-void tst_CanBus::placeOfTheDeadIsTaken()
+void tst_CanBus::placeOfKilledParticipantIsReused()
 {
     const auto a = join(testBus);
     for (int i = 0; i < FakeCanBus::MaximumPlaces + 2; ++i) {
@@ -330,7 +330,7 @@ void tst_CanBus::folderWithALongNameIsRefused()
              qPrintable(bus->errorString()));
 }
 
-void tst_CanBus::errorFramesTellTheState()
+void tst_CanBus::errorFramesSetTheControllerState()
 {
     QFETCH(QString, device);
     const auto a = join(device);
@@ -370,7 +370,7 @@ void tst_CanBus::overflowOfTheControllerIsALoss()
     QCOMPARE(b->state(), CanBus::Active);
 }
 
-void tst_CanBus::anotherProcessAnswers()
+void tst_CanBus::processesExchangeFramesOverTheBus()
 {
     const auto a = join(testBus);
     QProcess partner;

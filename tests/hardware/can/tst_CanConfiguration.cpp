@@ -8,21 +8,21 @@ class tst_CanConfiguration : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void goodKeysAreTaken_data();
-    void goodKeysAreTaken();
-    void badKeysAreNamed_data();
-    void badKeysAreNamed();
-    void deviceIsNeeded();
-    void bitRateIsThatOfAPlugin_data();
-    void bitRateIsThatOfAPlugin();
-    void errorsOfTheDbcFileAreThoseOfTheConfiguration();
+    void validKeysAreAccepted_data();
+    void validKeysAreAccepted();
+    void invalidKeysAreReported_data();
+    void invalidKeysAreReported();
+    void missingDeviceKeyIsRefused();
+    void bitRateIsAcceptedOnlyForPlugins_data();
+    void bitRateIsAcceptedOnlyForPlugins();
+    void configurationReportsErrorsOfTheDbcFile();
     void unknownChannelsAreRefused_data();
     void unknownChannelsAreRefused();
-    void unsupportedMessageSaysWhy();
-    void onceWiredTwiceTheSame();
+    void unsupportedMessageIsRefusedWithTheReason();
+    void channelMayBeWiredTwice();
 };
 
-void tst_CanConfiguration::goodKeysAreTaken_data()
+void tst_CanConfiguration::validKeysAreAccepted_data()
 {
     QTest::addColumn<QByteArray>("keys");
     for (const char *keys :
@@ -36,14 +36,14 @@ void tst_CanConfiguration::goodKeysAreTaken_data()
         QTest::newRow(QByteArray(keys).replace("\n", " / ")) << QByteArray(keys) + '\n';
 }
 
-void tst_CanConfiguration::goodKeysAreTaken()
+void tst_CanConfiguration::validKeysAreAccepted()
 {
     QFETCH(QByteArray, keys);
     CanBench bench(keys);
     QCOMPARE(bench.driver.errors(), QString());
 }
 
-void tst_CanConfiguration::badKeysAreNamed_data()
+void tst_CanConfiguration::invalidKeysAreReported_data()
 {
     QTest::addColumn<QByteArray>("keys");
     QTest::addColumn<QString>("error");
@@ -76,7 +76,7 @@ void tst_CanConfiguration::badKeysAreNamed_data()
     row("bitrate = 500000", "'fake:bench' has no bit rate; remove the key bitrate");
 }
 
-void tst_CanConfiguration::badKeysAreNamed()
+void tst_CanConfiguration::invalidKeysAreReported()
 {
     QFETCH(QByteArray, keys);
     QFETCH(QString, error);
@@ -85,7 +85,7 @@ void tst_CanConfiguration::badKeysAreNamed()
     QCOMPARE(bench.driver.errors().count(QLatin1Char('\n')), 0);
 }
 
-void tst_CanConfiguration::deviceIsNeeded()
+void tst_CanConfiguration::missingDeviceKeyIsRefused()
 {
     const DriverBench bench("can", "frame.A = 1, 8 bytes\n");
     QVERIFY2(bench.errors().contains(QLatin1String("device")), qPrintable(bench.errors()));
@@ -93,7 +93,7 @@ void tst_CanConfiguration::deviceIsNeeded()
     QVERIFY2(other.errors().contains(QLatin1String("'fake:' does not name a fake bus")), qPrintable(other.errors()));
 }
 
-void tst_CanConfiguration::bitRateIsThatOfAPlugin_data()
+void tst_CanConfiguration::bitRateIsAcceptedOnlyForPlugins_data()
 {
     QTest::addColumn<QByteArray>("keys");
     QTest::addColumn<QString>("error");
@@ -112,7 +112,7 @@ void tst_CanConfiguration::bitRateIsThatOfAPlugin_data()
     row("device = qtcan:socketcan:can1\ndata-bitrate = 2000000", "(ip link set can1 up type can bitrate");
 }
 
-void tst_CanConfiguration::bitRateIsThatOfAPlugin()
+void tst_CanConfiguration::bitRateIsAcceptedOnlyForPlugins()
 {
     QFETCH(QByteArray, keys);
     QFETCH(QString, error);
@@ -123,7 +123,7 @@ void tst_CanConfiguration::bitRateIsThatOfAPlugin()
     QVERIFY2(bench.errors().contains(error), qPrintable(bench.errors()));
 }
 
-void tst_CanConfiguration::errorsOfTheDbcFileAreThoseOfTheConfiguration()
+void tst_CanConfiguration::configurationReportsErrorsOfTheDbcFile()
 {
     const QTemporaryDir folder;
     QFile file(folder.filePath(QStringLiteral("a.dbc")));
@@ -160,7 +160,7 @@ void tst_CanConfiguration::unknownChannelsAreRefused()
     QVERIFY2(message.contains(error), qPrintable(message));
 }
 
-void tst_CanConfiguration::unsupportedMessageSaysWhy()
+void tst_CanConfiguration::unsupportedMessageIsRefusedWithTheReason()
 {
     CanBench bench("frame.A = 1, 8 bytes\nsignal.A.S = m1 0|8@1+\n");
     QCOMPARE(bench.driver.errors(), QString());
@@ -168,7 +168,7 @@ void tst_CanConfiguration::unsupportedMessageSaysWhy()
              QStringLiteral("message 'A' cannot be used: it has multiplexed signals and no multiplexor (M)"));
 }
 
-void tst_CanConfiguration::onceWiredTwiceTheSame()
+void tst_CanConfiguration::channelMayBeWiredTwice()
 {
     CanBench bench("frame.A = 1, 8 bytes\nsignal.A.S = 0|8@1+\n");
     bench.driver.wireRead(QStringLiteral("A.S"));

@@ -26,29 +26,29 @@ class tst_CanDriver : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void valueOfAFrameIsThatOfItsChannel();
+    void channelReturnsTheValueFromItsFrame();
     void newestFrameOfACycleCounts();
-    void valueIsAsOldAsItsFrame();
+    void valueHasTheTimeOfItsFrame();
     void valueIsFreshForThreeCycleTimes();
-    void timeoutOfTheMessageCounts();
+    void messageTimeoutLimitsFreshness();
     void messageWithoutCycleTimeHasTheTimeoutOfTheDriver();
-    void ageGrowsAndCountCounts();
-    void multiplexedValuesComeWithTheirPage();
-    void otherMessagesAreLeftAlone();
+    void ageAndFrameCountIncrease();
+    void multiplexedValueIsReadFromItsPage();
+    void otherMessagesChangeNoValue();
     void tooShortFramesAreCounted();
-    void floodOfFramesIsTakenInOrder();
-    void floodOfFramesBeforeTheFirstCycleLeavesItThoseOfNow();
+    void floodOfFramesIsReadInOrder();
+    void firstCycleAfterAFloodReadsCurrentFrames();
     void lossesAreCounted();
     void stateFollowsTheController();
-    void busOffThatStaysLosesTheDevice();
-    void afterReopeningNothingIsFresh();
+    void lastingBusOffEndsTheConnection();
+    void valuesAreNotFreshAfterReopening();
     void logHasEverythingOnTheBus();
-    void logThatCannotBeWrittenIsToldAndTheBusOpens();
+    void unwritableLogIsReportedAndTheBusOpens();
     void logOfAServiceIsInItsStateFolder();
-    void missingInterfaceIsToldWithARemedy();
+    void missingInterfaceIsReportedWithARemedy();
 };
 
-void tst_CanDriver::valueOfAFrameIsThatOfItsChannel()
+void tst_CanDriver::channelReturnsTheValueFromItsFrame()
 {
     CanBench bench(statusKeys);
     QCOMPARE(bench.driver.wireRead(text("Status.Speed")), QString());
@@ -75,7 +75,7 @@ void tst_CanDriver::newestFrameOfACycleCounts()
     QCOMPARE(bench.driver.value(text("Status.@count")), 3.0);
 }
 
-void tst_CanDriver::valueIsAsOldAsItsFrame()
+void tst_CanDriver::valueHasTheTimeOfItsFrame()
 {
     CanBench bench(statusKeys);
     bench.driver.wireRead(text("Status.Mode"));
@@ -101,7 +101,7 @@ void tst_CanDriver::valueIsFreshForThreeCycleTimes()
     QCOMPARE(bench.driver.value(text("Status.Mode")), 2.0);
 }
 
-void tst_CanDriver::timeoutOfTheMessageCounts()
+void tst_CanDriver::messageTimeoutLimitsFreshness()
 {
     CanBench bench(statusKeys + "timeout.Status = 200 ms\n");
     bench.driver.wireRead(text("Status.Mode"));
@@ -125,7 +125,7 @@ void tst_CanDriver::messageWithoutCycleTimeHasTheTimeoutOfTheDriver()
     QVERIFY(!bench.driver.isFresh(text("A.S")));
 }
 
-void tst_CanDriver::ageGrowsAndCountCounts()
+void tst_CanDriver::ageAndFrameCountIncrease()
 {
     CanBench bench(statusKeys);
     bench.driver.wireRead(text("Status.@age"));
@@ -142,7 +142,7 @@ void tst_CanDriver::ageGrowsAndCountCounts()
     QCOMPARE(bench.driver.value(text("Status.@count")), 1.0);
 }
 
-void tst_CanDriver::multiplexedValuesComeWithTheirPage()
+void tst_CanDriver::multiplexedValueIsReadFromItsPage()
 {
     CanBench bench(
         "frame.T = 5, 3 bytes\nsignal.T.Page = M 0|8@1+\nsignal.T.Motor = m0 8|16@1-\nsignal.T.Inverter = m1 8|16@1-\n"
@@ -162,7 +162,7 @@ void tst_CanDriver::multiplexedValuesComeWithTheirPage()
     QCOMPARE(bench.driver.value(text("T.Page")), 2.0);
 }
 
-void tst_CanDriver::otherMessagesAreLeftAlone()
+void tst_CanDriver::otherMessagesChangeNoValue()
 {
     CanBench bench(statusKeys + "frame.Other = 0x00000123, 4 bytes\nsignal.Other.S = 0|8@1+\n");
     bench.driver.wireRead(text("Status.Mode"));
@@ -190,7 +190,7 @@ void tst_CanDriver::tooShortFramesAreCounted()
     QCOMPARE(bench.driver.value(text("@tooShort")), 1.0);
 }
 
-void tst_CanDriver::floodOfFramesIsTakenInOrder()
+void tst_CanDriver::floodOfFramesIsReadInOrder()
 {
     CanBench bench("frame.A = 1, 2 bytes\nsignal.A.S = 0|16@1+\n");
     bench.driver.wireRead(text("A.S"));
@@ -208,7 +208,7 @@ void tst_CanDriver::floodOfFramesIsTakenInOrder()
     QCOMPARE(bench.driver.value(text("A.S")), 499.0);
 }
 
-void tst_CanDriver::floodOfFramesBeforeTheFirstCycleLeavesItThoseOfNow()
+void tst_CanDriver::firstCycleAfterAFloodReadsCurrentFrames()
 {
     CanBench bench(statusKeys);
     bench.driver.wireRead(text("Status.Mode"));
@@ -266,7 +266,7 @@ void tst_CanDriver::stateFollowsTheController()
     QCOMPARE(bench.driver.value(text("@busOffs")), 1.0);
 }
 
-void tst_CanDriver::busOffThatStaysLosesTheDevice()
+void tst_CanDriver::lastingBusOffEndsTheConnection()
 {
     CanBench bench(statusKeys);
     bench.driver.wireRead(text("Status.Mode"));
@@ -280,7 +280,7 @@ void tst_CanDriver::busOffThatStaysLosesTheDevice()
              qPrintable(bench.driver.errorString()));
 }
 
-void tst_CanDriver::afterReopeningNothingIsFresh()
+void tst_CanDriver::valuesAreNotFreshAfterReopening()
 {
     CanBench bench(statusKeys);
     for (const char *name : {"Status.Mode", "Status.@age", "@state"})
@@ -324,7 +324,7 @@ void tst_CanDriver::logHasEverythingOnTheBus()
     QCOMPARE(lines.at(2).interface, QStringLiteral("fake:bench"));
 }
 
-void tst_CanDriver::logThatCannotBeWrittenIsToldAndTheBusOpens()
+void tst_CanDriver::unwritableLogIsReportedAndTheBusOpens()
 {
     CanBench bench(statusKeys + "log = no/such/folder/drive.log\n");
     bench.driver.wireRead(text("Status.Mode"));
@@ -353,7 +353,7 @@ void tst_CanDriver::logOfAServiceIsInItsStateFolder()
     QVERIFY(!QFile::exists(bench.filePath(QStringLiteral("drive.log"))));
 }
 
-void tst_CanDriver::missingInterfaceIsToldWithARemedy()
+void tst_CanDriver::missingInterfaceIsReportedWithARemedy()
 {
     DriverBench bench("can", "device = nocan7\nframe.A = 1, 8 bytes\n");
     QCOMPARE(bench.errors(), QString());

@@ -11,19 +11,19 @@ class tst_CanLog : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void linesAreThoseOfCandump_data();
-    void linesAreThoseOfCandump();
-    void otherWritersAreRead_data();
-    void otherWritersAreRead();
+    void logLinesHaveCandumpFormat_data();
+    void logLinesHaveCandumpFormat();
+    void logLinesOfOtherProgramsAreRead_data();
+    void logLinesOfOtherProgramsAreRead();
     void errorsNameColumnAndRemedy_data();
     void errorsNameColumnAndRemedy();
-    void fileGivesItsGoodLinesAndItsErrors();
+    void readingReturnsValidLinesAndErrors();
     void writerKeepsOrder();
-    void writerGoesOnAtTheEnd();
+    void writerAppendsToAnExistingLog();
     void writerNamesTheFileThatItCannotWrite();
 };
 
-void tst_CanLog::linesAreThoseOfCandump_data()
+void tst_CanLog::logLinesHaveCandumpFormat_data()
 {
     QTest::addColumn<QByteArray>("text");
     for (const char *text :
@@ -35,7 +35,7 @@ void tst_CanLog::linesAreThoseOfCandump_data()
         QTest::newRow(text) << QByteArray(text);
 }
 
-void tst_CanLog::linesAreThoseOfCandump()
+void tst_CanLog::logLinesHaveCandumpFormat()
 {
     QFETCH(QByteArray, text);
     CanLogLine line;
@@ -44,7 +44,7 @@ void tst_CanLog::linesAreThoseOfCandump()
     QCOMPARE(CanLog::text(line), text + '\n');
 }
 
-void tst_CanLog::otherWritersAreRead_data()
+void tst_CanLog::logLinesOfOtherProgramsAreRead_data()
 {
     QTest::addColumn<QByteArray>("text");
     QTest::addColumn<QByteArray>("same");
@@ -57,7 +57,7 @@ void tst_CanLog::otherWritersAreRead_data()
     row("(1.0) can0 123##5AA T", "(0000000001.000000) can0 123##1AA\n");
 }
 
-void tst_CanLog::otherWritersAreRead()
+void tst_CanLog::logLinesOfOtherProgramsAreRead()
 {
     QFETCH(QByteArray, text);
     QFETCH(QByteArray, same);
@@ -107,7 +107,7 @@ void tst_CanLog::errorsNameColumnAndRemedy()
     QCOMPARE(error.column, column);
 }
 
-void tst_CanLog::fileGivesItsGoodLinesAndItsErrors()
+void tst_CanLog::readingReturnsValidLinesAndErrors()
 {
     QVector<QPlcParseError> errors;
     const auto lines
@@ -142,7 +142,7 @@ void tst_CanLog::writerKeepsOrder()
         QCOMPARE(lines.at(i).frame.id, quint32(i));
 }
 
-void tst_CanLog::writerGoesOnAtTheEnd()
+void tst_CanLog::writerAppendsToAnExistingLog()
 {
     const QTemporaryDir folder;
     const QString name = folder.filePath(QStringLiteral("a.log"));

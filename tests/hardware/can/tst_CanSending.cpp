@@ -35,24 +35,24 @@ private Q_SLOTS:
     void cycleTimeOfTheMessageIsItsPeriod();
     void periodMayBeShorterThanAMillisecond();
     void periodIsKept();
-    void trembleOfTheCycleDoesNotShiftThePeriod();
-    void skippedTimeIsNotMadeUpFor();
+    void cycleJitterDoesNotShiftThePeriod();
+    void skippedSendTimesAreNotRepeated();
     void onChangeSendsWhenBytesChange();
-    void onChangeAndPeriodTogether();
-    void onRequestAnswers();
-    void requestOfOthersIsNoRequest();
-    void safeValuesAreSentAtOnce_data();
-    void safeValuesAreSentAtOnce();
+    void onChangeAndPeriodCanBeCombined();
+    void remoteRequestIsAnswered();
+    void requestsForOtherMessagesAreIgnored();
+    void safeValuesAreSentInTheSameCycle_data();
+    void safeValuesAreSentInTheSameCycle();
     void unwiredSignalsHaveTheirStartValue();
     void multiplexedPagesAreAllSent();
     void wiredMultiplexorChoosesThePage();
     void multiplexorAloneIsSent();
     void saturationIsCounted();
     void messagesKeepTheOrderOfTheWires();
-    void fdFramesAreFdFrames();
+    void longMessageIsSentAsFdFrame();
     void openSendsSafeValues();
-    void whatTheBusDoesNotTakeIsSentAgain();
-    void safeValuesThatTheBusDoesNotTakeAreSentAgainWithoutCycles();
+    void frameRefusedByTheBusIsSentAgain();
+    void refusedSafeValuesAreSentAgainWithoutCycles();
 };
 
 void tst_CanSending::withoutRuleEveryCycleSends()
@@ -113,7 +113,7 @@ void tst_CanSending::periodIsKept()
     QCOMPARE(bench.framesIn(100), 10);
 }
 
-void tst_CanSending::trembleOfTheCycleDoesNotShiftThePeriod()
+void tst_CanSending::cycleJitterDoesNotShiftThePeriod()
 {
     CanBench bench(commandSent("every 10 ms"));
     bench.driver.wireWrite(speed);
@@ -130,7 +130,7 @@ void tst_CanSending::trembleOfTheCycleDoesNotShiftThePeriod()
     }
 }
 
-void tst_CanSending::skippedTimeIsNotMadeUpFor()
+void tst_CanSending::skippedSendTimesAreNotRepeated()
 {
     CanBench bench(commandSent("every 10 ms"));
     bench.driver.wireWrite(speed);
@@ -157,7 +157,7 @@ void tst_CanSending::onChangeSendsWhenBytesChange()
     QCOMPARE(bench.framesIn(5), 1);
 }
 
-void tst_CanSending::onChangeAndPeriodTogether()
+void tst_CanSending::onChangeAndPeriodCanBeCombined()
 {
     CanBench bench(commandSent("on change, every 100 ms"));
     bench.driver.wireWrite(speed);
@@ -169,7 +169,7 @@ void tst_CanSending::onChangeAndPeriodTogether()
     QCOMPARE(bench.framesIn(10), 1);
 }
 
-void tst_CanSending::onRequestAnswers()
+void tst_CanSending::remoteRequestIsAnswered()
 {
     CanBench bench(commandSent("on request"));
     bench.driver.wireWrite(speed);
@@ -183,7 +183,7 @@ void tst_CanSending::onRequestAnswers()
     QCOMPARE(bench.framesIn(5), 1);
 }
 
-void tst_CanSending::requestOfOthersIsNoRequest()
+void tst_CanSending::requestsForOtherMessagesAreIgnored()
 {
     CanBench bench(commandSent("on request"));
     bench.driver.wireWrite(speed);
@@ -195,14 +195,14 @@ void tst_CanSending::requestOfOthersIsNoRequest()
     QCOMPARE(bench.framesIn(5), 0);
 }
 
-void tst_CanSending::safeValuesAreSentAtOnce_data()
+void tst_CanSending::safeValuesAreSentInTheSameCycle_data()
 {
     QTest::addColumn<QByteArray>("rule");
     for (const char *rule : {"every cycle", "every 100 ms", "on change", "on request"})
         QTest::newRow(rule) << QByteArray(rule);
 }
 
-void tst_CanSending::safeValuesAreSentAtOnce()
+void tst_CanSending::safeValuesAreSentInTheSameCycle()
 {
     QFETCH(QByteArray, rule);
     CanBench bench(commandSent(rule));
@@ -310,7 +310,7 @@ void tst_CanSending::messagesKeepTheOrderOfTheWires()
     QCOMPARE(bench.received(), QByteArray("1#01 2#02"));
 }
 
-void tst_CanSending::fdFramesAreFdFrames()
+void tst_CanSending::longMessageIsSentAsFdFrame()
 {
     CanBench bench("frame.F = 0x18FEDFFE, 12 bytes\nsignal.F.S = 88|8@1+\n");
     bench.driver.wireWrite(text("F.S"));
@@ -339,7 +339,7 @@ void tst_CanSending::openSendsSafeValues()
 }
 
 // A bus that is full now and then: seen from the sender alone.
-void tst_CanSending::whatTheBusDoesNotTakeIsSentAgain()
+void tst_CanSending::frameRefusedByTheBusIsSentAgain()
 {
     CanBench bench(commandSent("on change"));
     CanMessage message;
@@ -359,7 +359,7 @@ void tst_CanSending::whatTheBusDoesNotTakeIsSentAgain()
     QCOMPARE(sender.collect(2, &frame), 0);
 }
 
-void tst_CanSending::safeValuesThatTheBusDoesNotTakeAreSentAgainWithoutCycles()
+void tst_CanSending::refusedSafeValuesAreSentAgainWithoutCycles()
 {
     CanBench bench(commandSent("on change"));
     bench.driver.wireWrite(speed);

@@ -40,11 +40,11 @@ class tst_Canmatrix : public QObject
 
 private Q_SLOTS:
     void initTestCase();
-    void allPlacesAreTried();
-    void bytesAreTheSame();
-    void rawValuesAreTheSame();
-    void physicalValuesAreTheSame();
-    void physicalValuesGiveTheSameBytes();
+    void testFileCoversAllSignalLayouts();
+    void bytesMatchCanmatrix();
+    void rawValuesMatchCanmatrix();
+    void physicalValuesMatchCanmatrix();
+    void encodedPhysicalValuesMatchCanmatrix();
 
 private:
     struct Frame
@@ -160,7 +160,7 @@ bool tst_Canmatrix::answer(const QByteArray &questions)
     return true;
 }
 
-void tst_Canmatrix::allPlacesAreTried()
+void tst_Canmatrix::testFileCoversAllSignalLayouts()
 {
     QVERIFY2(m_values >= fewestSignals, qPrintable(QString::number(m_values)));
     QSet<int> kinds;  // length and byte order
@@ -180,7 +180,7 @@ void tst_Canmatrix::allPlacesAreTried()
     qInfo("%d values in %d frames", m_values, int(m_frames.size()));
 }
 
-void tst_Canmatrix::bytesAreTheSame()
+void tst_Canmatrix::bytesMatchCanmatrix()
 {
     for (const Frame &frame : qAsConst(m_frames)) {
         QByteArray data(frame.message->size, '\0');
@@ -190,7 +190,7 @@ void tst_Canmatrix::bytesAreTheSame()
     }
 }
 
-void tst_Canmatrix::rawValuesAreTheSame()
+void tst_Canmatrix::rawValuesMatchCanmatrix()
 {
     int count = 0;
     for (const Frame &frame : qAsConst(m_frames)) {
@@ -212,7 +212,7 @@ void tst_Canmatrix::rawValuesAreTheSame()
 
 // canmatrix computes with 28 decimal digits and rounds once; we round a factor, a product and a
 // sum.
-void tst_Canmatrix::physicalValuesAreTheSame()
+void tst_Canmatrix::physicalValuesMatchCanmatrix()
 {
     constexpr double rounding = 3 * std::numeric_limits<double>::epsilon();
     for (const Frame &frame : qAsConst(m_frames)) {
@@ -232,7 +232,7 @@ void tst_Canmatrix::physicalValuesAreTheSame()
 }
 
 // Raw values of more than 48 bits are not told by a double.
-void tst_Canmatrix::physicalValuesGiveTheSameBytes()
+void tst_Canmatrix::encodedPhysicalValuesMatchCanmatrix()
 {
     int count = 0;
     for (const Frame &frame : qAsConst(m_frames)) {

@@ -12,11 +12,11 @@ class tst_DbcErrors : public QObject
 private Q_SLOTS:
     void errorNamesPlaceAndRemedy_data();
     void errorNamesPlaceAndRemedy();
-    void everyErrorIsTold();
-    void toldErrorsHaveAnEnd();
+    void everyErrorIsReported();
+    void numberOfReportedErrorsIsLimited();
     void missingFileIsNamed();
     void tooLargeFileIsRefused();
-    void cutTextsAreErrorsOrMessages();
+    void truncatedTextGivesErrorsOrMessages();
 };
 
 void tst_DbcErrors::errorNamesPlaceAndRemedy_data()
@@ -95,7 +95,7 @@ void tst_DbcErrors::errorNamesPlaceAndRemedy()
     QCOMPARE(errors.size(), 1);
 }
 
-void tst_DbcErrors::everyErrorIsTold()
+void tst_DbcErrors::everyErrorIsReported()
 {
     QVector<QPlcParseError> errors;
     DbcFile::fromText("BO_ x\nBO_ 1 A: 8 X\n SG_ S 0\n SG_ T : 0|8@1+ (1,0) [0|0] \"\" X\nBO_ 1 B: 8 X\n", QString(),
@@ -106,7 +106,7 @@ void tst_DbcErrors::everyErrorIsTold()
     QCOMPARE(errors.at(2).line, 5);
 }
 
-void tst_DbcErrors::toldErrorsHaveAnEnd()
+void tst_DbcErrors::numberOfReportedErrorsIsLimited()
 {
     QVector<QPlcParseError> errors;
     DbcFile::fromText(QByteArray("BO_ x\n").repeated(1000), QString(), &errors);
@@ -129,7 +129,7 @@ void tst_DbcErrors::tooLargeFileIsRefused()
     QVERIFY(errors.at(0).message.contains(QLatin1String("33554433 bytes")));
 }
 
-void tst_DbcErrors::cutTextsAreErrorsOrMessages()
+void tst_DbcErrors::truncatedTextGivesErrorsOrMessages()
 {
     const QByteArray text
         = "VERSION \"\"\nNS_ :\n CM_\nBS_:\nBU_: X\nBO_ 1 A: 8 X\n SG_ P M : 0|8@1+ (1,0) [0|0] \"\" X\n"

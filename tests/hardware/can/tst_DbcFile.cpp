@@ -34,24 +34,24 @@ class tst_DbcFile : public QObject
 
 private Q_SLOTS:
     void messagesHaveIdsAndSizes();
-    void signalsHavePlaces();
+    void bitPositionsOfSignalsAreRead();
     void scaleRangeAndUnitAreRead();
     void multiplexedSignalsKnowTheirPage();
-    void floatsAreSaidBehindTheMessages();
-    void attributesAreTaken();
-    void messageTakesTheDefaultFrameFormatBack_data();
-    void messageTakesTheDefaultFrameFormatBack();
+    void floatTypesAreReadAfterTheMessages();
+    void attributesAreRead();
+    void messageOverridesTheDefaultFrameFormat_data();
+    void messageOverridesTheDefaultFrameFormat();
     void signalsWithoutAStartValueHaveTheDefault();
     void valuesHaveNames();
     void textMayBeLatin1();
-    void endsOfLinesMayBeThoseOfWindows();
+    void windowsLineEndingsAreAccepted();
     void signalsWithoutMessageAreLeftOut();
-    void extendedMultiplexingIsNoErrorOfTheFile_data();
-    void extendedMultiplexingIsNoErrorOfTheFile();
-    void rangesThatSayNothingNewAreFine();
-    void longTransportMessagesAreNoErrorOfTheFile();
-    void placeOfASignalIsReadAlone_data();
-    void placeOfASignalIsReadAlone();
+    void extendedMultiplexingMakesOnlyItsMessageUnsupported_data();
+    void extendedMultiplexingMakesOnlyItsMessageUnsupported();
+    void redundantMultiplexRangesAreAccepted();
+    void oversizedMessageMakesOnlyItselfUnsupported();
+    void signalLayoutIsReadFromItsOwnText_data();
+    void signalLayoutIsReadFromItsOwnText();
 };
 
 void tst_DbcFile::messagesHaveIdsAndSizes()
@@ -71,7 +71,7 @@ void tst_DbcFile::messagesHaveIdsAndSizes()
     QVERIFY(!file.find(QStringLiteral("Narrow")));
 }
 
-void tst_DbcFile::signalsHavePlaces()
+void tst_DbcFile::bitPositionsOfSignalsAreRead()
 {
     const DbcFile file = readDbc(winchDrive());
     const DbcSignal *speed = file.messages().at(0).find(QStringLiteral("Speed"));
@@ -108,7 +108,7 @@ void tst_DbcFile::multiplexedSignalsKnowTheirPage()
     QVERIFY(temperatures->unsupported.isEmpty());
 }
 
-void tst_DbcFile::floatsAreSaidBehindTheMessages()
+void tst_DbcFile::floatTypesAreReadAfterTheMessages()
 {
     const DbcFile file = readDbc(winchDrive());
     const DbcMessage *wide = file.find(QStringLiteral("Wide"));
@@ -116,7 +116,7 @@ void tst_DbcFile::floatsAreSaidBehindTheMessages()
     QCOMPARE(wide->find(QStringLiteral("Precise"))->kind, DbcSignal::Float64);
 }
 
-void tst_DbcFile::attributesAreTaken()
+void tst_DbcFile::attributesAreRead()
 {
     const DbcFile file = readDbc(winchDrive());
     QCOMPARE(file.find(QStringLiteral("DriveStatus"))->cycleTime, std::chrono::nanoseconds(10ms));
@@ -126,7 +126,7 @@ void tst_DbcFile::attributesAreTaken()
     QVERIFY(!file.find(QStringLiteral("Wide"))->hasBitRateSwitch);
 }
 
-void tst_DbcFile::messageTakesTheDefaultFrameFormatBack_data()
+void tst_DbcFile::messageOverridesTheDefaultFrameFormat_data()
 {
     QTest::addColumn<QByteArray>("attributes");
     QTest::addColumn<bool>("isFd");
@@ -139,7 +139,7 @@ void tst_DbcFile::messageTakesTheDefaultFrameFormatBack_data()
     QTest::newRow("this one only") << classic + "BA_ \"VFrameFormat\" BO_ 513 14;\n" << true;
 }
 
-void tst_DbcFile::messageTakesTheDefaultFrameFormatBack()
+void tst_DbcFile::messageOverridesTheDefaultFrameFormat()
 {
     QFETCH(QByteArray, attributes);
     QFETCH(bool, isFd);
@@ -183,7 +183,7 @@ void tst_DbcFile::textMayBeLatin1()
                                "C"));
 }
 
-void tst_DbcFile::endsOfLinesMayBeThoseOfWindows()
+void tst_DbcFile::windowsLineEndingsAreAccepted()
 {
     QByteArray text = winchDrive();
     QCOMPARE(readDbc(text.replace("\n", "\r\n")).messages().size(), 3);
@@ -199,7 +199,7 @@ void tst_DbcFile::signalsWithoutMessageAreLeftOut()
     QCOMPARE(file.messages().at(0).content.size(), 1);
 }
 
-void tst_DbcFile::extendedMultiplexingIsNoErrorOfTheFile_data()
+void tst_DbcFile::extendedMultiplexingMakesOnlyItsMessageUnsupported_data()
 {
     QTest::addColumn<QByteArray>("lines");
     QTest::newRow("m0M") << QByteArray(
@@ -215,7 +215,7 @@ void tst_DbcFile::extendedMultiplexingIsNoErrorOfTheFile_data()
     QTest::newRow("no multiplexor") << QByteArray(" SG_ Q m2 : 8|8@1+ (1,0) [0|0] \"\" X\n");
 }
 
-void tst_DbcFile::extendedMultiplexingIsNoErrorOfTheFile()
+void tst_DbcFile::extendedMultiplexingMakesOnlyItsMessageUnsupported()
 {
     QFETCH(QByteArray, lines);
     const DbcFile file = readDbc("BO_ 7 A: 8 X\n" + lines);
@@ -224,20 +224,20 @@ void tst_DbcFile::extendedMultiplexingIsNoErrorOfTheFile()
              qPrintable(file.messages().at(0).unsupported));
 }
 
-void tst_DbcFile::rangesThatSayNothingNewAreFine()
+void tst_DbcFile::redundantMultiplexRangesAreAccepted()
 {
     const DbcFile file = readDbc("BO_ 7 A: 8 X\n SG_ P M : 0|8@1+ (1,0) [0|0] \"\" X\n"
                                  " SG_ Q m2 : 8|8@1+ (1,0) [0|0] \"\" X\nSG_MUL_VAL_ 7 Q P 2-2;\n");
     QCOMPARE(file.messages().at(0).unsupported, QString());
 }
 
-void tst_DbcFile::longTransportMessagesAreNoErrorOfTheFile()
+void tst_DbcFile::oversizedMessageMakesOnlyItselfUnsupported()
 {
     const DbcFile file = readDbc("BO_ 7 A: 39 X\n SG_ P : 0|8@1+ (1,0) [0|0] \"\" X\n");
     QCOMPARE(file.messages().at(0).unsupported, QStringLiteral("it has 39 bytes, which no frame has"));
 }
 
-void tst_DbcFile::placeOfASignalIsReadAlone_data()
+void tst_DbcFile::signalLayoutIsReadFromItsOwnText_data()
 {
     QTest::addColumn<QString>("text");
     QTest::addColumn<QString>("error");  // a part of it; empty: there is none
@@ -256,7 +256,7 @@ void tst_DbcFile::placeOfASignalIsReadAlone_data()
     row("x 0|16@1-", "use ':', M for a multiplexor");
 }
 
-void tst_DbcFile::placeOfASignalIsReadAlone()
+void tst_DbcFile::signalLayoutIsReadFromItsOwnText()
 {
     QFETCH(QString, text);
     QFETCH(QString, error);

@@ -35,23 +35,23 @@ class tst_DbcSignal : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void bitsLieWhereDbcSays_data();
-    void bitsLieWhereDbcSays();
-    void everyPlaceGivesBackWhatWasPut();
-    void neighboursStay();
+    void bitsHaveTheirDbcPositions_data();
+    void bitsHaveTheirDbcPositions();
+    void everyLayoutReturnsTheWrittenValue();
+    void writingKeepsNeighbouringBits();
     void neededBytesReachToTheLastBit();
     void physicalIsRawTimesFactorPlusOffset();
-    void negativeValuesComeBack();
-    void nearestRawValueIsTaken();
-    void whatDoesNotFitIsSaturated_data();
-    void whatDoesNotFitIsSaturated();
-    void noNumberIsToldAndZero();
-    void floatsAreTheirBits();
-    void largeDoubleIsTheLargestFloat();
+    void negativeValuesAreReadBack();
+    void encodingRoundsToTheNearestRawValue();
+    void valuesOutOfRangeAreSaturated_data();
+    void valuesOutOfRangeAreSaturated();
+    void notANumberIsReportedAndEncodedAsZero();
+    void floatsAreEncodedAsIeee754();
+    void largeDoubleSaturatesToTheLargestFloat();
     void all64BitsAreExact();
 };
 
-void tst_DbcSignal::bitsLieWhereDbcSays_data()
+void tst_DbcSignal::bitsHaveTheirDbcPositions_data()
 {
     QTest::addColumn<int>("start");
     QTest::addColumn<int>("length");
@@ -74,7 +74,7 @@ void tst_DbcSignal::bitsLieWhereDbcSays_data()
     row("Motorola, nine bytes would be needed", 0, 57, false, 1, "0000000000000001");
 }
 
-void tst_DbcSignal::bitsLieWhereDbcSays()
+void tst_DbcSignal::bitsHaveTheirDbcPositions()
 {
     QFETCH(int, start);
     QFETCH(int, length);
@@ -88,7 +88,7 @@ void tst_DbcSignal::bitsLieWhereDbcSays()
     QCOMPARE(signal.bits(data.data()), value);
 }
 
-void tst_DbcSignal::everyPlaceGivesBackWhatWasPut()
+void tst_DbcSignal::everyLayoutReturnsTheWrittenValue()
 {
     for (const auto order : {DbcSignal::Intel, DbcSignal::Motorola}) {
         for (int start = 0; start < 128; ++start) {
@@ -103,7 +103,7 @@ void tst_DbcSignal::everyPlaceGivesBackWhatWasPut()
     }
 }
 
-void tst_DbcSignal::neighboursStay()
+void tst_DbcSignal::writingKeepsNeighbouringBits()
 {
     for (const auto order : {DbcSignal::Intel, DbcSignal::Motorola}) {
         for (int length = 1; length <= 64; ++length) {
@@ -143,7 +143,7 @@ void tst_DbcSignal::physicalIsRawTimesFactorPlusOffset()
     QCOMPARE(signal.bits(data.data()), quint64(0));
 }
 
-void tst_DbcSignal::negativeValuesComeBack()
+void tst_DbcSignal::negativeValuesAreReadBack()
 {
     for (int length = 2; length <= 64; ++length) {
         const DbcSignal signal = place(3, length, DbcSignal::Motorola, DbcSignal::Signed);
@@ -154,7 +154,7 @@ void tst_DbcSignal::negativeValuesComeBack()
     }
 }
 
-void tst_DbcSignal::nearestRawValueIsTaken()
+void tst_DbcSignal::encodingRoundsToTheNearestRawValue()
 {
     DbcSignal signal = place(0, 8, DbcSignal::Intel, DbcSignal::Signed);
     signal.factor = 0.1;
@@ -165,7 +165,7 @@ void tst_DbcSignal::nearestRawValueIsTaken()
     QCOMPARE(signal.signedRaw(data.data()), qint64(-3));
 }
 
-void tst_DbcSignal::whatDoesNotFitIsSaturated_data()
+void tst_DbcSignal::valuesOutOfRangeAreSaturated_data()
 {
     QTest::addColumn<int>("length");
     QTest::addColumn<bool>("isSigned");
@@ -195,7 +195,7 @@ void tst_DbcSignal::whatDoesNotFitIsSaturated_data()
     row("beyond 64 bits with sign", 64, true, 9223372036854775808.0, false, (quint64(1) << 63) - 1);
 }
 
-void tst_DbcSignal::whatDoesNotFitIsSaturated()
+void tst_DbcSignal::valuesOutOfRangeAreSaturated()
 {
     QFETCH(int, length);
     QFETCH(bool, isSigned);
@@ -208,7 +208,7 @@ void tst_DbcSignal::whatDoesNotFitIsSaturated()
     QCOMPARE(signal.bits(data.data()), bits);
 }
 
-void tst_DbcSignal::noNumberIsToldAndZero()
+void tst_DbcSignal::notANumberIsReportedAndEncodedAsZero()
 {
     const DbcSignal signal = place(0, 8, DbcSignal::Intel);
     Bytes data;
@@ -217,7 +217,7 @@ void tst_DbcSignal::noNumberIsToldAndZero()
     QCOMPARE(signal.bits(data.data()), quint64(0));
 }
 
-void tst_DbcSignal::floatsAreTheirBits()
+void tst_DbcSignal::floatsAreEncodedAsIeee754()
 {
     Bytes data{};
     const DbcSignal single = place(7, 32, DbcSignal::Motorola, DbcSignal::Float32);
@@ -231,7 +231,7 @@ void tst_DbcSignal::floatsAreTheirBits()
     QVERIFY(std::isnan(single.decode(data.data())));
 }
 
-void tst_DbcSignal::largeDoubleIsTheLargestFloat()
+void tst_DbcSignal::largeDoubleSaturatesToTheLargestFloat()
 {
     Bytes data{};
     const DbcSignal single = place(0, 32, DbcSignal::Intel, DbcSignal::Float32);

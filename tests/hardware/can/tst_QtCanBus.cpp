@@ -44,22 +44,22 @@ private Q_SLOTS:
     void init();
     void cleanup();
     void bitRatesReachThePlugin();
-    void dataBitRateMakesItABusOfCanFd();
-    void nothingIsSetThatNobodySaid();
+    void dataBitRateEnablesCanFd();
+    void missingOptionsLeaveThePluginUnconfigured();
     void bitRateThatThePluginRefusesIsNamed();
     void frameThatThePluginRefusesIsUnsent();
     void frameThatFailsLaterIsUnsent();
     void changeThatFailedIsSentAgain();
-    void errorsThatPassKeepTheBus_data();
-    void errorsThatPassKeepTheBus();
-    void errorsThatStayEndTheBus_data();
-    void errorsThatStayEndTheBus();
+    void temporaryErrorsKeepTheBusOpen_data();
+    void temporaryErrorsKeepTheBusOpen();
+    void lastingErrorsEndTheBus_data();
+    void lastingErrorsEndTheBus();
     void errorOfTheConnectionEndsTheBus();
-    void otherErrorsAreNoEnd();
+    void otherErrorsKeepTheBusOpen();
     void lostDeviceEndsTheBus();
     void busIsOpenedAgainAfterItsEnd();
-    void stateOfTheControllerIsTold();
-    void lastFrameGoesOutBeforeTheEnd();
+    void controllerStateIsReported();
+    void closeSendsTheLastFrameFirst();
     void deviceThatNeverWritesMayBeClosed();
 
 private:
@@ -120,14 +120,14 @@ void tst_QtCanBus::bitRatesReachThePlugin()
 }
 
 // A controller without CAN FD would disturb the frames of the others.
-void tst_QtCanBus::dataBitRateMakesItABusOfCanFd()
+void tst_QtCanBus::dataBitRateEnablesCanFd()
 {
     m_options.dataBitRate = 2000000;
     QVERIFY(m_bus->open(m_options));
     QCOMPARE(TestCanDevice::play().configuration.value(QCanBusDevice::CanFdKey), QVariant(true));
 }
 
-void tst_QtCanBus::nothingIsSetThatNobodySaid()
+void tst_QtCanBus::missingOptionsLeaveThePluginUnconfigured()
 {
     QVERIFY(m_bus->open(m_options));
     QVERIFY(TestCanDevice::play().configuration.isEmpty());
@@ -185,7 +185,7 @@ void tst_QtCanBus::changeThatFailedIsSentAgain()
     QTRY_VERIFY(isQuiet());
 }
 
-void tst_QtCanBus::errorsThatPassKeepTheBus_data()
+void tst_QtCanBus::temporaryErrorsKeepTheBusOpen_data()
 {
     QTest::addColumn<int>("error");
     QTest::addColumn<bool>("isSending");
@@ -194,7 +194,7 @@ void tst_QtCanBus::errorsThatPassKeepTheBus_data()
     QTest::newRow("writing fails, a frame comes in") << int(QCanBusDevice::WriteError) << false;
 }
 
-void tst_QtCanBus::errorsThatPassKeepTheBus()
+void tst_QtCanBus::temporaryErrorsKeepTheBusOpen()
 {
     QFETCH(int, error);
     QFETCH(bool, isSending);
@@ -215,14 +215,14 @@ void tst_QtCanBus::errorsThatPassKeepTheBus()
     QCOMPARE(receive(), 0);
 }
 
-void tst_QtCanBus::errorsThatStayEndTheBus_data()
+void tst_QtCanBus::lastingErrorsEndTheBus_data()
 {
     QTest::addColumn<int>("error");
     QTest::newRow("reading") << int(QCanBusDevice::ReadError);
     QTest::newRow("writing") << int(QCanBusDevice::WriteError);
 }
 
-void tst_QtCanBus::errorsThatStayEndTheBus()
+void tst_QtCanBus::lastingErrorsEndTheBus()
 {
     QFETCH(int, error);
     QVERIFY(m_bus->open(m_options));
@@ -248,7 +248,7 @@ void tst_QtCanBus::errorOfTheConnectionEndsTheBus()
     QCOMPARE(m_bus->errorNumber(), EIO);
 }
 
-void tst_QtCanBus::otherErrorsAreNoEnd()
+void tst_QtCanBus::otherErrorsKeepTheBusOpen()
 {
     QVERIFY(m_bus->open(m_options));
     for (const auto error : {QCanBusDevice::ConfigurationError, QCanBusDevice::OperationError,
@@ -281,7 +281,7 @@ void tst_QtCanBus::busIsOpenedAgainAfterItsEnd()
     QCOMPARE(receive(), 0);
 }
 
-void tst_QtCanBus::stateOfTheControllerIsTold()
+void tst_QtCanBus::controllerStateIsReported()
 {
     using Status = QCanBusDevice::CanBusStatus;
     QVERIFY(m_bus->open(m_options));
@@ -297,7 +297,7 @@ void tst_QtCanBus::stateOfTheControllerIsTold()
     QCOMPARE(m_bus->counters().busOffs, quint64(1));
 }
 
-void tst_QtCanBus::lastFrameGoesOutBeforeTheEnd()
+void tst_QtCanBus::closeSendsTheLastFrameFirst()
 {
     TestCanDevice::play().manner = TestCanDevice::Later;
     QVERIFY(m_bus->open(m_options));

@@ -14,12 +14,12 @@ class tst_FakeMemory : public QObject
 
 private Q_SLOTS:
     void aDeviceIsAFileOfItsSize();
-    void processesShareItsBytes();
+    void processesShareTheBytesOfADevice();
     void theFileItselfCanBeWritten();
     void aDeviceThatIsMissingIsNamed();
     void aDeviceOfAnotherSizeIsRefused();
-    void aDeviceThatIsRemovedOrReplacedIsGone();
-    void namesStayInTheFolder();
+    void removedOrReplacedDeviceIsReportedAsMissing();
+    void deviceNamesCannotLeaveTheFolder();
 };
 
 void tst_FakeMemory::aDeviceIsAFileOfItsSize()
@@ -34,7 +34,7 @@ void tst_FakeMemory::aDeviceIsAFileOfItsSize()
     QCOMPARE(memory.at(7).load(), quint8(0));
 }
 
-void tst_FakeMemory::processesShareItsBytes()
+void tst_FakeMemory::processesShareTheBytesOfADevice()
 {
     const FakeDevices devices;
     FakeMemory memory;
@@ -95,7 +95,7 @@ void tst_FakeMemory::aDeviceOfAnotherSizeIsRefused()
     QCOMPARE(other.size(), std::size_t(8));
 }
 
-void tst_FakeMemory::aDeviceThatIsRemovedOrReplacedIsGone()
+void tst_FakeMemory::removedOrReplacedDeviceIsReportedAsMissing()
 {
     const FakeDevices devices;
     FakeMemory player;
@@ -112,7 +112,7 @@ void tst_FakeMemory::aDeviceThatIsRemovedOrReplacedIsGone()
     memory.at(0) = 1;  // still ours
 }
 
-void tst_FakeMemory::namesStayInTheFolder()
+void tst_FakeMemory::deviceNamesCannotLeaveTheFolder()
 {
     const FakeDevices devices;
     QCOMPARE(FakeMemory::path("fake:../etc/passwd"), devices.path(".._etc_passwd"));

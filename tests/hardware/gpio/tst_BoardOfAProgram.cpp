@@ -68,13 +68,13 @@ class tst_BoardOfAProgram : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void linesAreSignals();
+    void boardLinesAreConnectedToSignals();
     void theBoardIsSafeWhenTheProgramIsTerminated();
-    void theBoardIsSafeWhenTheMasterIsGone();
-    void aBoardThatIsUnpluggedComesBackInThePhase();
+    void boardIsSafeAfterLossOfTheMaster();
+    void unpluggedBoardReconnectsDuringThePhase();
 };
 
-void tst_BoardOfAProgram::linesAreSignals()
+void tst_BoardOfAProgram::boardLinesAreConnectedToSignals()
 {
     Plant plant;
     QVERIFY(plant.start());
@@ -97,7 +97,7 @@ void tst_BoardOfAProgram::theBoardIsSafeWhenTheProgramIsTerminated()
     QCOMPARE(plant.brakeRelease(), 0);
 }
 
-void tst_BoardOfAProgram::theBoardIsSafeWhenTheMasterIsGone()
+void tst_BoardOfAProgram::boardIsSafeAfterLossOfTheMaster()
 {
     Plant plant;
     QVERIFY(plant.start());
@@ -106,7 +106,7 @@ void tst_BoardOfAProgram::theBoardIsSafeWhenTheMasterIsGone()
     QTRY_COMPARE(plant.brakeRelease(), 0);
 }
 
-void tst_BoardOfAProgram::aBoardThatIsUnpluggedComesBackInThePhase()
+void tst_BoardOfAProgram::unpluggedBoardReconnectsDuringThePhase()
 {
     Plant plant;
     QVERIFY(plant.start());

@@ -10,17 +10,17 @@ class tst_Debouncer : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void theFirstLevelIsNoEdge();
-    void withoutAPeriodEveryLevelCountsAtOnce();
+    void firstLevelCausesNoEdge();
+    void debouncerWithoutPeriodReportsEveryChange();
     void aLevelCountsWhenItHasStayedForThePeriod();
-    void bouncesAreOneEdgeAtTheFirstInstantOfTheLastLevel();
-    void aGlitchIsNoEdge();
+    void bouncesGiveOneEdgeAtTheStartOfTheLastLevel();
+    void glitchCausesNoEdge();
     void twoQuickPressesAreBothSeen();
     void anOlderTimeCountsAsTheNewest();
-    void afterAResetTheNextLevelCountsAtOnce();
+    void firstLevelAfterResetIsAcceptedWithoutEdge();
 };
 
-void tst_Debouncer::theFirstLevelIsNoEdge()
+void tst_Debouncer::firstLevelCausesNoEdge()
 {
     Debouncer input(5);
     QVERIFY(!input.isKnown());
@@ -29,7 +29,7 @@ void tst_Debouncer::theFirstLevelIsNoEdge()
     QVERIFY(input.isOn());
 }
 
-void tst_Debouncer::withoutAPeriodEveryLevelCountsAtOnce()
+void tst_Debouncer::debouncerWithoutPeriodReportsEveryChange()
 {
     Debouncer input;
     input.feed(false, 0);
@@ -53,7 +53,7 @@ void tst_Debouncer::aLevelCountsWhenItHasStayedForThePeriod()
     QCOMPARE(input.edgeTime(), qint64(10));
 }
 
-void tst_Debouncer::bouncesAreOneEdgeAtTheFirstInstantOfTheLastLevel()
+void tst_Debouncer::bouncesGiveOneEdgeAtTheStartOfTheLastLevel()
 {
     Debouncer input(5);
     int edges = 0;
@@ -68,7 +68,7 @@ void tst_Debouncer::bouncesAreOneEdgeAtTheFirstInstantOfTheLastLevel()
     QCOMPARE(input.edgeTime(), qint64(14));
 }
 
-void tst_Debouncer::aGlitchIsNoEdge()
+void tst_Debouncer::glitchCausesNoEdge()
 {
     Debouncer input(5);
     input.feed(true, 0);
@@ -102,7 +102,7 @@ void tst_Debouncer::anOlderTimeCountsAsTheNewest()
     QCOMPARE(input.edgeTime(), qint64(100));
 }
 
-void tst_Debouncer::afterAResetTheNextLevelCountsAtOnce()
+void tst_Debouncer::firstLevelAfterResetIsAcceptedWithoutEdge()
 {
     Debouncer input(5);
     input.feed(false, 0);

@@ -43,29 +43,29 @@ class tst_GpioDriver : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void wordsOfALine_data();
-    void wordsOfALine();
-    void wrongWordsAreNamed_data();
-    void wrongWordsAreNamed();
+    void lineOptionsAreRead_data();
+    void lineOptionsAreRead();
+    void invalidLineOptionsAreReported_data();
+    void invalidLineOptionsAreReported();
     void errorsOfAConfigurationHaveTheirLine();
     void anInputFollowsItsLine();
-    void activeLowTurnsALineRound();
+    void activeLowInvertsALine();
     void aTornWireHasTheLevelOfItsPullResistor();
     void aTornWireWithoutAResistorFloats();
     void aBounceIsNotSeen();
     void edgesAreCountedWithTheTimeOfTheLast();
     void onlyTheEdgesThatWereAskedForAreCounted();
-    void anOutputIsLeftAloneUntilItHasAValue();
+    void outputIsNotDrivenUntilItHasAValue();
     void anOutputBeginsWithItsSafeValue();
     void anOutputThatIsKeptDoesNotGetItsSafeValue();
-    void aCycleTakesNoMemoryAndNoLock();
+    void cycleAllocatesNothingAndLocksNothing();
     void aMissingLineIsNamed();
-    void aBoardThatIsUnpluggedIsAnErrorAndComesBack();
-    void withoutTheChipThereIsARemedy();
+    void unpluggedBoardIsReportedAndReconnects();
+    void missingChipIsReportedWithARemedy();
     void edgesBetweenTwoCyclesAreCountedByTheKernel();
 };
 
-void tst_GpioDriver::wordsOfALine_data()
+void tst_GpioDriver::lineOptionsAreRead_data()
 {
     QTest::addColumn<bool>("isOutput");
     QTest::addColumn<QStringList>("words");
@@ -80,7 +80,7 @@ void tst_GpioDriver::wordsOfALine_data()
                                << "4 active-low open-drain keep";
 }
 
-void tst_GpioDriver::wordsOfALine()
+void tst_GpioDriver::lineOptionsAreRead()
 {
     QFETCH(bool, isOutput);
     QFETCH(QStringList, words);
@@ -99,7 +99,7 @@ void tst_GpioDriver::wordsOfALine()
     QCOMPARE(line.request.isOutput, isOutput);
 }
 
-void tst_GpioDriver::wrongWordsAreNamed_data()
+void tst_GpioDriver::invalidLineOptionsAreReported_data()
 {
     QTest::addColumn<bool>("isOutput");
     QTest::addColumn<QStringList>("words");
@@ -113,7 +113,7 @@ void tst_GpioDriver::wrongWordsAreNamed_data()
     QTest::newRow("negative") << false << QStringList{"1", "debounce -1 ms"} << "'debounce -1 ms'";
 }
 
-void tst_GpioDriver::wrongWordsAreNamed()
+void tst_GpioDriver::invalidLineOptionsAreReported()
 {
     QFETCH(bool, isOutput);
     QFETCH(QStringList, words);
@@ -148,7 +148,7 @@ void tst_GpioDriver::anInputFollowsItsLine()
     QCOMPARE(board.driven(3), -1);
 }
 
-void tst_GpioDriver::activeLowTurnsALineRound()
+void tst_GpioDriver::activeLowInvertsALine()
 {
     Board board("input.stop = 3, active-low\noutput.lamp = 4, active-low\n");
     QCOMPARE(board.bench.wireRead("stop") + board.bench.wireWrite("lamp"), QString());
@@ -252,7 +252,7 @@ void tst_GpioDriver::onlyTheEdgesThatWereAskedForAreCounted()
     QCOMPARE(board.bench.value("down.@edges"), 2.0);
 }
 
-void tst_GpioDriver::anOutputIsLeftAloneUntilItHasAValue()
+void tst_GpioDriver::outputIsNotDrivenUntilItHasAValue()
 {
     Board board("output.lamp = 4\n");
     board.bench.wireWrite("lamp");
@@ -292,7 +292,7 @@ void tst_GpioDriver::anOutputThatIsKeptDoesNotGetItsSafeValue()
     QCOMPARE(board.driven(5), 0);
 }
 
-void tst_GpioDriver::aCycleTakesNoMemoryAndNoLock()
+void tst_GpioDriver::cycleAllocatesNothingAndLocksNothing()
 {
     if (!ThreadCosts::areCounted())
         QSKIP("a sanitizer has the functions that are counted");
@@ -324,7 +324,7 @@ void tst_GpioDriver::aMissingLineIsNamed()
              qPrintable(board.bench.errorString()));
 }
 
-void tst_GpioDriver::aBoardThatIsUnpluggedIsAnErrorAndComesBack()
+void tst_GpioDriver::unpluggedBoardIsReportedAndReconnects()
 {
     Board board("input.stop = 3\n");
     board.bench.wireRead("stop");
@@ -345,7 +345,7 @@ void tst_GpioDriver::aBoardThatIsUnpluggedIsAnErrorAndComesBack()
     QCOMPARE(board.bench.value("stop"), 1.0);
 }
 
-void tst_GpioDriver::withoutTheChipThereIsARemedy()
+void tst_GpioDriver::missingChipIsReportedWithARemedy()
 {
     DriverBench bench(QStringLiteral("gpio"), "device = gpiochip987\ninput.stop = 1\n");
     QVERIFY(!bench.open());

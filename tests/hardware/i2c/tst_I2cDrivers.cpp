@@ -69,28 +69,28 @@ class tst_I2cDrivers : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void registersAreNumbers_data();
-    void registersAreNumbers();
+    void registersEncodeNumbers_data();
+    void registersEncodeNumbers();
     void numbersThatDoNotFitAreLimited();
-    void wrongWordsAreNamed_data();
-    void wrongWordsAreNamed();
+    void invalidKeysAreReported_data();
+    void invalidKeysAreReported();
     void registersAreReadAndWritten();
-    void aWrittenValueIsRepeated();
-    void whatIsToBeSetUpIsWrittenFirst();
-    void anotherDeviceIsRefused();
+    void outputIsWrittenInEveryCycle();
+    void setupRegistersAreWrittenOnOpen();
+    void deviceWithWrongIdentityIsRefused();
     void aDeviceThatIsSilentIsNamed();
-    void theImuIsSetUp();
+    void openConfiguresTheImu();
     void theImuMeasuresInSiUnits();
     void eachImuHasItsOwnTemperatureAndFilter_data();
     void eachImuHasItsOwnTemperatureAndFilter();
     void aSampleOfTheImuCountsOnce();
     void anImuThatForgotItsSettingsIsOpenedAnew();
-    void anotherChipIsNoImu();
-    void whoMayNotOpenABusIsToldWhatHelps();
+    void imuDriverRefusesOtherChips();
+    void missingBusPermissionIsReportedWithARemedy();
     void aRateThatTheImuCannotDoIsRefused();
 };
 
-void tst_I2cDrivers::registersAreNumbers_data()
+void tst_I2cDrivers::registersEncodeNumbers_data()
 {
     QTest::addColumn<QStringList>("words");
     QTest::addColumn<QByteArray>("hex");
@@ -110,7 +110,7 @@ void tst_I2cDrivers::registersAreNumbers_data()
                                        << -8.5;
 }
 
-void tst_I2cDrivers::registersAreNumbers()
+void tst_I2cDrivers::registersEncodeNumbers()
 {
     QFETCH(QStringList, words);
     QFETCH(QByteArray, hex);
@@ -144,7 +144,7 @@ void tst_I2cDrivers::numbersThatDoNotFitAreLimited()
     QCOMPARE(reg.valueOf(bytes), 0.0);
 }
 
-void tst_I2cDrivers::wrongWordsAreNamed_data()
+void tst_I2cDrivers::invalidKeysAreReported_data()
 {
     QTest::addColumn<QByteArray>("keys");
     QTest::addColumn<QString>("part");
@@ -164,7 +164,7 @@ void tst_I2cDrivers::wrongWordsAreNamed_data()
         << QByteArray("address = 0x68\nregister.a = 1\nsetup = 0x6b\n") << "'0x6b' is not a register with its value";
 }
 
-void tst_I2cDrivers::wrongWordsAreNamed()
+void tst_I2cDrivers::invalidKeysAreReported()
 {
     QFETCH(QByteArray, keys);
     QFETCH(QString, part);
@@ -190,7 +190,7 @@ void tst_I2cDrivers::registersAreReadAndWritten()
     QCOMPARE(bus.get(0x30, 2), QByteArray("\x01\x02"));
 }
 
-void tst_I2cDrivers::aWrittenValueIsRepeated()
+void tst_I2cDrivers::outputIsWrittenInEveryCycle()
 {
     Bus bus("i2c-registers", "address = 0x68\nregister.limit = 0x30, write\n");
     bus.bench.wireWrite("limit");
@@ -202,7 +202,7 @@ void tst_I2cDrivers::aWrittenValueIsRepeated()
     QCOMPARE(bus.get(0x30, 1), QByteArray("\x05"));
 }
 
-void tst_I2cDrivers::whatIsToBeSetUpIsWrittenFirst()
+void tst_I2cDrivers::setupRegistersAreWrittenOnOpen()
 {
     Bus bus("i2c-registers", "address = 0x68\nsetup = 0x6b 0x01, 0x1a 3, 0x6b 2\nregister.a = 0x6b\n");
     QCOMPARE(bus.bench.errors(), QString());
@@ -212,7 +212,7 @@ void tst_I2cDrivers::whatIsToBeSetUpIsWrittenFirst()
     QCOMPARE(bus.get(0x1a, 1), QByteArray("\x03"));
 }
 
-void tst_I2cDrivers::anotherDeviceIsRefused()
+void tst_I2cDrivers::deviceWithWrongIdentityIsRefused()
 {
     Bus bus("i2c-registers", "address = 0x68\nidentity = 0x0f 0x33\nsetup = 0x20 1\nregister.a = 1\n");
     bus.set(0x0f, "\x32");
@@ -236,7 +236,7 @@ void tst_I2cDrivers::aDeviceThatIsSilentIsNamed()
     QVERIFY(!bus.bench.isFresh("a"));
 }
 
-void tst_I2cDrivers::theImuIsSetUp()
+void tst_I2cDrivers::openConfiguresTheImu()
 {
     Imu imu("accelerationRange = 8 g\nrateRange = 2000 deg/s\nsampleRate = 100\nbandwidth = 20 Hz\n");
     QCOMPARE(imu.bench.errors(), QString());
@@ -339,7 +339,7 @@ void tst_I2cDrivers::anImuThatForgotItsSettingsIsOpenedAnew()
     QCOMPARE(imu.get(0x6b, 1).toHex(), QByteArray("01"));
 }
 
-void tst_I2cDrivers::anotherChipIsNoImu()
+void tst_I2cDrivers::imuDriverRefusesOtherChips()
 {
     Imu imu({}, 0x58);
     QVERIFY(!imu.bench.open());
@@ -349,7 +349,7 @@ void tst_I2cDrivers::anotherChipIsNoImu()
 }
 
 // The user may not (EACCES), or systemd does not let the service (EPERM).
-void tst_I2cDrivers::whoMayNotOpenABusIsToldWhatHelps()
+void tst_I2cDrivers::missingBusPermissionIsReportedWithARemedy()
 {
     const DeviceFiles files{QStringLiteral("the I2C bus"), QStringLiteral("i2c-*"), QStringLiteral("i2c"), {}};
     QCOMPARE(files.errorText(QStringLiteral("i2c-1"), EACCES),

@@ -21,33 +21,33 @@ private Q_SLOTS:
     void init() { m_device = FakeModbusDevice::named("drive"); }
     void cleanup() { m_device.reset(); }
 
-    void valuesHaveTheirNames();
-    void onlyWhatIsWiredIsRead();
+    void channelsAreReadByName();
+    void driverReadsOnlyWiredRegisters();
     void aChannelMayBeReadAndWritten();
     void neighboursAreWrittenInOneRequest();
-    void singleValuesMayBeWrittenAsMany();
-    void valuesAreWrittenAgainAndAgain();
+    void writeSingleCanBeDisabled();
+    void valuesAreWrittenInEveryCycle();
     void valuesMayBeWrittenWhenTheyChange();
     void afterALossAllIsWrittenAgain();
-    void aValueThatIsNoNumberIsNone();
+    void notANumberMakesTheValueStale();
     void severalUnitsShareADevice();
     void anExceptionNamesTheRegistersInWords_data();
     void anExceptionNamesTheRegistersInWords();
     void aRefusedWriteNamesItsRegister();
     void aBusyDeviceIsAskedAgainForAWhile();
-    void aDeviceThatIsNotThereIsSaid();
-    void aLostDeviceIsNoSourceOfValues();
-    void whatCanOnlyBeReadIsNotWritten();
+    void missingDeviceIsReported();
+    void lostDeviceHasNoFreshValues();
+    void writingAReadOnlyRegisterIsRefused();
     void onePlaceHasOneWriter();
-    void keysThatCannotBeMeantAreErrors_data();
-    void keysThatCannotBeMeantAreErrors();
+    void invalidKeysAreReported_data();
+    void invalidKeysAreReported();
 
 private:
     static QByteArray keys(const QByteArray &more) { return "device = fake:drive\n" + more; }
     std::shared_ptr<FakeModbusDevice> m_device;
 };
 
-void tst_ModbusDriver::valuesHaveTheirNames()
+void tst_ModbusDriver::channelsAreReadByName()
 {
     DriverBench bench("modbus",
                       keys("register.speed = holding 100, int16, factor 0.1\nregister.ready = discrete 3\n"
@@ -68,7 +68,7 @@ void tst_ModbusDriver::valuesHaveTheirNames()
     QVERIFY(!bench.isFresh("speed"));
 }
 
-void tst_ModbusDriver::onlyWhatIsWiredIsRead()
+void tst_ModbusDriver::driverReadsOnlyWiredRegisters()
 {
     DriverBench bench("modbus", keys("register.a = holding 1\nregister.b = holding 2\nregister.c = holding 3\n"));
     bench.wireRead("a");
@@ -115,7 +115,7 @@ void tst_ModbusDriver::neighboursAreWrittenInOneRequest()
     QCOMPARE(m_device->values(ModbusRegister::Coil, 4, 1), Words{1});
 }
 
-void tst_ModbusDriver::singleValuesMayBeWrittenAsMany()
+void tst_ModbusDriver::writeSingleCanBeDisabled()
 {
     DriverBench bench("modbus", keys("write-single = no\nregister.a = holding 10\n"));
     bench.wireWrite("a");
@@ -125,7 +125,7 @@ void tst_ModbusDriver::singleValuesMayBeWrittenAsMany()
     QVERIFY(!m_device->takeWrites().at(0).isSingle);
 }
 
-void tst_ModbusDriver::valuesAreWrittenAgainAndAgain()
+void tst_ModbusDriver::valuesAreWrittenInEveryCycle()
 {
     DriverBench bench("modbus", keys("register.a = holding 10\n"));
     bench.wireWrite("a");
@@ -169,7 +169,7 @@ void tst_ModbusDriver::afterALossAllIsWrittenAgain()
     QCOMPARE(m_device->values(ModbusRegister::Holding, 10, 1), Words{1});
 }
 
-void tst_ModbusDriver::aValueThatIsNoNumberIsNone()
+void tst_ModbusDriver::notANumberMakesTheValueStale()
 {
     DriverBench bench("modbus", keys("register.level = input 0, float32\n"));
     bench.wireRead("level");
@@ -249,7 +249,7 @@ void tst_ModbusDriver::aBusyDeviceIsAskedAgainForAWhile()
     QVERIFY2(bench.errorString().contains("busy for too long"), qPrintable(bench.errorString()));
 }
 
-void tst_ModbusDriver::aDeviceThatIsNotThereIsSaid()
+void tst_ModbusDriver::missingDeviceIsReported()
 {
     DriverBench bench("modbus", keys("register.a = holding 1\n"));
     bench.wireRead("a");
@@ -260,7 +260,7 @@ void tst_ModbusDriver::aDeviceThatIsNotThereIsSaid()
     QVERIFY(bench.open());
 }
 
-void tst_ModbusDriver::aLostDeviceIsNoSourceOfValues()
+void tst_ModbusDriver::lostDeviceHasNoFreshValues()
 {
     DriverBench bench("modbus", keys("register.a = holding 1\n"));
     bench.wireRead("a");
@@ -274,7 +274,7 @@ void tst_ModbusDriver::aLostDeviceIsNoSourceOfValues()
     QVERIFY(bench.isFresh("a"));
 }
 
-void tst_ModbusDriver::whatCanOnlyBeReadIsNotWritten()
+void tst_ModbusDriver::writingAReadOnlyRegisterIsRefused()
 {
     DriverBench bench("modbus", keys("register.a = input 1\nregister.b = discrete 1\nregister.c = holding 1, bit 3\n"));
     QCOMPARE(bench.errors(), QString());
@@ -293,7 +293,7 @@ void tst_ModbusDriver::onePlaceHasOneWriter()
     QCOMPARE(bench.wireRead("b"), QString());
 }
 
-void tst_ModbusDriver::keysThatCannotBeMeantAreErrors_data()
+void tst_ModbusDriver::invalidKeysAreReported_data()
 {
     QTest::addColumn<QByteArray>("text");
     QTest::addColumn<QString>("error");
@@ -309,7 +309,7 @@ void tst_ModbusDriver::keysThatCannotBeMeantAreErrors_data()
     QTest::newRow("fake without a name") << "device = fake:\n" + a << "is not a Modbus device";
 }
 
-void tst_ModbusDriver::keysThatCannotBeMeantAreErrors()
+void tst_ModbusDriver::invalidKeysAreReported()
 {
     QFETCH(QByteArray, text);
     QFETCH(QString, error);

@@ -15,24 +15,24 @@ class tst_ModbusLines : public QObject
 private Q_SLOTS:
     void everySpaceIsReadAndWritten_data() { lines(); }
     void everySpaceIsReadAndWritten();
-    void everyTypeComesAcross_data() { lines(); }
-    void everyTypeComesAcross();
+    void everyTypeIsTransferredUnchanged_data() { lines(); }
+    void everyTypeIsTransferredUnchanged();
     void requestsAreThoseOfTheProtocol_data() { lines(); }
     void requestsAreThoseOfTheProtocol();
-    void anAddressThatTheDeviceDoesNotHaveIsSaid_data() { lines(); }
-    void anAddressThatTheDeviceDoesNotHaveIsSaid();
+    void unknownAddressIsReported_data() { lines(); }
+    void unknownAddressIsReported();
     void aBusyDeviceIsNotLost_data() { lines(); }
     void aBusyDeviceIsNotLost();
-    void aSilentDeviceIsLostAndFoundAgain_data() { lines(); }
-    void aSilentDeviceIsLostAndFoundAgain();
+    void silentDeviceIsLostAndReconnects_data() { lines(); }
+    void silentDeviceIsLostAndReconnects();
     void anotherUnitDoesNotAnswer();
-    void aServerThatEndsIsLostAndFoundAgain();
-    void noServerIsSaid();
-    void aHostThatIsUnknownIsSaid();
-    void aMissingSerialDeviceIsSaid();
-    void aSerialLineInUseIsSaid();
-    void devicesThatCannotBeMeantAreErrors_data();
-    void devicesThatCannotBeMeantAreErrors();
+    void restartedServerIsLostAndReconnects();
+    void missingServerIsReported();
+    void unknownHostIsReported();
+    void missingSerialDeviceIsReported();
+    void busySerialLineIsReported();
+    void invalidDeviceNamesAreReported_data();
+    void invalidDeviceNamesAreReported();
 
 private:
     static void lines()
@@ -85,7 +85,7 @@ void tst_ModbusLines::everySpaceIsReadAndWritten()
     QCOMPARE(m_server->with([](modbus_mapping_t &values) { return int(values.tab_registers[3]); }), 77);
 }
 
-void tst_ModbusLines::everyTypeComesAcross()
+void tst_ModbusLines::everyTypeIsTransferredUnchanged()
 {
     startServer();
     QByteArray registers;
@@ -137,7 +137,7 @@ void tst_ModbusLines::requestsAreThoseOfTheProtocol()
     QCOMPARE(seen, expected);
 }
 
-void tst_ModbusLines::anAddressThatTheDeviceDoesNotHaveIsSaid()
+void tst_ModbusLines::unknownAddressIsReported()
 {
     startServer();
     DriverBench bench("modbus", keys("register.speed = holding 199, int32\n"));
@@ -162,7 +162,7 @@ void tst_ModbusLines::aBusyDeviceIsNotLost()
     QVERIFY(bench.isFresh("speed"));
 }
 
-void tst_ModbusLines::aSilentDeviceIsLostAndFoundAgain()
+void tst_ModbusLines::silentDeviceIsLostAndReconnects()
 {
     startServer();
     DriverBench bench("modbus", keys("register.speed = input 1\n", "50 ms"));
@@ -190,7 +190,7 @@ void tst_ModbusLines::anotherUnitDoesNotAnswer()
     QVERIFY2(bench.errorString().contains("(speed) of unit 2: Connection timed out"), qPrintable(bench.errorString()));
 }
 
-void tst_ModbusLines::aServerThatEndsIsLostAndFoundAgain()
+void tst_ModbusLines::restartedServerIsLostAndReconnects()
 {
     m_server = ModbusServer::onTcp();
     const int port = m_server->port();
@@ -209,7 +209,7 @@ void tst_ModbusLines::aServerThatEndsIsLostAndFoundAgain()
     QVERIFY(bench.isFresh("speed"));
 }
 
-void tst_ModbusLines::noServerIsSaid()
+void tst_ModbusLines::missingServerIsReported()
 {
     const int port = ModbusServer::onTcp()->port();  // was free a moment ago
     DriverBench bench("modbus", "device = tcp:127.0.0.1:" + QByteArray::number(port) + "\nregister.a = coil 1\n");
@@ -222,7 +222,7 @@ void tst_ModbusLines::noServerIsSaid()
             .arg(port));
 }
 
-void tst_ModbusLines::aHostThatIsUnknownIsSaid()
+void tst_ModbusLines::unknownHostIsReported()
 {
     DriverBench bench("modbus", "device = tcp:256.1.1.1\nregister.a = coil 1\n");
     bench.wireRead("a");
@@ -230,7 +230,7 @@ void tst_ModbusLines::aHostThatIsUnknownIsSaid()
     QVERIFY2(bench.errorString().contains("look at host and port"), qPrintable(bench.errorString()));
 }
 
-void tst_ModbusLines::aMissingSerialDeviceIsSaid()
+void tst_ModbusLines::missingSerialDeviceIsReported()
 {
     DriverBench bench("modbus", "device = rtu:/dev/ttyNowhere\nregister.a = coil 1\n");
     bench.wireRead("a");
@@ -240,7 +240,7 @@ void tst_ModbusLines::aMissingSerialDeviceIsSaid()
                      "there is"));
 }
 
-void tst_ModbusLines::aSerialLineInUseIsSaid()
+void tst_ModbusLines::busySerialLineIsReported()
 {
     m_server = ModbusServer::onSerialLine();
     QCOMPARE(::flock(m_server->otherEnd(), LOCK_EX | LOCK_NB), 0);
@@ -252,7 +252,7 @@ void tst_ModbusLines::aSerialLineInUseIsSaid()
     QVERIFY2(bench.open(), qPrintable(bench.errorString()));
 }
 
-void tst_ModbusLines::devicesThatCannotBeMeantAreErrors_data()
+void tst_ModbusLines::invalidDeviceNamesAreReported_data()
 {
     QTest::addColumn<QByteArray>("text");
     QTest::addColumn<QString>("error");
@@ -269,7 +269,7 @@ void tst_ModbusLines::devicesThatCannotBeMeantAreErrors_data()
     QTest::newRow("timeout") << QByteArray("device = tcp:host\nresponse-timeout = 0 s") << "response-timeout";
 }
 
-void tst_ModbusLines::devicesThatCannotBeMeantAreErrors()
+void tst_ModbusLines::invalidDeviceNamesAreReported()
 {
     QFETCH(QByteArray, text);
     QFETCH(QString, error);

@@ -17,22 +17,22 @@ class tst_ModbusRegister : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void readsWhatAConfigurationSays();
-    void whatIsNotSaidIsThatOfTheSection();
-    void saysWhatCannotBeMeant_data();
-    void saysWhatCannotBeMeant();
-    void bitsOfTypesAreThoseOfTheProtocol_data();
-    void bitsOfTypesAreThoseOfTheProtocol();
-    void randomValuesComeBack();
-    void whatDoesNotFitBecomesTheNearest_data();
-    void whatDoesNotFitBecomesTheNearest();
+    void registerIsReadFromItsConfiguration();
+    void registerInheritsDefaultsFromItsSection();
+    void invalidRegistersAreReported_data();
+    void invalidRegistersAreReported();
+    void typesAreEncodedAsTheProtocolDefines_data();
+    void typesAreEncodedAsTheProtocolDefines();
+    void randomValuesAreReadBack();
+    void valuesOutOfRangeAreSaturated_data();
+    void valuesOutOfRangeAreSaturated();
     void factorAndOffsetConvertBothWays();
     void neighboursAreReadInOneRequest();
     void gapsAreReadOnlyWhereThatIsAllowed();
     void unitsAndSpacesAreReadApart();
     void noRequestIsLargerThanTheProtocolAllows();
     void aValueIsNeverCut();
-    void onlyWhatIsMeantIsWritten();
+    void writeRequestsContainOnlyConfiguredRegisters();
 
 private:
     static ModbusRegister parsed(const QString &text)
@@ -52,7 +52,7 @@ private:
     }
 };
 
-void tst_ModbusRegister::readsWhatAConfigurationSays()
+void tst_ModbusRegister::registerIsReadFromItsConfiguration()
 {
     const ModbusRegister place = parsed("holding 0x64, int32, factor -0.1, offset 2.5, word-order little, unit 7");
     QCOMPARE(place.space, ModbusRegister::Holding);
@@ -69,7 +69,7 @@ void tst_ModbusRegister::readsWhatAConfigurationSays()
     QCOMPARE(parsed("holding 8,bit 15").bit, quint8(15));
 }
 
-void tst_ModbusRegister::whatIsNotSaidIsThatOfTheSection()
+void tst_ModbusRegister::registerInheritsDefaultsFromItsSection()
 {
     ModbusRegister section;
     section.unit = 9;
@@ -84,7 +84,7 @@ void tst_ModbusRegister::whatIsNotSaidIsThatOfTheSection()
     QVERIFY(!place.isLowWordFirst);
 }
 
-void tst_ModbusRegister::saysWhatCannotBeMeant_data()
+void tst_ModbusRegister::invalidRegistersAreReported_data()
 {
     QTest::addColumn<QString>("text");
     QTest::addColumn<QString>("error");
@@ -122,7 +122,7 @@ void tst_ModbusRegister::saysWhatCannotBeMeant_data()
                                 << "'' is not known";
 }
 
-void tst_ModbusRegister::saysWhatCannotBeMeant()
+void tst_ModbusRegister::invalidRegistersAreReported()
 {
     QFETCH(QString, text);
     QFETCH(QString, error);
@@ -132,7 +132,7 @@ void tst_ModbusRegister::saysWhatCannotBeMeant()
     QVERIFY2(found.contains(error), qPrintable(found));
 }
 
-void tst_ModbusRegister::bitsOfTypesAreThoseOfTheProtocol_data()
+void tst_ModbusRegister::typesAreEncodedAsTheProtocolDefines_data()
 {
     QTest::addColumn<QString>("text");
     QTest::addColumn<double>("value");
@@ -150,7 +150,7 @@ void tst_ModbusRegister::bitsOfTypesAreThoseOfTheProtocol_data()
     QTest::newRow("float64 little") << "holding 0, float64, word-order little" << 1.0 << Words{0, 0, 0, 0x3ff0};
 }
 
-void tst_ModbusRegister::bitsOfTypesAreThoseOfTheProtocol()
+void tst_ModbusRegister::typesAreEncodedAsTheProtocolDefines()
 {
     QFETCH(QString, text);
     QFETCH(double, value);
@@ -165,7 +165,7 @@ void tst_ModbusRegister::bitsOfTypesAreThoseOfTheProtocol()
     QCOMPARE(parsed("input 0, bit 3").decode(Words{0xfff7}.data()), 0.0);
 }
 
-void tst_ModbusRegister::randomValuesComeBack()
+void tst_ModbusRegister::randomValuesAreReadBack()
 {
     std::mt19937 random(1);
     std::uniform_real_distribution<double> any(-32768.0, 32767.0);
@@ -182,7 +182,7 @@ void tst_ModbusRegister::randomValuesComeBack()
     }
 }
 
-void tst_ModbusRegister::whatDoesNotFitBecomesTheNearest_data()
+void tst_ModbusRegister::valuesOutOfRangeAreSaturated_data()
 {
     QTest::addColumn<QString>("text");
     QTest::addColumn<double>("value");
@@ -198,7 +198,7 @@ void tst_ModbusRegister::whatDoesNotFitBecomesTheNearest_data()
     QTest::newRow("coil, off") << "coil 0" << -7.0 << 0.0;
 }
 
-void tst_ModbusRegister::whatDoesNotFitBecomesTheNearest()
+void tst_ModbusRegister::valuesOutOfRangeAreSaturated()
 {
     QFETCH(QString, text);
     QFETCH(double, value);
@@ -269,7 +269,7 @@ void tst_ModbusRegister::aValueIsNeverCut()
     QCOMPARE(blocks[1].request.count, 2);
 }
 
-void tst_ModbusRegister::onlyWhatIsMeantIsWritten()
+void tst_ModbusRegister::writeRequestsContainOnlyConfiguredRegisters()
 {
     QCOMPARE(planToWrite({parsed("holding 1"), parsed("holding 2"), parsed("holding 4")}).size(), std::size_t(2));
     QVERIFY(overlap(parsed("holding 1, int32"), parsed("holding 2")));

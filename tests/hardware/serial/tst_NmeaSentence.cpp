@@ -49,26 +49,26 @@ class tst_NmeaSentence : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void aSentenceIsTalkerTypeAndFields();
-    void theChecksumIsThatOfTheStandard();
-    void whatIsNoSentenceIsRefused_data();
-    void whatIsNoSentenceIsRefused();
+    void sentenceIsSplitIntoTalkerTypeAndFields();
+    void checksumFollowsTheStandard();
+    void invalidSentenceIsRefused_data();
+    void invalidSentenceIsRefused();
     void numbersAreDecimal();
     void aStreamMayComeInAnyPieces();
     void aStreamFindsTheNextSentenceAfterGarbage();
-    void aLineWithoutAnEndTakesNoMemory();
+    void endlessLineDoesNotGrowTheBuffer();
     void sentencesWithoutAChecksumAreRefusedUnlessAllowed();
-    void windOfMwv_data();
-    void windOfMwv();
+    void windIsReadFromMwv_data();
+    void windIsReadFromMwv();
     void anInvalidMwvHasNoWind();
-    void windOfVwrAndVwt();
-    void weatherOfMda();
-    void weatherOfXdr();
-    void valuesThatCannotBeAreNone();
-    void otherSentencesAreNotOfWind();
+    void windIsReadFromVwrAndVwt();
+    void weatherIsReadFromMda();
+    void weatherIsReadFromXdr();
+    void impossibleValuesAreIgnored();
+    void otherSentencesGiveNoWind();
 };
 
-void tst_NmeaSentence::aSentenceIsTalkerTypeAndFields()
+void tst_NmeaSentence::sentenceIsSplitIntoTalkerTypeAndFields()
 {
     NmeaSentence sentence;
     QCOMPARE(NmeaSentence::parse("$WIMWV,214.8,R,,M,A", &sentence), NmeaSentence::Good);
@@ -87,7 +87,7 @@ void tst_NmeaSentence::aSentenceIsTalkerTypeAndFields()
     QCOMPARE(NmeaSentence::parse("!AIVDM,1", &sentence), NmeaSentence::Good);
 }
 
-void tst_NmeaSentence::theChecksumIsThatOfTheStandard()
+void tst_NmeaSentence::checksumFollowsTheStandard()
 {
     NmeaSentence sentence;
     // Worked by hand: exclusive or of the letters.
@@ -101,7 +101,7 @@ void tst_NmeaSentence::theChecksumIsThatOfTheStandard()
     QCOMPARE(NmeaSentence::parse(QByteArray(good).replace(",1*", ",2*"), &sentence), NmeaSentence::WrongChecksum);
 }
 
-void tst_NmeaSentence::whatIsNoSentenceIsRefused_data()
+void tst_NmeaSentence::invalidSentenceIsRefused_data()
 {
     QTest::addColumn<QByteArray>("line");
     QTest::addColumn<int>("result");
@@ -121,7 +121,7 @@ void tst_NmeaSentence::whatIsNoSentenceIsRefused_data()
     QTest::newRow("too long") << "$WIMWV," + QByteArray(NmeaSentence::MaximumLength, '1') << int(NmeaSentence::TooLong);
 }
 
-void tst_NmeaSentence::whatIsNoSentenceIsRefused()
+void tst_NmeaSentence::invalidSentenceIsRefused()
 {
     QFETCH(QByteArray, line);
     NmeaSentence sentence;
@@ -164,7 +164,7 @@ void tst_NmeaSentence::aStreamFindsTheNextSentenceAfterGarbage()
              quint64(2));  // half a sentence, and one with a wrong checksum; the rest was no sentence at all
 }
 
-void tst_NmeaSentence::aLineWithoutAnEndTakesNoMemory()
+void tst_NmeaSentence::endlessLineDoesNotGrowTheBuffer()
 {
     NmeaStream stream;
     QCOMPARE(typesIn("$WIMWV," + QByteArray(100000, '1') + "\r\n" + sealed("WIMWV,1") + "\r\n", &stream),
@@ -180,7 +180,7 @@ void tst_NmeaSentence::sentencesWithoutAChecksumAreRefusedUnlessAllowed()
     QCOMPARE(typesIn("$WIMWV,1\r\n$WIMWV,1*00\r\n", &stream), QVector<QByteArray>{"MWV"});
 }
 
-void tst_NmeaSentence::windOfMwv_data()
+void tst_NmeaSentence::windIsReadFromMwv_data()
 {
     QTest::addColumn<QByteArray>("body");
     QTest::addColumn<bool>("isRelative");
@@ -193,7 +193,7 @@ void tst_NmeaSentence::windOfMwv_data()
     QTest::newRow("a negative angle") << QByteArray("WIMWV,-90,R,1,M,A") << true << 1.0 << 1.5 * M_PI;
 }
 
-void tst_NmeaSentence::windOfMwv()
+void tst_NmeaSentence::windIsReadFromMwv()
 {
     QFETCH(QByteArray, body);
     QFETCH(bool, isRelative);
@@ -217,7 +217,7 @@ void tst_NmeaSentence::anInvalidMwvHasNoWind()
     QVERIFY(!windOf("WIMWV,90,X,5.5,M,A").isValid);
 }
 
-void tst_NmeaSentence::windOfVwrAndVwt()
+void tst_NmeaSentence::windIsReadFromVwrAndVwt()
 {
     const NmeaWind left = windOf("IIVWR,45,L,10,N,5.2,M,18.5,K");
     QVERIFY(isNear(left.relative.angle, 1.75 * M_PI));
@@ -230,7 +230,7 @@ void tst_NmeaSentence::windOfVwrAndVwt()
     QVERIFY(!windOf("IIVWR,45,,,,,,,").relative.angle);
 }
 
-void tst_NmeaSentence::weatherOfMda()
+void tst_NmeaSentence::weatherIsReadFromMda()
 {
     const NmeaWind weather = windOf("WIMDA,29.92,I,1.0132,B,21.5,C,,C,55,,12.1,C,90,T,87,M,10,N,5.14,M");
     QVERIFY(isNear(weather.pressure, 101320.0));
@@ -242,7 +242,7 @@ void tst_NmeaSentence::weatherOfMda()
     QVERIFY(!windOf("WIMDA").pressure);
 }
 
-void tst_NmeaSentence::weatherOfXdr()
+void tst_NmeaSentence::weatherIsReadFromXdr()
 {
     const NmeaWind weather = windOf("WIXDR,C,21.5,C,AIR,C,30,C,HEATER,H,55,P,0,P,1.0132,B,0");
     QVERIFY(isNear(weather.temperature, 21.5));
@@ -252,7 +252,7 @@ void tst_NmeaSentence::weatherOfXdr()
     QVERIFY(!windOf("WIXDR,C,21.5").temperature);
 }
 
-void tst_NmeaSentence::valuesThatCannotBeAreNone()
+void tst_NmeaSentence::impossibleValuesAreIgnored()
 {
     const NmeaWind wind = windOf("WIMWV,400,R,-1,M,A");
     QVERIFY(!wind.relative.angle);
@@ -260,7 +260,7 @@ void tst_NmeaSentence::valuesThatCannotBeAreNone()
     QVERIFY(!windOf("WIMWV,90,R,5,X,A").relative.speed);
 }
 
-void tst_NmeaSentence::otherSentencesAreNotOfWind()
+void tst_NmeaSentence::otherSentencesGiveNoWind()
 {
     QVERIFY(!windOf("GPGGA,1").isOfWind);
     QVERIFY(!windOf("PMWV,90,R,5,M,A").isOfWind);

@@ -46,12 +46,12 @@ private Q_SLOTS:
     void windComesInSiUnits();
     void sentencesMayComeInPieces();
     void aValueIsFreshForItsTimeout();
-    void windThatTheSensorCallsInvalidIsNone();
+    void windMarkedInvalidIsNotFresh();
     void aWrongRateIsNamed();
     void aSilentSensorIsNamed();
     void anotherInstrumentIsNamed();
     void aLineThatIsUnpluggedIsOpenedAgain();
-    void keysThatCannotBeMeantAreRefused();
+    void invalidKeysAreRefused();
 };
 
 void tst_NmeaWindDriver::windComesInSiUnits()
@@ -97,7 +97,7 @@ void tst_NmeaWindDriver::aValueIsFreshForItsTimeout()
     }
 }
 
-void tst_NmeaWindDriver::windThatTheSensorCallsInvalidIsNone()
+void tst_NmeaWindDriver::windMarkedInvalidIsNotFresh()
 {
     Sensor sensor;
     QVERIFY2(sensor.bench.open(), qPrintable(sensor.bench.errorString()));
@@ -175,7 +175,7 @@ void tst_NmeaWindDriver::aLineThatIsUnpluggedIsOpenedAgain()
     QCOMPARE(sensor.bench.value("relativeSpeed"), 11.0);
 }
 
-void tst_NmeaWindDriver::keysThatCannotBeMeantAreRefused()
+void tst_NmeaWindDriver::invalidKeysAreRefused()
 {
     const Sensor sensor("baud = 4801\nformat = 8X1\nchecksum = maybe\n");
     const QString errors = sensor.bench.errors();

@@ -17,12 +17,12 @@ class tst_SerialLine : public QObject
 private Q_SLOTS:
     void formatsAreThreeCharacters();
     void bytesGoBothWaysUnchanged();
-    void nothingIsWaitedFor();
+    void readDoesNotBlock();
     void allUsualRatesAreSet();
-    void whatCameBeforeIsThrownAway();
-    void aLineThatHangsUpIsGone();
+    void openDiscardsEarlierBytes();
+    void unpluggedLineReportsNoDevice();
     void aMissingLineIsNamedWithTheRemedy();
-    void whatIsNoSerialLineIsRefused();
+    void otherDeviceFilesAreRefused();
     void aRateThatTheLineCannotDoIsNamed();
     void aFakeLineIsALinkInTheFolder();
 };
@@ -55,7 +55,7 @@ void tst_SerialLine::bytesGoBothWaysUnchanged()
     QCOMPARE(far.receive().toHex(), all.toHex());
 }
 
-void tst_SerialLine::nothingIsWaitedFor()
+void tst_SerialLine::readDoesNotBlock()
 {
     PseudoTerminal far;
     SerialLine line;
@@ -82,7 +82,7 @@ void tst_SerialLine::allUsualRatesAreSet()
     QVERIFY(SerialLine::knownRates().contains("4800, 9600"));
 }
 
-void tst_SerialLine::whatCameBeforeIsThrownAway()
+void tst_SerialLine::openDiscardsEarlierBytes()
 {
     PseudoTerminal far;
     SerialLine line;
@@ -97,7 +97,7 @@ void tst_SerialLine::whatCameBeforeIsThrownAway()
     QCOMPARE(QByteArray(bytes), QByteArray("new"));
 }
 
-void tst_SerialLine::aLineThatHangsUpIsGone()
+void tst_SerialLine::unpluggedLineReportsNoDevice()
 {
     PseudoTerminal far;
     SerialLine line;
@@ -123,7 +123,7 @@ void tst_SerialLine::aMissingLineIsNamedWithTheRemedy()
     QVERIFY(!line.isOpen());
 }
 
-void tst_SerialLine::whatIsNoSerialLineIsRefused()
+void tst_SerialLine::otherDeviceFilesAreRefused()
 {
     SerialLine line;
     QString error;

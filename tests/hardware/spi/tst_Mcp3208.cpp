@@ -38,18 +38,18 @@ class tst_Mcp3208 : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void questionsAndAnswersAreThoseOfTheChip();
+    void transfersFollowTheDataSheet();
     void eachInputIsAVoltage();
     void differencesAreOfNeighboursAndNeverNegative();
     void aChipWithoutPowerIsNamed();
     void aBusThatIsUnpluggedIsAnError();
-    void keysThatCannotBeMeantAreRefused();
+    void invalidKeysAreRefused();
     void aMissingDeviceIsNamedWithTheRemedy();
 };
 
 // As its data sheet draws it: 5 zeros, start, single-ended, 3 bits of the input, one clock of
 // sampling, a zero, 12 bits.
-void tst_Mcp3208::questionsAndAnswersAreThoseOfTheChip()
+void tst_Mcp3208::transfersFollowTheDataSheet()
 {
     Converter converter;
     converter.set(6, 0xabc);
@@ -127,7 +127,7 @@ void tst_Mcp3208::aBusThatIsUnpluggedIsAnError()
              qPrintable(converter.bench.errorString()));
 }
 
-void tst_Mcp3208::keysThatCannotBeMeantAreRefused()
+void tst_Mcp3208::invalidKeysAreRefused()
 {
     const Converter converter("reference = 12\nspeed = 5000000\nmode = 1\n");
     const QString errors = converter.bench.errors();

@@ -51,7 +51,7 @@ private Q_SLOTS:
             QVERIFY(length > 359.9 && length < 360.1);
         });
     }
-    void standsStillWhenItHearsNothing()
+    void winchStandsStillAfterLossOfTheMaster()
     {
         QPlcSimulator::run(2, [](QPlcSimulator &simulator) {
             QPlcSimulatedHost masterHost(simulator, "master"), winchHost(simulator, "winch");

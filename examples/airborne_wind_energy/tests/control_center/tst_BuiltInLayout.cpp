@@ -94,15 +94,15 @@ class tst_BuiltInLayout : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void layoutIsTakenAndShown();
+    void layoutIsLoadedAndShown();
     void layoutIsWrittenAsItIsShown();
     void everySignalIsInTheTable_data();
     void everySignalIsInTheTable();
     void theDialsHoldTheFlightOfTheDemo();
-    void theFourViewsShowTheKiteAsItIsSaidInTheManual();
+    void fourViewsLayoutMatchesTheManual();
 };
 
-void tst_BuiltInLayout::layoutIsTakenAndShown()
+void tst_BuiltInLayout::layoutIsLoadedAndShown()
 {
     QPlcControlCenter window;
     QString error;
@@ -182,7 +182,7 @@ void tst_BuiltInLayout::theDialsHoldTheFlightOfTheDemo()
 
 /// One panel of keys, four gauges, two plots, and four views of the kite: two of them with the path
 /// of the last three minutes, the largest with that of the last 10 s.
-void tst_BuiltInLayout::theFourViewsShowTheKiteAsItIsSaidInTheManual()
+void tst_BuiltInLayout::fourViewsLayoutMatchesTheManual()
 {
     QPlcControlCenter window;
     QString error;

@@ -35,20 +35,20 @@ private Q_SLOTS:
     void helpHasExamples();
     void badOptionIsRefusedWithTheRemedy_data();
     void badOptionIsRefusedWithTheRemedy();
-    void withoutADisplayItSaysWhatToDo();
-    void demoMakesAPictureAndLeavesNothingBehind_data();
-    void demoMakesAPictureAndLeavesNothingBehind();
-    void startPageIsThereWithoutAPlant();
-    void masterThatIsNotThereBlocksNothing();
-    void pictureThatCannotBeWrittenIsToldAtTheEnd();
-    void whatIsNoFileIsNotReplacedByAPicture();
+    void programWithoutDisplayReportsTheRemedy();
+    void demoSavesAPictureAndEndsAllItsPrograms_data();
+    void demoSavesAPictureAndEndsAllItsPrograms();
+    void windowWithoutPlantShowsTheStartPage();
+    void missingMasterDoesNotBlockTheWindow();
+    void failureToWriteThePictureIsReportedAtTheEnd();
+    void pictureDoesNotReplaceAPipe();
     void pictureIsGivenUpWhereProgramsOfTheDemoAreMissing();
-    void programThatIsEndedBeforeItsPictureHasFailed_data();
-    void programThatIsEndedBeforeItsPictureHasFailed();
+    void programEndedBeforeItsPictureReportsFailure_data();
+    void programEndedBeforeItsPictureReportsFailure();
     void windowOutlivesItsPrograms_data();
     void windowOutlivesItsPrograms();
-    void noneIsLeftBehind_data();
-    void noneIsLeftBehind();
+    void windowEndsAllProgramsOfTheDemo_data();
+    void windowEndsAllProgramsOfTheDemo();
     void signalEndsTheWindowInOrder();
 
 private:
@@ -118,7 +118,7 @@ void tst_ControlCenter::badOptionIsRefusedWithTheRemedy()
     QCOMPARE(outcome.output, QString());
 }
 
-void tst_ControlCenter::withoutADisplayItSaysWhatToDo()
+void tst_ControlCenter::programWithoutDisplayReportsTheRemedy()
 {
     const QByteArray display = qgetenv("DISPLAY");
     qunsetenv("DISPLAY");
@@ -140,7 +140,7 @@ void tst_ControlCenter::withoutADisplayItSaysWhatToDo()
              qPrintable(unreachable.errors));
 }
 
-void tst_ControlCenter::demoMakesAPictureAndLeavesNothingBehind_data()
+void tst_ControlCenter::demoSavesAPictureAndEndsAllItsPrograms_data()
 {
     QTest::addColumn<QString>("tab");
     QTest::addColumn<QString>("theme");
@@ -150,7 +150,7 @@ void tst_ControlCenter::demoMakesAPictureAndLeavesNothingBehind_data()
     QTest::newRow("real time") << QStringLiteral("Real time") << QStringLiteral("sunlight") << QSize(1024, 700);
 }
 
-void tst_ControlCenter::demoMakesAPictureAndLeavesNothingBehind()
+void tst_ControlCenter::demoSavesAPictureAndEndsAllItsPrograms()
 {
     QFETCH(QString, tab);
     QFETCH(QString, theme);
@@ -171,7 +171,7 @@ void tst_ControlCenter::demoMakesAPictureAndLeavesNothingBehind()
     QVERIFY(colours(image, 20) >= 20);
 }
 
-void tst_ControlCenter::startPageIsThereWithoutAPlant()
+void tst_ControlCenter::windowWithoutPlantShowsTheStartPage()
 {
     const QString file = picture(QStringLiteral("start_page"));
     const Outcome outcome = runProgram(
@@ -181,7 +181,7 @@ void tst_ControlCenter::startPageIsThereWithoutAPlant()
     QCOMPARE(QImage(file).size(), QSize(1366, 768));
 }
 
-void tst_ControlCenter::masterThatIsNotThereBlocksNothing()
+void tst_ControlCenter::missingMasterDoesNotBlockTheWindow()
 {
     const QString file = picture(QStringLiteral("no_master"));
     QElapsedTimer clock;
@@ -194,7 +194,7 @@ void tst_ControlCenter::masterThatIsNotThereBlocksNothing()
     QVERIFY(!QImage(file).isNull());
 }
 
-void tst_ControlCenter::pictureThatCannotBeWrittenIsToldAtTheEnd()
+void tst_ControlCenter::failureToWriteThePictureIsReportedAtTheEnd()
 {
     QTemporaryDir folder;
     const QString file = folder.filePath(QStringLiteral("gone/x.png"));
@@ -207,7 +207,7 @@ void tst_ControlCenter::pictureThatCannotBeWrittenIsToldAtTheEnd()
     QVERIFY2(window.errors().contains(file), qPrintable(window.errors()));
 }
 
-void tst_ControlCenter::whatIsNoFileIsNotReplacedByAPicture()
+void tst_ControlCenter::pictureDoesNotReplaceAPipe()
 {
     QTemporaryDir folder;
     const QString file = folder.filePath(QStringLiteral("pipe.png"));
@@ -230,14 +230,14 @@ void tst_ControlCenter::pictureIsGivenUpWhereProgramsOfTheDemoAreMissing()
     QVERIFY(!QFile::exists(file));
 }
 
-void tst_ControlCenter::programThatIsEndedBeforeItsPictureHasFailed_data()
+void tst_ControlCenter::programEndedBeforeItsPictureReportsFailure_data()
 {
     QTest::addColumn<int>("signal");
     QTest::newRow("terminated") << SIGTERM;
     QTest::newRow("interrupted") << SIGINT;
 }
 
-void tst_ControlCenter::programThatIsEndedBeforeItsPictureHasFailed()
+void tst_ControlCenter::programEndedBeforeItsPictureReportsFailure()
 {
     QFETCH(int, signal);
     QTemporaryDir folder;
@@ -280,7 +280,7 @@ void tst_ControlCenter::windowOutlivesItsPrograms()
     QCOMPARE(stillRunning(pids), QList<qint64>());
 }
 
-void tst_ControlCenter::noneIsLeftBehind_data()
+void tst_ControlCenter::windowEndsAllProgramsOfTheDemo_data()
 {
     QTest::addColumn<int>("signal");
     QTest::addColumn<int>("exitCode");
@@ -289,7 +289,7 @@ void tst_ControlCenter::noneIsLeftBehind_data()
     QTest::newRow("interrupted") << SIGINT << 0;
 }
 
-void tst_ControlCenter::noneIsLeftBehind()
+void tst_ControlCenter::windowEndsAllProgramsOfTheDemo()
 {
     QFETCH(int, signal);
     QFETCH(int, exitCode);

@@ -34,9 +34,9 @@ private Q_SLOTS:
     void initTestCase();
     void cleanup();
     void oneClickOnTheStartPageFliesTheKite();
-    void killedProgramIsToldAndOneClickFliesAgain_data();
-    void killedProgramIsToldAndOneClickFliesAgain();
-    void hintOpensWhatTheDemoIsBuiltOf();
+    void killedProgramIsReportedAndOneClickRestartsTheFlight_data();
+    void killedProgramIsReportedAndOneClickRestartsTheFlight();
+    void hintShowsTheProgramsOfTheDemo();
     void plantOfTheDemoIsForgottenWhenTheWindowCloses();
 
 private:
@@ -71,14 +71,14 @@ void tst_DemoFlight::oneClickOnTheStartPageFliesTheKite()
     QVERIFY(window.isConnected(QStringLiteral("demo")));
 }
 
-void tst_DemoFlight::killedProgramIsToldAndOneClickFliesAgain_data()
+void tst_DemoFlight::killedProgramIsReportedAndOneClickRestartsTheFlight_data()
 {
     QTest::addColumn<QByteArray>("victim");
     for (const char *name : {"awe_master", "awe_model", "awe_autopilot"})
         QTest::newRow(name) << QByteArray(name);
 }
 
-void tst_DemoFlight::killedProgramIsToldAndOneClickFliesAgain()
+void tst_DemoFlight::killedProgramIsReportedAndOneClickRestartsTheFlight()
 {
     QFETCH(QByteArray, victim);
     QPlcControlCenter window;
@@ -109,7 +109,7 @@ void tst_DemoFlight::killedProgramIsToldAndOneClickFliesAgain()
     QCOMPARE(failed.size(), 1);
 }
 
-void tst_DemoFlight::hintOpensWhatTheDemoIsBuiltOf()
+void tst_DemoFlight::hintShowsTheProgramsOfTheDemo()
 {
     QPlcControlCenter window;
     awe::DemoFlight demo(&window);

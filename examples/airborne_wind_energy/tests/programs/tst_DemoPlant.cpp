@@ -15,16 +15,16 @@ class tst_DemoPlant : public QObject
 
 private Q_SLOTS:
     void cleanup();
-    void kiteFliesByItselfAndNothingIsLeftBehind();
+    void demoFliesTheKiteAndEndsAllItsPrograms();
     void missingProgramIsNamedWithTheRemedy_data();
     void missingProgramIsNamedWithTheRemedy();
     void killedProgramIsNamedAndARestartFliesOnTheSamePort_data();
     void killedProgramIsNamedAndARestartFliesOnTheSamePort();
-    void programThatEndsByItselfIsNamedWithItsLastWords();
-    void stoppedProgramsAreLeftBehindNeither();
-    void restartGoesToAnotherPortWhenSomebodyHasTakenIt();
+    void endedProgramIsNamedWithItsLastErrorLine();
+    void demoEndsSuspendedPrograms();
+    void restartUsesAnotherPortWhenTheFirstIsInUse();
     void peopleStopAndStartTheFlight();
-    void startOfARunningDemoTellsWhereItIs();
+    void startOfARunningDemoReportsItsAddressAgain();
 };
 
 void tst_DemoPlant::cleanup()
@@ -32,7 +32,7 @@ void tst_DemoPlant::cleanup()
     QCOMPARE(childrenOf(QCoreApplication::applicationPid()), QList<qint64>());
 }
 
-void tst_DemoPlant::kiteFliesByItselfAndNothingIsLeftBehind()
+void tst_DemoPlant::demoFliesTheKiteAndEndsAllItsPrograms()
 {
     QList<qint64> pids;
     {
@@ -111,7 +111,7 @@ void tst_DemoPlant::killedProgramIsNamedAndARestartFliesOnTheSamePort()
     QCOMPARE(failed.size(), 1);  // those that followed the first are no news
 }
 
-void tst_DemoPlant::programThatEndsByItselfIsNamedWithItsLastWords()
+void tst_DemoPlant::endedProgramIsNamedWithItsLastErrorLine()
 {
     QTemporaryDir folder;
     for (const char *name : {"awe_master", "awe_autopilot"})
@@ -129,7 +129,7 @@ void tst_DemoPlant::programThatEndsByItselfIsNamedWithItsLastWords()
     QCOMPARE(failed.at(0).at(0).toString(), QStringLiteral("awe_model has ended (exit code 2): there is no wind"));
 }
 
-void tst_DemoPlant::stoppedProgramsAreLeftBehindNeither()
+void tst_DemoPlant::demoEndsSuspendedPrograms()
 {
     QList<qint64> pids;
     {
@@ -144,7 +144,7 @@ void tst_DemoPlant::stoppedProgramsAreLeftBehindNeither()
     QCOMPARE(stillRunning(pids), QList<qint64>());
 }
 
-void tst_DemoPlant::restartGoesToAnotherPortWhenSomebodyHasTakenIt()
+void tst_DemoPlant::restartUsesAnotherPortWhenTheFirstIsInUse()
 {
     awe::DemoPlant demo;
     QSignalSpy listening(&demo, &awe::DemoPlant::listening);
@@ -180,7 +180,7 @@ void tst_DemoPlant::peopleStopAndStartTheFlight()
     QCOMPARE(failed.size(), 0);
 }
 
-void tst_DemoPlant::startOfARunningDemoTellsWhereItIs()
+void tst_DemoPlant::startOfARunningDemoReportsItsAddressAgain()
 {
     awe::DemoPlant demo;
     QSignalSpy listening(&demo, &awe::DemoPlant::listening);

@@ -23,11 +23,11 @@ private Q_SLOTS:
     void commandPrintsWhatThePageShows();
     void aFifthOfTheDragIsAlmostFiveTimesAsFast();
     void thePowerComesCloseToTheFormula();
-    void reelingInNeedsWhatTheThesisSaw();
-    void theSoftTetherTakesThePeaksOfTheForce();
-    void theErrorOfThePageIsReal();
+    void reelInPowerAgreesWithTheThesis();
+    void softTetherReducesThePeaksOfTheForce();
+    void programPrintsTheErrorShownOnThePage();
     void everyPlantFileIsShownAndValid();
-    void thePlantReachesEveryProcess();
+    void everyProcessUsesTheConfiguredPlant();
 
 private:
     /// A command of the page and the lines of its output that are shown.
@@ -135,13 +135,13 @@ void tst_KiteExperiments::thePowerComesCloseToTheFormula()
     QVERIFY2(power > 0.98 * 3091.0 && power <= 3091.0, qPrintable(QString::number(power)));
 }
 
-void tst_KiteExperiments::reelingInNeedsWhatTheThesisSaw()
+void tst_KiteExperiments::reelInPowerAgreesWithTheThesis()
 {
     const double power = shown(QStringLiteral("reel-in"), QStringLiteral("reeling out, in"), 1);
     QVERIFY2(qAbs(power + 200.0) < 20.0, qPrintable(QString::number(power)));
 }
 
-void tst_KiteExperiments::theSoftTetherTakesThePeaksOfTheForce()
+void tst_KiteExperiments::softTetherReducesThePeaksOfTheForce()
 {
     const QString force = QStringLiteral("greatest force");
     QVERIFY(shown(QStringLiteral("soft-tether"), force) < 0.8 * shown(QStringLiteral("stiff-tether"), force));
@@ -150,7 +150,7 @@ void tst_KiteExperiments::theSoftTetherTakesThePeaksOfTheForce()
     QVERIFY2(ratio > 0.9 && ratio < 1.1, qPrintable(QString::number(ratio)));
 }
 
-void tst_KiteExperiments::theErrorOfThePageIsReal()
+void tst_KiteExperiments::programPrintsTheErrorShownOnThePage()
 {
     QTemporaryDir folder;
     QVERIFY(QDir(folder.path()).mkdir(QStringLiteral("plants")));
@@ -181,7 +181,7 @@ void tst_KiteExperiments::everyPlantFileIsShownAndValid()
 }
 
 /// In one process and in three the same flight, to the last bit, and not that of another plant.
-void tst_KiteExperiments::thePlantReachesEveryProcess()
+void tst_KiteExperiments::everyProcessUsesTheConfiguredPlant()
 {
     const QTemporaryDir folder;
     const auto report = [&](const QStringList &options) {

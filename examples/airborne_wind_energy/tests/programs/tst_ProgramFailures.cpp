@@ -54,12 +54,12 @@ private Q_SLOTS:
     void masterWhoseTableLacksItsOwnSignalDoesNotBegin();
     void nodesEndWithTheirMasterUnlessTheyAreToStay();
     void nodesWaitForTheNextMasterWhenTheirsIsLost();
-    void notANumberEndsTheFlight();
+    void notANumberValueEndsTheFlight();
     void lostNodeEndsTheFlight();
     void bothModelsFlyTheSameFlight_data();
     void bothModelsFlyTheSameFlight();
-    void masterByHandEndsOnSignalInTheMiddleOfAFlight();
-    void withoutAModelNoKiteCrashes();
+    void signalEndsAManuallyStartedMasterDuringAFlight();
+    void flightWithoutModelReportsNoCrash();
 
 private:
     static QString path(const char *program) { return QStringLiteral(AWE_PROGRAMS "/") + QString::fromLatin1(program); }
@@ -236,7 +236,7 @@ void tst_ProgramFailures::nodesWaitForTheNextMasterWhenTheirsIsLost()
     QCOMPARE(model.waitForEnd(), 0);
 }
 
-void tst_ProgramFailures::notANumberEndsTheFlight()
+void tst_ProgramFailures::notANumberValueEndsTheFlight()
 {
     Program master(path("awe_master"),
                    {QStringLiteral("--port=0"), QStringLiteral("--start-with=Model"), QStringLiteral("--duration=60")});
@@ -308,7 +308,7 @@ void tst_ProgramFailures::bothModelsFlyTheSameFlight()
     QCOMPARE(lists.value(QStringLiteral("energy_J")), ports.value(QStringLiteral("energy_J")));
 }
 
-void tst_ProgramFailures::masterByHandEndsOnSignalInTheMiddleOfAFlight()
+void tst_ProgramFailures::signalEndsAManuallyStartedMasterDuringAFlight()
 {
     const QString reportFile = m_folder.filePath(QStringLiteral("hand.json"));
     Program master(path("awe_master"), {QStringLiteral("--port=0"), QStringLiteral("--report"), reportFile});
@@ -329,7 +329,7 @@ void tst_ProgramFailures::masterByHandEndsOnSignalInTheMiddleOfAFlight()
     operatorNode.disconnectFromMaster();
 }
 
-void tst_ProgramFailures::withoutAModelNoKiteCrashes()
+void tst_ProgramFailures::flightWithoutModelReportsNoCrash()
 {
     Program master(
         path("awe_master"),

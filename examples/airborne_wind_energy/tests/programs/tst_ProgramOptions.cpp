@@ -18,8 +18,8 @@ private Q_SLOTS:
     void versionIsOneLine();
     void badOptionsAreRefusedWithOneSentence_data();
     void badOptionsAreRefusedWithOneSentence();
-    void helpTellsTheClockThatRunsWithoutOptions();
-    void helpTellsWhereTheMasterListensWithoutOptions();
+    void helpStatesTheDefaultClock();
+    void helpStatesTheDefaultListenAddress();
     void brokenSignalTableShowsAllOfItsErrors_data() { everyProgram(); }
     void brokenSignalTableShowsAllOfItsErrors();
     void reportThatCannotBeWrittenIsRefusedBeforeTheFlight_data();
@@ -211,7 +211,7 @@ void tst_ProgramOptions::badOptionsAreRefusedWithOneSentence()
              qPrintable(QStringLiteral("names a C++ function: %1").arg(outcome.errors)));
 }
 
-void tst_ProgramOptions::helpTellsTheClockThatRunsWithoutOptions()
+void tst_ProgramOptions::helpStatesTheDefaultClock()
 {
     const QString master
         = runProgram(path(QStringLiteral("awe_master")), {QStringLiteral("--help")}).output.simplified();
@@ -226,7 +226,7 @@ void tst_ProgramOptions::helpTellsTheClockThatRunsWithoutOptions()
     QVERIFY2(sil.contains(QStringLiteral("As fast as the real thing. ")), qPrintable(sil));
 }
 
-void tst_ProgramOptions::helpTellsWhereTheMasterListensWithoutOptions()
+void tst_ProgramOptions::helpStatesTheDefaultListenAddress()
 {
     const QString master
         = runProgram(path(QStringLiteral("awe_master")), {QStringLiteral("--help")}).output.simplified();

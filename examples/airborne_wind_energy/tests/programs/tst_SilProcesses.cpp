@@ -59,11 +59,11 @@ class tst_SilProcesses : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void noneIsLeftBehind_data();
-    void noneIsLeftBehind();
+    void programEndsAllItsChildProcesses_data();
+    void programEndsAllItsChildProcesses();
     void stoppedNodeDoesNotKeepTheFlightFromEnding();
-    void nodeThatStandsInADebuggerEndsNothing_data();
-    void nodeThatStandsInADebuggerEndsNothing();
+    void nodePausedInADebuggerDoesNotEndTheFlight_data();
+    void nodePausedInADebuggerDoesNotEndTheFlight();
 
 private:
     /// Waits until all three programs run. \return their process ids: master, model, autopilot;
@@ -88,7 +88,7 @@ QList<qint64> tst_SilProcesses::waitForPrograms(Program &program)
     return QTest::qWaitFor(allThere, Program::patience) ? pids : QList<qint64>();
 }
 
-void tst_SilProcesses::noneIsLeftBehind_data()
+void tst_SilProcesses::programEndsAllItsChildProcesses_data()
 {
     QTest::addColumn<QString>("victim");  // empty: nobody
     QTest::addColumn<int>("signal");
@@ -109,7 +109,7 @@ void tst_SilProcesses::noneIsLeftBehind_data()
                                  << QStringLiteral("node 'Model' is gone");
 }
 
-void tst_SilProcesses::noneIsLeftBehind()
+void tst_SilProcesses::programEndsAllItsChildProcesses()
 {
     QFETCH(QString, victim);
     QFETCH(int, signal);
@@ -148,7 +148,7 @@ void tst_SilProcesses::stoppedNodeDoesNotKeepTheFlightFromEnding()
     QCOMPARE(stillRunning(pids), QList<qint64>());
 }
 
-void tst_SilProcesses::nodeThatStandsInADebuggerEndsNothing_data()
+void tst_SilProcesses::nodePausedInADebuggerDoesNotEndTheFlight_data()
 {
     QTest::addColumn<int>("place");  // among the programs
     QTest::newRow("model") << 1;
@@ -157,7 +157,7 @@ void tst_SilProcesses::nodeThatStandsInADebuggerEndsNothing_data()
 
 /// Two seconds at a breakpoint, in real time: all others see the last values, and the node goes on
 /// where it was.
-void tst_SilProcesses::nodeThatStandsInADebuggerEndsNothing()
+void tst_SilProcesses::nodePausedInADebuggerDoesNotEndTheFlight()
 {
     QFETCH(int, place);
     Program program(QStringLiteral(AWE_PROGRAMS "/awe_sil"),

@@ -67,13 +67,13 @@ class tst_WinchFlight : public QObject
 
 private Q_SLOTS:
     void init();
-    void oneWordPutsADriveInPlaceOfTheIdealWinch();
+    void winchKindReplacesTheIdealWinchByADrive();
     void idealWinchIsTheDefault();
-    void driveDoesNotWaitForASimulation();
+    void driveRefusesLockstepSimulation();
     void missingConfigurationIsNamed();
     void emergencyStopStopsDriveAndFlight();
-    void killedNodeIsHeldThenSafeThenBack();
-    void lostDriveMayComeBack();
+    void killedNodeHoldsThenEntersSafeStateThenRecovers();
+    void lostDriveCanReconnect();
 
 private:
     static QString path(const char *program) { return QStringLiteral(AWE_PROGRAMS "/") + QString::fromLatin1(program); }
@@ -147,7 +147,7 @@ qint64 tst_WinchFlight::childOf(const Program &program, const QByteArray &name)
     return 0;
 }
 
-void tst_WinchFlight::oneWordPutsADriveInPlaceOfTheIdealWinch()
+void tst_WinchFlight::winchKindReplacesTheIdealWinchByADrive()
 {
     const Outcome outcome
         = runProgram(path("awe_sil"), {"--plant", plant(true), "--duration=10", "--report", reportFile()});
@@ -187,7 +187,7 @@ void tst_WinchFlight::idealWinchIsTheDefault()
     }
 }
 
-void tst_WinchFlight::driveDoesNotWaitForASimulation()
+void tst_WinchFlight::driveRefusesLockstepSimulation()
 {
     const Outcome outcome = runProgram(path("awe_sil"), {"--winch=drive", "--lockstep"});
     QCOMPARE(outcome.exitCode, 2);
@@ -224,7 +224,7 @@ void tst_WinchFlight::emergencyStopStopsDriveAndFlight()
     QCOMPARE(drive.waitForEnd(), 0);
 }
 
-void tst_WinchFlight::killedNodeIsHeldThenSafeThenBack()
+void tst_WinchFlight::killedNodeHoldsThenEntersSafeStateThenRecovers()
 {
     setButton(false);
     Program drive(path("awe_winch_drive"), {});
@@ -245,7 +245,7 @@ void tst_WinchFlight::killedNodeIsHeldThenSafeThenBack()
     QVERIFY(!report().value(QStringLiteral("crashed")).toBool(true));
 }
 
-void tst_WinchFlight::lostDriveMayComeBack()
+void tst_WinchFlight::lostDriveCanReconnect()
 {
     setButton(false);
     auto drive = std::make_unique<Program>(path("awe_winch_drive"), QStringList());

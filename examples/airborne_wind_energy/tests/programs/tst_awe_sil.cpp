@@ -64,22 +64,22 @@ class tst_awe_sil : public QObject
 
 private Q_SLOTS:
     void reportHoldsEveryFigure();
-    void flightIsTheSameWhateverCarriesIt_data();
-    void flightIsTheSameWhateverCarriesIt();
+    void flightIsIdenticalOverEveryTransport_data();
+    void flightIsIdenticalOverEveryTransport();
     void multicastReachesBothNodes();
-    void sameCycleFlightIsTheSameWhateverCarriesIt_data();
-    void sameCycleFlightIsTheSameWhateverCarriesIt();
-    void sameCycleFlightIsThatOfOneLoop();
-    void reportTellsTheAgeOfEveryLink_data();
-    void reportTellsTheAgeOfEveryLink();
+    void sameCycleFlightIsIdenticalOverEveryTransport_data();
+    void sameCycleFlightIsIdenticalOverEveryTransport();
+    void sameCycleFlightEqualsTheSingleLoopFlight();
+    void reportContainsTheAgeOfEveryLink_data();
+    void reportContainsTheAgeOfEveryLink();
     void anotherSeedIsAnotherFlight();
     void clockSetsThePace_data();
     void clockSetsThePace();
     void interruptedFlightIsReported_data();
     void interruptedFlightIsReported();
     void progressLineFitsTheTerminal();
-    void pictureGivesTheTerminalBack_data();
-    void pictureGivesTheTerminalBack();
+    void liveViewRestoresTheTerminal_data();
+    void liveViewRestoresTheTerminal();
 
 private:
     static void addTransports();
@@ -166,14 +166,14 @@ void tst_awe_sil::addTransports()
     QTest::newRow("processes with shared memory") << QStringLiteral("--processes --transport local");
 }
 
-void tst_awe_sil::flightIsTheSameWhateverCarriesIt_data()
+void tst_awe_sil::flightIsIdenticalOverEveryTransport_data()
 {
     addTransports();
     QTest::newRow("in one process over multicast") << QStringLiteral("--transport udp-multicast");
     QTest::newRow("processes over multicast") << QStringLiteral("--processes --transport udp-multicast");
 }
 
-void tst_awe_sil::flightIsTheSameWhateverCarriesIt()
+void tst_awe_sil::flightIsIdenticalOverEveryTransport()
 {
     QFETCH(QString, options);
     const QJsonObject flight = fly(options);
@@ -196,12 +196,12 @@ void tst_awe_sil::multicastReachesBothNodes()
             qPrintable(outcome.errors));
 }
 
-void tst_awe_sil::sameCycleFlightIsTheSameWhateverCarriesIt_data()
+void tst_awe_sil::sameCycleFlightIsIdenticalOverEveryTransport_data()
 {
     addTransports();
 }
 
-void tst_awe_sil::sameCycleFlightIsTheSameWhateverCarriesIt()
+void tst_awe_sil::sameCycleFlightIsIdenticalOverEveryTransport()
 {
     QFETCH(QString, options);
     const QJsonObject flight = fly(QStringLiteral("--same-cycle ") + options);
@@ -216,7 +216,7 @@ void tst_awe_sil::sameCycleFlightIsTheSameWhateverCarriesIt()
 
 /// Plant and autopilot in one loop, without QtPLC, with the rounding of the signals: the same
 /// figures to the last bit.
-void tst_awe_sil::sameCycleFlightIsThatOfOneLoop()
+void tst_awe_sil::sameCycleFlightEqualsTheSingleLoopFlight()
 {
     awe::ClosedLoopParameters parameters;
     parameters.deadTime = 0;
@@ -237,7 +237,7 @@ void tst_awe_sil::sameCycleFlightIsThatOfOneLoop()
     QVERIFY(expected.pumpingCycles >= 1 && expected.energy > 0.0);
 }
 
-void tst_awe_sil::reportTellsTheAgeOfEveryLink_data()
+void tst_awe_sil::reportContainsTheAgeOfEveryLink_data()
 {
     QTest::addColumn<QString>("options");
     QTest::addColumn<int>("sensors");
@@ -252,7 +252,7 @@ void tst_awe_sil::reportTellsTheAgeOfEveryLink_data()
         << QStringLiteral("--same-cycle --processes --dead-time 1") << 0 << 0 << 1;
 }
 
-void tst_awe_sil::reportTellsTheAgeOfEveryLink()
+void tst_awe_sil::reportContainsTheAgeOfEveryLink()
 {
     QFETCH(QString, options);
     QFETCH(int, sensors);
@@ -355,7 +355,7 @@ void tst_awe_sil::progressLineFitsTheTerminal()
     QVERIFY(text.endsWith("\r\033[K"));
 }
 
-void tst_awe_sil::pictureGivesTheTerminalBack_data()
+void tst_awe_sil::liveViewRestoresTheTerminal_data()
 {
     QTest::addColumn<QString>("options");
     QTest::addColumn<int>("signal");
@@ -365,7 +365,7 @@ void tst_awe_sil::pictureGivesTheTerminalBack_data()
     QTest::newRow("processes, on Ctrl-C") << QStringLiteral("--processes --duration=0") << SIGINT;
 }
 
-void tst_awe_sil::pictureGivesTheTerminalBack()
+void tst_awe_sil::liveViewRestoresTheTerminal()
 {
     QFETCH(QString, options);
     QFETCH(int, signal);
