@@ -119,8 +119,8 @@ protected:
     void setError(Error error, const QString &text);
 
 private:
-    void readMessages();
-    void readError();
+    Q_DECL_HIDDEN void readMessages();
+    Q_DECL_HIDDEN void readError();
 
     struct Q_DECL_HIDDEN Private;
     std::unique_ptr<Private> d;

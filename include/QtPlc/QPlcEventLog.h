@@ -45,8 +45,8 @@ protected:
     void contextChanged() override;
 
 private:
-    void makeActions();
-    void filter();
+    Q_DECL_HIDDEN void makeActions();
+    Q_DECL_HIDDEN void filter();
 
     struct Q_DECL_HIDDEN Private;
     std::unique_ptr<Private> d;

@@ -45,7 +45,7 @@ Q_SIGNALS:
     void timedOut(const QList<QPlcSignalList> &inputSignals);
 
 private:
-    void takeBatch();
+    Q_DECL_HIDDEN void takeBatch();
 
     QPointer<QPlcIOBufferSlaveNode> m_node;
     QTimer m_timer{this};  // moves to another thread with its parent

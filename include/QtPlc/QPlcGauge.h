@@ -64,9 +64,9 @@ protected:
     void paintEvent(QPaintEvent *event) override;
 
 private:
-    void addStyleAction(const QString &text, const QString &style);
-    void showSettings();
-    void takeEdit();
+    Q_DECL_HIDDEN void addStyleAction(const QString &text, const QString &style);
+    Q_DECL_HIDDEN void showSettings();
+    Q_DECL_HIDDEN void takeEdit();
 
     struct Q_DECL_HIDDEN Private;
     std::unique_ptr<Private> d;

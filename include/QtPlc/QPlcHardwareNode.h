@@ -159,7 +159,7 @@ protected:
     void safeState(SafeStateReason reason) override;
 
 private:
-    void deviceChanged(const QString &driver, const QString &error);
+    Q_DECL_HIDDEN void deviceChanged(const QString &driver, const QString &error);
 
     struct Q_DECL_HIDDEN Private;
     std::unique_ptr<Private> m_hardware;

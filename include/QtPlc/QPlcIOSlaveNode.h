@@ -80,7 +80,7 @@ protected:
     QPlcIOSlaveNode(const QString &name, RealTimeViolationPolicy policy, std::unique_ptr<Code> code, QObject *parent);
 
 private:
-    void registerAgain();
+    Q_DECL_HIDDEN void registerAgain();
 
     Code *const m_code;  // owned by the base class
 };

@@ -42,7 +42,7 @@ protected:
     QString securityErrorText() const override;
 
 private:
-    void connectSecurely(const QPlcUnderlyingProtocol &master);
+    Q_DECL_HIDDEN void connectSecurely(const QPlcUnderlyingProtocol &master);
 
     struct Q_DECL_HIDDEN Private;
     std::unique_ptr<Private> d;

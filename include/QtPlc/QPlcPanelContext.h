@@ -319,10 +319,10 @@ private:
     friend class QPlcWidget;
     friend class QPlcSignalControl;
 
-    explicit QPlcPanelContext(QPlcWidget *panel);
-    void setWindow(qplc::WindowContext *window);
-    qplc::WindowContext *window() const;
-    QString pin() const;
+    Q_DECL_HIDDEN explicit QPlcPanelContext(QPlcWidget *panel);
+    Q_DECL_HIDDEN void setWindow(qplc::WindowContext *window);
+    Q_DECL_HIDDEN qplc::WindowContext *window() const;
+    Q_DECL_HIDDEN QString pin() const;
 
     struct Q_DECL_HIDDEN Private;
     std::unique_ptr<Private> d;

@@ -59,7 +59,7 @@ public:
     static QPlcSignalType type(QPlcSignalIndex index);
 
 private:
-    bool take(const QPlcSignalTable &table);
+    Q_DECL_HIDDEN bool take(const QPlcSignalTable &table);
 
     QVector<QPlcParseError> m_errors;
 };

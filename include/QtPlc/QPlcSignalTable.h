@@ -123,8 +123,8 @@ public:
     quint64 hash() const { return m_hash; }
 
 private:
-    static QPlcSignalTable read(qplc::TableReader reader, QVector<QPlcParseError> *errors);
-    void add(const QPlcSignalDefinition &definition);
+    Q_DECL_HIDDEN static QPlcSignalTable read(qplc::TableReader reader, QVector<QPlcParseError> *errors);
+    Q_DECL_HIDDEN void add(const QPlcSignalDefinition &definition);
 
     QVector<QPlcSignalDefinition> m_signals;
     QHash<QString, QPlcSignalIndex> m_indices;

@@ -58,12 +58,12 @@ protected:
     void contextMenuEvent(QContextMenuEvent *event) override;
 
 private:
-    void makeActions();
-    void updateActions();
-    void openMenu(const QPoint &place);
-    void openMenuAtRow();
-    void search(const QString &text);
-    void request(const QString &typeName);
+    Q_DECL_HIDDEN void makeActions();
+    Q_DECL_HIDDEN void updateActions();
+    Q_DECL_HIDDEN void openMenu(const QPoint &place);
+    Q_DECL_HIDDEN void openMenuAtRow();
+    Q_DECL_HIDDEN void search(const QString &text);
+    Q_DECL_HIDDEN void request(const QString &typeName);
 
     struct Q_DECL_HIDDEN Private;
     std::unique_ptr<Private> d;

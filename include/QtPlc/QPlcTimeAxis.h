@@ -123,7 +123,7 @@ Q_SIGNALS:
     void displayTimeChanged();
 
 private:
-    void change(bool isLive, Time end, Time span);
+    Q_DECL_HIDDEN void change(bool isLive, Time end, Time span);
 
     bool m_isLive = true;
     Time m_newest = 0;

@@ -173,7 +173,7 @@ private:
                                   : QPlcSignalType::UInt64;
     }
     QPlcValue(QPlcSignalType::Scalar scalar, const void *elements, int count);
-    void assignText(const QByteArray &utf8);
+    Q_DECL_HIDDEN void assignText(const QByteArray &utf8);
     char *data();
     const char *data() const;
 

@@ -68,7 +68,7 @@ public:
 
 private:
     /// \return why not, and the remedy; empty: done
-    QString add(const QString &text);
+    Q_DECL_HIDDEN QString add(const QString &text);
 
     QVector<Entry> m_entries;
 };

@@ -49,12 +49,12 @@ protected:
     void contextChanged() override;
 
 private:
-    void makeActions();
-    void openAdding();
-    void openSearch();
-    void makeSearch();
-    void closeSearch();
-    void search(const QString &text);
+    Q_DECL_HIDDEN void makeActions();
+    Q_DECL_HIDDEN void openAdding();
+    Q_DECL_HIDDEN void openSearch();
+    Q_DECL_HIDDEN void makeSearch();
+    Q_DECL_HIDDEN void closeSearch();
+    Q_DECL_HIDDEN void search(const QString &text);
     void takeSignals();
 
     struct Q_DECL_HIDDEN Private;

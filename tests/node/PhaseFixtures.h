@@ -15,7 +15,7 @@ struct PhaseBench : SequenceBench
     }
     ~PhaseBench() { phase.end(); }
 
-    qplc::MasterSettings set{registry, image, leases};
+    qplc::MasterWrites set{registry, image, leases};
     qplc::OwnSignals own{registry, table, leases, set};
     qplc::RosterMaker rosters{table, registry, nodes, leases};
     qplc::RealTimePhase phase{image, registry, rosters, own, settings, profile, journal};

@@ -23,7 +23,6 @@ public:
     /// Where cursors can be taken [px].
     void setCursors(std::optional<int> a, std::optional<int> b);
     /// The one that is dragged.
-    Cursor draggedCursor() const { return isDragging() ? m_cursor : NoCursor; }
 
 Q_SIGNALS:
     void zoomTime(double factor, qint64 about);

@@ -559,6 +559,10 @@ bool QPlcPanelContext::ask(const QPlcMessage &question, QObject *receiver,
     });
 }
 
+static_assert(int(QPlcPanelContext::Information) == int(PlantEvent::Information)
+              && int(QPlcPanelContext::Warning) == int(PlantEvent::Warning)
+              && int(QPlcPanelContext::Error) == int(PlantEvent::Error));
+
 void QPlcPanelContext::report(Severity severity, const QString &source, const QString &text)
 {
     if (d->window)
@@ -571,8 +575,11 @@ QAbstractItemModel *QPlcPanelContext::createSignalModel(QObject *parent) const
     if (!d->window)
         return nullptr;
     auto *model = new SignalTreeModel(d->window->plants(), parent);
-    const auto show = [this, model] { model->setDisplayTime(shownTime()); };
-    connect(timeAxis(), &QPlcTimeAxis::displayTimeChanged, model, show);
+    const auto show = [this, shown = QPointer<SignalTreeModel>(model)] {
+        if (shown)
+            shown->setDisplayTime(shownTime());
+    };
+    connect(timeAxis(), &QPlcTimeAxis::displayTimeChanged, this, show);
     show();
     return model;
 }

@@ -111,13 +111,6 @@ StoreCurve::StoreCurve(const SignalStore *store, int channel, const QString &tit
     setZ(20.0);
 }
 
-void StoreCurve::setStore(const SignalStore *store, int channel)
-{
-    m_store = store;
-    m_channel = channel;
-    itemChanged();
-}
-
 void StoreCurve::setOrigin(Time origin)
 {
     m_origin = origin;

@@ -33,7 +33,6 @@ public:
 
     const SignalStore *store() const { return m_store; }
     int channel() const { return m_channel; }
-    void setStore(const SignalStore *store, int channel);
     /// The time that is 0 on the x axis [ns].
     SignalStore::Time origin() const { return m_origin; }
     void setOrigin(SignalStore::Time origin);

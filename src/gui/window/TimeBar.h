@@ -17,7 +17,6 @@ public:
     /// "Live", "No new values for 12 s", "At rest", "No values", or "Frozen, 12.3 s behind".
     QString stateText() const { return m_state->text(); }
     BarButton *stateButton() const { return m_state; }
-    BarButton *spanButton() const { return m_span; }
 
     /// Live to frozen, and back.
     void toggle();

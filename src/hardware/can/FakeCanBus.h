@@ -79,7 +79,6 @@ private:
     static bool setMark(const QString &name, std::atomic<quint32> Board::*mark, bool isSet);
     bool openBoard();
     bool takePlace();
-    bool tryPlace(int number);
     bool isAlive(int number) const;
     bool openSocket(int number);
     bool failWith(const QString &what);

@@ -57,7 +57,7 @@ public:
 
         qplc::NodeRegistry registry;
         qplc::MasterCycle cycle;
-        qplc::MasterSettings settings;
+        qplc::MasterWrites settings;
         qplc::MasterLeases leases;
         qplc::OwnSignals ownSignals;
         qplc::NodeSessions nodes;

@@ -29,7 +29,7 @@ bool readName(const QString &given, QString *name, Refusal *refusal)
 
 }  // namespace
 
-MasterLeases::MasterLeases(Leases &leases, NodeRegistry &registry, MasterCycle &cycle, MasterSettings &settings)
+MasterLeases::MasterLeases(Leases &leases, NodeRegistry &registry, MasterCycle &cycle, MasterWrites &settings)
     : m_leases(leases)
     , m_registry(registry)
     , m_cycle(cycle)

@@ -3,7 +3,7 @@
 
 #include "Leases.h"
 #include "MasterConnection.h"
-#include "MasterSettings.h"
+#include "MasterWrites.h"
 #include "QPlcLease.h"
 #include "node/statistics/EventLog.h"
 
@@ -26,7 +26,7 @@ public:
     /// Most leases at a time: a list of all of them fits into one message.
     static constexpr std::size_t MaximumLeases = 1000;
     /// \param leases  the books, which others read
-    MasterLeases(Leases &leases, NodeRegistry &registry, MasterCycle &cycle, MasterSettings &settings);
+    MasterLeases(Leases &leases, NodeRegistry &registry, MasterCycle &cycle, MasterWrites &settings);
 
     /// Carries out TakeLease: takes all signals of \a request or none. \return false, with the
     /// reason in \a refusal
@@ -70,7 +70,7 @@ private:
     Leases &m_leases;
     NodeRegistry &m_registry;
     MasterCycle &m_cycle;
-    MasterSettings &m_settings;
+    MasterWrites &m_settings;
     const QPlcSignalTable &m_table;
     std::set<const QObject *> m_holders;  // whose end is listened to
     QTimer m_timer;

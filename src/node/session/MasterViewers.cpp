@@ -3,7 +3,7 @@
 
 namespace qplc {
 
-MasterViewers::MasterViewers(const MasterServer &server, Journal &journal, const MasterSettings &settings,
+MasterViewers::MasterViewers(const MasterServer &server, Journal &journal, const MasterWrites &settings,
                              const MasterLeases &leases, RealTimePhase &phase, const QPlcSignalTable &table)
     : m_server(server)
     , m_pushes(server, journal.events(), [&leases] { return messages::LeasesChanged{leases.entries()}; })
@@ -19,12 +19,12 @@ MasterViewers::MasterViewers(const MasterServer &server, Journal &journal, const
         journal.tell(severity, JournalEvent::Lease, NodeRegistry::masterName(), text);
         m_pushes.leasesChanged();
     });
-    connect(&settings, &MasterSettings::valueSet, this,
+    connect(&settings, &MasterWrites::valueSet, this,
             [&](const QObject *owner, QPlcSignalIndex signal, const QPlcValue &former, const QPlcValue &value) {
                 const QPlcSignalDefinition &definition = table.at(signal);
                 journal.valueSet(nameOf(owner), definition.name, definition.textOf(former), definition.textOf(value));
             });
-    connect(&settings, &MasterSettings::valueCameBack, this, [&](QPlcSignalIndex signal, const QPlcValue &value) {
+    connect(&settings, &MasterWrites::valueCameBack, this, [&](QPlcSignalIndex signal, const QPlcValue &value) {
         journal.valueCameBack(table.at(signal).name, table.at(signal).textOf(value));
     });
 }

@@ -13,7 +13,7 @@ class MasterViewers : public QObject
 {
 public:
     /// All of them outlive this object.
-    MasterViewers(const MasterServer &server, Journal &journal, const MasterSettings &settings,
+    MasterViewers(const MasterServer &server, Journal &journal, const MasterWrites &settings,
                   const MasterLeases &leases, RealTimePhase &phase, const QPlcSignalTable &table);
 
 private:

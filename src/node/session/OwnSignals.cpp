@@ -23,7 +23,7 @@ bool isSingleNumber(QPlcSignalType type)
 }  // namespace
 
 OwnSignals::OwnSignals(NodeRegistry &registry, const QPlcSignalTable &table, const Leases &leases,
-                       MasterSettings &settings)
+                       MasterWrites &settings)
     : m_registry(registry)
     , m_table(table)
     , m_leases(leases)

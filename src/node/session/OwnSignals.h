@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "MasterSettings.h"
+#include "MasterWrites.h"
 #include "node/statistics/StatisticSignals.h"
 
 #include <array>
@@ -14,7 +14,7 @@ class OwnSignals
 public:
     enum Role : quint8 { Time, Jitter, Workload };
 
-    OwnSignals(NodeRegistry &registry, const QPlcSignalTable &table, const Leases &leases, MasterSettings &settings);
+    OwnSignals(NodeRegistry &registry, const QPlcSignalTable &table, const Leases &leases, MasterWrites &settings);
 
     /// Claims a signal in the place of the one that has \a role now. \return why it cannot; empty:
     /// done
@@ -35,7 +35,7 @@ private:
     NodeRegistry &m_registry;
     const QPlcSignalTable &m_table;
     const Leases &m_leases;
-    MasterSettings &m_settings;
+    MasterWrites &m_settings;
     std::array<QPlcSignalIndex, 3> m_signals{QPlcInvalidSignalIndex, QPlcInvalidSignalIndex, QPlcInvalidSignalIndex};
     StatisticSignals m_statistics;
 };

@@ -7,6 +7,10 @@
 
 namespace qplc {
 
+static_assert(int(JournalEvent::Info) == int(messages::Severity::Info)
+              && int(JournalEvent::Warning) == int(messages::Severity::Warning)
+              && int(JournalEvent::Error) == int(messages::Severity::Error));
+
 QString severityName(JournalEvent::Severity severity)
 {
     return QLatin1String(messages::nameOf(messages::Severity(severity)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "MasterSettings.h"
+#include "MasterWrites.h"
 
 #include "protocol/messages/Vocabulary.h"
 #include "realtime/TimeSource.h"
@@ -24,7 +24,7 @@ Refusal leaseRefusal(const QString &signal, const Leases::Lease &lease)
                       .arg(signal, lease.name)};
 }
 
-MasterSettings::MasterSettings(NodeRegistry &registry, MasterCycle &cycle, const Leases &leases)
+MasterWrites::MasterWrites(NodeRegistry &registry, MasterCycle &cycle, const Leases &leases)
     : m_registry(registry)
     , m_cycle(cycle)
     , m_leases(leases)
@@ -38,7 +38,7 @@ MasterSettings::MasterSettings(NodeRegistry &registry, MasterCycle &cycle, const
     });
 }
 
-bool MasterSettings::setSignals(const QObject *owner, const messages::SetSignals &wish, Refusal *refusal)
+bool MasterWrites::setSignals(const QObject *owner, const messages::SetSignals &wish, Refusal *refusal)
 {
     std::vector<SignalSetting> settings;
     if (!readValues(owner, wish.values, &settings, refusal))
@@ -60,7 +60,7 @@ bool MasterSettings::setSignals(const QObject *owner, const messages::SetSignals
     return true;
 }
 
-bool MasterSettings::setSignal(const QString &name, const QPlcValue &value, Refusal *refusal)
+bool MasterWrites::setSignal(const QString &name, const QPlcValue &value, Refusal *refusal)
 {
     QPlcSignalIndex index = QPlcInvalidSignalIndex;
     SignalSetting setting;
@@ -74,12 +74,12 @@ bool MasterSettings::setSignal(const QString &name, const QPlcValue &value, Refu
     return true;
 }
 
-bool MasterSettings::setLeased(const std::vector<SignalSetting> &settings, Refusal *refusal)
+bool MasterWrites::setLeased(const std::vector<SignalSetting> &settings, Refusal *refusal)
 {
     return give(settings, refusal);
 }
 
-void MasterSettings::endWays(const std::vector<QPlcSignalIndex> &indices)
+void MasterWrites::endWays(const std::vector<QPlcSignalIndex> &indices)
 {
     std::vector<QPlcSignalIndex> moving;
     for (const QPlcSignalIndex signal : indices) {
@@ -92,7 +92,7 @@ void MasterSettings::endWays(const std::vector<QPlcSignalIndex> &indices)
     m_cycle.endWays(moving);
 }
 
-void MasterSettings::setSoon(const std::vector<SignalSetting> &settings)
+void MasterWrites::setSoon(const std::vector<SignalSetting> &settings)
 {
     for (const SignalSetting &setting : settings)
         m_debts[setting.signal] = setting;
@@ -100,19 +100,19 @@ void MasterSettings::setSoon(const std::vector<SignalSetting> &settings)
     waitForNext();
 }
 
-void MasterSettings::keepPresent(const std::vector<QPlcSignalIndex> &indices)
+void MasterWrites::keepPresent(const std::vector<QPlcSignalIndex> &indices)
 {
     for (const QPlcSignalIndex signal : indices)
         m_temporary.forget(signal);
 }
 
 /// Whether the values of a signal are those of its writer, and nobody has taken it over.
-bool MasterSettings::isOfWriter(QPlcSignalIndex signal) const
+bool MasterWrites::isOfWriter(QPlcSignalIndex signal) const
 {
     return !m_registry.writer(signal).isEmpty() && !m_leases.find(signal);
 }
 
-void MasterSettings::leaveToWriters()
+void MasterWrites::leaveToWriters()
 {
     for (const QPlcSignalIndex signal : m_temporary.signalIndices()) {
         if (isOfWriter(signal))
@@ -128,8 +128,8 @@ void MasterSettings::leaveToWriters()
 
 // ---- checks ----
 
-bool MasterSettings::isSettable(const QObject *owner, const QString &name, QPlcSignalIndex *signal,
-                                Refusal *refusal) const
+bool MasterWrites::isSettable(const QObject *owner, const QString &name, QPlcSignalIndex *signal,
+                              Refusal *refusal) const
 {
     *signal = m_table.indexOf(name);
     const Leases::Lease *lease = m_leases.find(*signal);
@@ -144,8 +144,8 @@ bool MasterSettings::isSettable(const QObject *owner, const QString &name, QPlcS
     return refusal->error.isEmpty();
 }
 
-bool MasterSettings::checkValue(QPlcSignalIndex signal, const QPlcValue &value, SignalSetting *setting,
-                                Refusal *refusal) const
+bool MasterWrites::checkValue(QPlcSignalIndex signal, const QPlcValue &value, SignalSetting *setting,
+                              Refusal *refusal) const
 {
     const QPlcSignalDefinition &definition = m_table.at(signal);
     *setting = {signal, value.convertedTo(definition.type)};
@@ -165,8 +165,8 @@ bool MasterSettings::checkValue(QPlcSignalIndex signal, const QPlcValue &value, 
     return true;
 }
 
-bool MasterSettings::readValues(const QObject *owner, const QMap<QString, QString> &texts,
-                                std::vector<SignalSetting> *settings, Refusal *refusal) const
+bool MasterWrites::readValues(const QObject *owner, const QMap<QString, QString> &texts,
+                              std::vector<SignalSetting> *settings, Refusal *refusal) const
 {
     for (auto it = texts.begin(); it != texts.end() && refusal->error.isEmpty(); ++it) {
         QPlcSignalIndex index = QPlcInvalidSignalIndex;
@@ -177,8 +177,8 @@ bool MasterSettings::readValues(const QObject *owner, const QMap<QString, QStrin
     return refusal->error.isEmpty();
 }
 
-bool MasterSettings::readValue(QPlcSignalIndex signal, const QString &text, SignalSetting *setting,
-                               Refusal *refusal) const
+bool MasterWrites::readValue(QPlcSignalIndex signal, const QString &text, SignalSetting *setting,
+                             Refusal *refusal) const
 {
     QString error;
     const QPlcValue value = QPlcValue::fromString(m_table.at(signal).type, text, &error);
@@ -191,7 +191,7 @@ bool MasterSettings::readValue(QPlcSignalIndex signal, const QString &text, Sign
 
 // ---- setting ----
 
-bool MasterSettings::give(const std::vector<SignalSetting> &settings, Refusal *refusal)
+bool MasterWrites::give(const std::vector<SignalSetting> &settings, Refusal *refusal)
 {
     if (!m_cycle.setValues(settings)) {
         *refusal = {messages::errorWord::wrongState,
@@ -206,8 +206,8 @@ bool MasterSettings::give(const std::vector<SignalSetting> &settings, Refusal *r
     return true;
 }
 
-void MasterSettings::keepFor(const QObject *owner, const std::vector<SignalSetting> &settings,
-                             const std::vector<QPlcValue> &former, std::int64_t deadline)
+void MasterWrites::keepFor(const QObject *owner, const std::vector<SignalSetting> &settings,
+                           const std::vector<QPlcValue> &former, std::int64_t deadline)
 {
     for (std::size_t i = 0; i < settings.size(); ++i)
         m_temporary.set(owner, settings[i], former[i], deadline);
@@ -219,7 +219,7 @@ void MasterSettings::keepFor(const QObject *owner, const std::vector<SignalSetti
     });
 }
 
-QPlcValue MasterSettings::presentValue(QPlcSignalIndex signal) const
+QPlcValue MasterWrites::presentValue(QPlcSignalIndex signal) const
 {
     const auto debt = m_debts.find(signal);
     if (debt != m_debts.end())
@@ -228,7 +228,7 @@ QPlcValue MasterSettings::presentValue(QPlcSignalIndex signal) const
     return given != m_given.end() ? given->second : m_cycle.value(signal);
 }
 
-void MasterSettings::bringBack(const std::vector<SignalSetting> &settings)
+void MasterWrites::bringBack(const std::vector<SignalSetting> &settings)
 {
     setSoon(settings);
     for (const SignalSetting &setting : settings)
@@ -236,7 +236,7 @@ void MasterSettings::bringBack(const std::vector<SignalSetting> &settings)
 }
 
 /// One by one: the cycle may have room for some of them.
-void MasterSettings::payDebts()
+void MasterWrites::payDebts()
 {
     while (!m_debts.empty()) {
         Refusal refusal;
@@ -246,7 +246,7 @@ void MasterSettings::payDebts()
     }
 }
 
-void MasterSettings::waitForNext()
+void MasterWrites::waitForNext()
 {
     const std::optional<std::int64_t> next = m_temporary.nextDeadline();
     if (!m_debts.empty()) {

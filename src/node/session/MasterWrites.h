@@ -21,11 +21,11 @@ Refusal leaseRefusal(const QString &signal, const Leases::Lease &lease);
 /// them, sets them, and brings the former ones back where they were set for a while only.
 ///
 /// Threads: that of the master.
-class MasterSettings : public QObject
+class MasterWrites : public QObject
 {
     Q_OBJECT
 public:
-    MasterSettings(NodeRegistry &registry, MasterCycle &cycle, const Leases &leases);
+    MasterWrites(NodeRegistry &registry, MasterCycle &cycle, const Leases &leases);
 
     /// Carries out SetSignals: sets all signals of \a wish or none.
     /// \param owner  who asked; what it has set with a duration ends with it
