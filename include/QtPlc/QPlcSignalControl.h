@@ -45,8 +45,8 @@ class QPlcPanelContext;
 /// Choose the function by the input device:
 /// - a slider or a joystick: set(). It sends the newest value as often as the master takes one.
 /// - a button, a list or a text field: send(). Each value reaches the master.
-/// - a push button that acts while a person presses it: hold() and letGo(). The signal goes to its
-///   neutral value also if the window or its connection is lost.
+/// - a push button that acts while a person presses it: hold() and endHold(). The signal goes to
+///   its neutral value also if the window or its connection is lost.
 ///
 /// failed() tells why the master has refused something. The setters and the keyboard control of
 /// QtPLC use this class and no other one.
@@ -149,14 +149,14 @@ public:
     /// hold other ones of setSignals().
     void setNeutral();
 
-    /// Sets one of the signals until letGo(). While it is held, you can call this or set() again
+    /// Sets one of the signals until endHold(). While it is held, you can call this or set() again
     /// with other values. A signal that no node writes is leased meanwhile, so that it goes to its
     /// neutral value if the window is lost.
     /// \return false if nothing was set, for the reasons of set()
     bool hold(const QString &reference, double value);
     /// Sets all signals of hold() to their neutral values.
-    void letGo();
-    /// Returns true between hold() and letGo() or holdLost().
+    void endHold();
+    /// Returns true between hold() and endHold() or holdLost().
     bool isHolding() const;
 
 Q_SIGNALS:
@@ -166,7 +166,7 @@ Q_SIGNALS:
     /// Emitted before the signals become those of another plant: end what the person does in this
     /// one.
     void leaving();
-    /// Emitted when hold() has ended without letGo(): another person has taken the signal, or the
+    /// Emitted when hold() has ended without endHold(): another person has taken the signal, or the
     /// plant was lost or changed.
     void holdLost();
     /// Emitted when the master has refused something.

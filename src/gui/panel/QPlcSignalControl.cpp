@@ -96,7 +96,7 @@ struct QPlcSignalControl::Private : public QObject
     ValueStream &streamTo(Plant *plant);
     void sendNow(const Values &values);
     void follow(Plant *plant, int command) { commands.append({plant, command}); }
-    void letGo();
+    void endHold();
     void loseHold();
     void finish();
     void leave();
@@ -519,12 +519,12 @@ bool QPlcSignalControl::isHolding() const
     return !d->held.isEmpty();
 }
 
-void QPlcSignalControl::letGo()
+void QPlcSignalControl::endHold()
 {
-    d->letGo();
+    d->endHold();
 }
 
-void QPlcSignalControl::Private::letGo()
+void QPlcSignalControl::Private::endHold()
 {
     const QStringList all = std::exchange(held, {});
     const QStringList leases = std::exchange(leased, {});
@@ -554,7 +554,7 @@ void QPlcSignalControl::Private::loseHold()
 /// What was set in a plant reaches that plant, and does not go on in another one.
 void QPlcSignalControl::Private::finish()
 {
-    letGo();
+    endHold();
     for (const auto &stream : streams)
         stream.second->flush();
     streams.clear();

@@ -15,14 +15,14 @@ ManualControl::ManualControl(QPlcPanelContext *context, QObject *parent)
     m_control.setBeginning(QPlcSignalControl::Neutral);  // a key that is not held means neutral
     connect(&m_control, &QPlcSignalControl::changed, this, &ManualControl::controlChanged);
     connect(&m_control, &QPlcSignalControl::leaving, this, [this] {
-        letGo();
+        endHold();
         m_sent.clear();
     });
 }
 
 void ManualControl::setBindings(const ManualBindings &bindings)
 {
-    letGo();  // neutral, while it is known of what
+    endHold();  // neutral, while it is known of what
     m_sent.clear();
     m_bindings = bindings;
     QStringList names;
@@ -78,7 +78,7 @@ void ManualControl::setArmed(bool armed)
     write();
 }
 
-void ManualControl::letGo()
+void ManualControl::endHold()
 {
     const bool held = m_keys.releaseAll();
     if (!held && !m_isArmed)
@@ -93,7 +93,7 @@ void ManualControl::controlChanged()
         return;
     m_wasFlying = isFlying();
     if (!isFlying()) {
-        letGo();
+        endHold();
         m_control.setNeutral();  // what this window still holds, if another person has taken only some of it
     }
     m_sent.clear();

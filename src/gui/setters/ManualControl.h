@@ -13,7 +13,7 @@ namespace qplc {
 /// Flies by keys and axes: while they are held or deflected, signals have their values; else they
 /// are neutral. Writes only while this window has control of all of the signals.
 ///
-/// A dead man's handle: letGo() is to be called when the keyboard goes elsewhere or nobody sees
+/// A dead man's handle: endHold() is to be called when the keyboard goes elsewhere or nobody sees
 /// what is done. When control or the connection is lost, everything counts as let go, and the
 /// master itself sets neutral.
 class ManualControl : public QObject
@@ -45,7 +45,7 @@ public:
 
     /// All keys count as released until they are pressed again, and the axes are not armed any
     /// more.
-    void letGo();
+    void endHold();
 
     /// What the signal should have now: the sum of keys and axes, within its limits; neutral
     /// without any.

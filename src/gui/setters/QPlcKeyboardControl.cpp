@@ -182,7 +182,7 @@ QPlcKeyboardControl::QPlcKeyboardControl(QWidget *parent)
 
 QPlcKeyboardControl::~QPlcKeyboardControl()
 {
-    d->control.letGo();
+    d->control.endHold();
     delete d->keys;  // looks at what ends with this object
 }
 
@@ -246,7 +246,7 @@ bool QPlcKeyboardControl::event(QEvent *event)
         }
     }
     if (event->type() == QEvent::WindowDeactivate)
-        d->control.letGo();
+        d->control.endHold();
     return QPlcWidget::event(event);
 }
 
@@ -276,7 +276,7 @@ void QPlcKeyboardControl::focusInEvent(QFocusEvent *event)
 
 void QPlcKeyboardControl::focusOutEvent(QFocusEvent *event)
 {
-    d->control.letGo();
+    d->control.endHold();
     QPlcWidget::focusOutEvent(event);
     d->showState();
 }
@@ -289,7 +289,7 @@ void QPlcKeyboardControl::showEvent(QShowEvent *event)
 
 void QPlcKeyboardControl::hideEvent(QHideEvent *event)
 {
-    d->control.letGo();
+    d->control.endHold();
     QPlcWidget::hideEvent(event);
 }
 

@@ -60,7 +60,7 @@ public:
     /// Begins to write for a while. \return false: this window may not write
     bool beginAction(double number) { return isNumber() && m_control.hold(reference(), clamped(number)); }
     /// Ends that: neutral, as the last that is sent.
-    void endAction() { m_control.letGo(); }
+    void endAction() { m_control.endHold(); }
     bool isActing() const { return m_control.isHolding(); }
 
 Q_SIGNALS:

@@ -184,7 +184,7 @@ void tst_ManualControl::heldKeysAreValuesAndReleasedOnesNeutral()
     QTRY_COMPARE(master.valueOf(echo.signal), 1.0);
     QTest::qWait(100);
     QCOMPARE(pilot.window.done.size(), commands + 1);  // repeated keys are no news
-    control.letGo();
+    control.endHold();
     QTRY_COMPARE(master.valueOf(echo.signal), 0.0);
     QVERIFY(!control.press(Qt::Key_Q, false));
     control.control().giveBack();
@@ -219,7 +219,7 @@ void tst_ManualControl::axesActWhileTheyAreArmed()
     QTRY_COMPARE(master.valueOf(setpoint.signal), 0.0);
     control.moveAxis(QStringLiteral("LeftX"), 1.0);
     QTRY_COMPARE(master.valueOf(setpoint.signal), 8.0);
-    control.letGo();
+    control.endHold();
     QVERIFY(!control.isArmed());
     QTRY_COMPARE(master.valueOf(setpoint.signal), 0.0);
 }
@@ -318,7 +318,7 @@ void tst_ManualControl::elementsOfAnArrayAreSteeredTogether()
     control.press(Qt::Key_2, false);
     QTRY_COMPARE(vector(), QPlcValue({5.0, 7.0, 0.0}));
     QTRY_COMPARE(seen(), vector());
-    control.letGo();
+    control.endHold();
     QTRY_COMPARE(vector(), QPlcValue({0.0, 0.0, 0.0}));
 }
 

@@ -215,7 +215,7 @@ void tst_QPlcSignalControl::whatIsHeldGoesToNeutral()
     QTRY_COMPARE(bench.master.valueOf(setpoint), 4.0);
     QVERIFY(bench.control->hold(setpoint, 5.0));
     QTRY_COMPARE(bench.master.valueOf(setpoint), 5.0);
-    bench.control->letGo();
+    bench.control->endHold();
     QVERIFY(!bench.control->isHolding());
     QTRY_COMPARE(bench.master.valueOf(setpoint), 0.0);
     QTRY_VERIFY(!bench.window.isMine(setpoint));
@@ -234,7 +234,7 @@ void tst_QPlcSignalControl::whoTakesASignalEndsItsHold()
     other.plant->takeLease({setpoint}, {{setpoint, 2.0}}, qplc::Plant::AlsoFromOthers);
     QTRY_COMPARE(lost.size(), 1);
     QVERIFY(!bench.control->isHolding());
-    bench.control->letGo();
+    bench.control->endHold();
     QTRY_COMPARE(bench.master.valueOf(setpoint), 2.0);
 }
 
