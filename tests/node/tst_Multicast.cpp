@@ -236,6 +236,7 @@ void tst_Multicast::datagramsForOthersDoNotResetTheWatchdog()
     qplc::SlaveCycle::Phase phase;
     phase.period = std::chrono::milliseconds(1);
     phase.watchdog = std::chrono::milliseconds(10);
+    phase.longestStart = std::chrono::nanoseconds(0);
     phase.group = {1, 2, 26, 5};
     QVERIFY2(cycle.start(phase), qPrintable(cycle.errorString()));
     QTRY_COMPARE(cycle.counters().watchdog, quint64(1));

@@ -199,7 +199,7 @@ REMOVALS = [
             "    if (answer != Watchdog::Barks)\n        return;\n", "    return;\n",
             "tst_SafeNodes", "watchdogMakesTheNodeSafeAndItReconnects"),
     Removal("one node answers a start late", "src/node/cycle/SlaveCycle.cpp",
-            "std::max(watchdogTime(), LongestStart)", "watchdogTime()",
+            "std::max(watchdogTime(), std::int64_t(m_phase.longestStart.count()))", "watchdogTime()",
             "tst_SlaveFaults", "theWatchdogWaitsForTheFirstFrameOfAStartThatOthersDelay"),
     Removal("noise does not calm the watchdog", "src/node/cycle/SlaveCycle.cpp",
             "checkWatchdog();  // frames that are no use do not calm it", "m_watchdog.hear(monotonicNow());",

@@ -71,11 +71,16 @@ void fitAxes(QwtPlot *plot)
     plot->setAxisMaxMajor(QwtPlot::yLeft, std::clamp(high, least, most));
 }
 
+/// A text that is too long for the side of the plot is cut in the middle: its unit stays.
 void setAxisText(QwtPlot *plot, int axis, const QString &text, const QPlcTheme &theme)
 {
-    QwtText title(plot->height() < leastHeightOfTexts ? QString() : text);
-    title.setColor(theme.mutedText);
     const QFont font = scaleFont(plot->font());
+    const QFontMetrics metrics(font);
+    const bool isUpright = axis == QwtPlot::yLeft || axis == QwtPlot::yRight;
+    const int room = isUpright ? plot->height() - 3 * metrics.height() : plot->width() - 4 * metrics.height();
+    QwtText title(plot->height() < leastHeightOfTexts ? QString()
+                                                      : metrics.elidedText(text, Qt::ElideMiddle, std::max(room, 0)));
+    title.setColor(theme.mutedText);
     title.setFont(font);
     plot->setAxisTitle(axis, title);
     plot->setAxisFont(axis, font);

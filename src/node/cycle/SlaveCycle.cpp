@@ -11,9 +11,6 @@ namespace qplc {
 
 namespace {
 
-// [ns] A master sends the first frame when its slowest node is ready: until then a short watchdog
-// has to wait.
-constexpr std::int64_t LongestStart = 10'000'000'000;
 constexpr int UselessFrames = 256;  // that are read before a computation at most: a flood keeps no node from its work
 
 void count(std::atomic<quint64> &counter, quint64 n = 1) noexcept
@@ -81,7 +78,8 @@ bool SlaveCycle::start(const Phase &phase)
     m_statistics.restart(phase.clock.isLockstep() ? 0 : lasting(phase.period));
     m_computedAny = m_faulted = false;
     m_lastCycle = phase.firstCycle;
-    m_watchdog.start(watchdogTime() == 0 ? 0 : std::max(watchdogTime(), LongestStart), monotonicNow());
+    m_watchdog.start(watchdogTime() == 0 ? 0 : std::max(watchdogTime(), std::int64_t(m_phase.longestStart.count())),
+                     monotonicNow());
     m_stop = m_ended = false;
     if (m_thread.start(m_runtime.traits().name, phase.realTimeOptions, [this] { run(); }))
         return true;

@@ -44,9 +44,11 @@ public:
     {
         std::chrono::nanoseconds period{0};  // of PeriodRange.h
         QPlcClock clock;
-        std::uint64_t cycleZero = 0;                      // number on the wire of cycle 0 of the phase
-        std::uint64_t firstCycle = 0;                     // number on the wire of the first cycle that may come
-        std::chrono::nanoseconds watchdog{0};             // 0: none
+        std::uint64_t cycleZero = 0;           // number on the wire of cycle 0 of the phase
+        std::uint64_t firstCycle = 0;          // number on the wire of the first cycle that may come
+        std::chrono::nanoseconds watchdog{0};  // 0: none
+        // A master sends the first frame when its slowest node is ready: a shorter watchdog waits.
+        std::chrono::nanoseconds longestStart = std::chrono::seconds(10);
         bool isSafeByWatchdog = true;                     // else the watchdog reports only
         std::int64_t usualHold = SignalGuard::UsualHold;  // [cycles] of inputs without `hold`
         QPlcRealTimeOptions realTimeOptions;

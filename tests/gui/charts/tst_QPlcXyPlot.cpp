@@ -84,6 +84,7 @@ private Q_SLOTS:
     void twoFingersZoom();
     void axesThatAreZoomedStay();
     void axisNumbersUseTheFormatOfOtherCharts();
+    void longAxisTitleKeepsItsUnit();
     void visibleTimeRangeIsExported();
 
 private:
@@ -251,6 +252,25 @@ void tst_QPlcXyPlot::equalAspectGivesBothAxesTheSameScale()
     canvas->show({0, 60'000'000'000, 0, false});
     QVERIFY(pixelsOfUnit(QwtPlot::xBottom) > 1.5 * pixelsOfUnit(QwtPlot::yLeft));
     QCOMPARE(canvas->axisTitle(QwtPlot::xBottom).text(), QStringLiteral("0 [m]"));
+}
+
+void tst_QPlcXyPlot::longAxisTitleKeepsItsUnit()
+{
+    fill();
+    QPlcPast past = pastOf(m_store, 1);
+    past.expression = QStringLiteral("tetherSpeedOfTheWinchDrumBehindTheSecondGear");
+    XyCanvas canvas;
+    std::vector<std::unique_ptr<XyCurve>> curves;
+    curves.push_back(std::make_unique<XyCurve>(pastOf(m_store, 0), past, "y over x"));
+    canvas.setTheme(Theme::byName(Theme::Light));
+    canvas.setCurves(std::move(curves), {});
+    canvas.resize(500, 250);
+    static_cast<QWidget &>(canvas).show();
+    const QwtText title = canvas.axisTitle(QwtPlot::yLeft);
+    QVERIFY2(title.text().endsWith("[m]") && title.text().contains(QChar(0x2026)), qPrintable(title.text()));
+    QVERIFY(QFontMetrics(title.font()).horizontalAdvance(title.text()) < canvas.height());
+    canvas.resize(500, 900);
+    QVERIFY(!canvas.axisTitle(QwtPlot::yLeft).text().contains(QChar(0x2026)));
 }
 
 void tst_QPlcXyPlot::plotIsDrawnOnlyWhenThePictureChanges()
