@@ -65,7 +65,7 @@ def arrows():
     found = {}
     for path in layers.files(check.source):
         room = room_of(check, path)
-        for _, line in layers.code(path):
+        for _, line in layers.code_of(path.read_text()):
             match = re.match(r'\s*#\s*include\s+"([^"]+)"', line)
             target = match and next((f for f in (d / match[1] for d in (path.parent, check.source, check.public)) if f.is_file()), None)
             other = placed(check.room(target.resolve())) if target else None
