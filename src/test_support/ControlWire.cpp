@@ -339,10 +339,12 @@ void ControlEnd::reset()
 qint64 ControlEnd::read(char *bytes, qint64 most)
 {
     const auto size = int(std::min<qint64>(most, m_inbox.size()));
+    if (size <= 0)
+        return 0;
     std::memcpy(bytes, m_inbox.constData(), std::size_t(size));
     m_inbox.remove(0, size);
     const std::shared_ptr<ControlEnd> other = m_other.lock();
-    if (size > 0 && other)
+    if (other)
         m_simulator.schedule(*other, m_simulator.now() + m_simulator.network().usual.delay, Taken, std::uint64_t(size));
     return size;
 }

@@ -170,6 +170,8 @@ qint64 SimulatedSocket::readData(char *bytes, qint64 most)
     if (m_end)
         return m_end->read(bytes, most);
     const auto size = int(std::min<qint64>(most, m_rest.size()));
+    if (size <= 0)
+        return 0;
     std::memcpy(bytes, m_rest.constData(), std::size_t(size));
     m_rest.remove(0, size);
     return size;

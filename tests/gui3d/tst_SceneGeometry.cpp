@@ -284,8 +284,8 @@ void tst_SceneGeometry::aBrokenModelIsRefusedWithLineAndReason_data()
 {
     QTest::addColumn<QByteArray>("text");
     QTest::addColumn<QString>("error");
-    QTest::newRow("empty") << QByteArray() << QStringLiteral("no face");
-    QTest::newRow("vertices only") << QByteArray("v 1 2 3\n") << QStringLiteral("no face");
+    QTest::newRow("empty") << QByteArray() << QStringLiteral("neither faces nor lines");
+    QTest::newRow("vertices only") << QByteArray("v 1 2 3\n") << QStringLiteral("neither faces nor lines");
     QTest::newRow("no number") << QByteArray("v 1 two 3\n") << QStringLiteral("line 1: 'two' is not a number");
     QTest::newRow("infinite") << QByteArray("v 1 inf 3\n") << QStringLiteral("line 1: 'inf'");
     QTest::newRow("no such vertex") << QByteArray("v 0 0 0\nf 1 2 3\n")
