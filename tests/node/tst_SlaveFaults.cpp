@@ -258,7 +258,7 @@ void tst_SlaveFaults::frameFloodAfterAPauseDoesNotBlockTheNode()
     ends = !barks;  // else a node that is held never stops
     cycle.stop();
     QVERIFY(barks);
-    QCOMPARE(cycle.counters().cycles, quint64(2));
+    QCOMPARE(node.lastCycle, quint64(1));  // of a thread that began late, the newest request only
 }
 
 void tst_SlaveFaults::multiPartRequestsAreNotTreatedAsFlood()
