@@ -82,7 +82,7 @@ public:
         QString writer;       ///< node that writes the signal; empty: no node does
         /// The value is usable, and it is the newest one or the one of the wanted time.
         bool isCurrent = false;
-        /// Time since the value was valid [s]; -1: there is none, or it is a value of the past.
+        /// Time since the value was valid [s]; -1 without a value, and for a value of the past.
         double age = -1.0;
         /// What is special about the value, for people: "stale, 3 s", "at rest", "held 2 cycles",
         /// "at 12:03:04.500"; empty: it is a usable value of now.

@@ -8,8 +8,8 @@
 
 namespace awe {
 
-/// Watches a flight from its signals: a node without outputs in the process of the master. A flight
-/// without good values is none: it ends with a fault.
+/// Watches a flight from its signals: a node without outputs in the process of the master. Values
+/// that are not good end the flight with a fault.
 class FlightObserver : public QPlcCompactSlaveNode
 {
     Q_OBJECT

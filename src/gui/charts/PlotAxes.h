@@ -24,8 +24,8 @@ public:
     };
 
     PlotAxes();
-    /// The axis of one more curve. Curves without unit share one; the unit 1 is none. \param side
-    /// that a person has chosen
+    /// The axis of one more curve. Curves without unit share one; the unit 1 counts as no unit.
+    /// \param side that a person has chosen
     int add(std::optional<Side> side, const QString &unitOfTable);
     int count() const { return m_axes.size(); }
     const Axis &at(int axis) const { return m_axes[axis]; }

@@ -93,7 +93,7 @@ public:
     QPlcValueNames names(int axis) const;
     /// Smallest and largest value of all seen curves of an axis, and of its lines.
     QPlcPast::Range range(int axis, double begin, double end) const;
-    /// Of the newest row of the plants whose signals are seen; 0: there is none. A derived signal
+    /// Of the newest row of the plants whose signals are seen; 0 without a row. A derived signal
     /// may still lack it.
     QPlcPast::Time newestTime() const;
     /// Times of the first and the last row; false: there are none.

@@ -39,7 +39,7 @@ public:
 
     /// Whether values of a unit are ever written with a prefix.
     static bool isTakenBy(const QString &unit);
-    /// A unit as people read it: "us" is "µs", and the unit 1 is none.
+    /// A unit as people read it: "us" is "µs", and the unit 1 is empty.
     static QString unitText(const QString &unit);
 
 private:

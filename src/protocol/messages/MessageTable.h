@@ -129,10 +129,17 @@ using EverybodyMaySend
 /// What Operators and Engineers may send.
 using OperatorsMaySend = List<InitializeAllStates, StartRealTime, Reset, Arm, SetSignals, TakeLease, ReleaseLease>;
 
-static_assert(isEveryKind([](QPlcMessage::Kind kind) {
-                  const bool hasRight = EverybodyMaySend::contains(kind) != OperatorsMaySend::contains(kind);
-                  return hasRight ? FromClient::contains(kind) : FromMaster::contains(kind);
-              }),
+/// Whether each message of FromClient, and no other one, is in exactly one of two lists.
+template<typename First, typename Second>
+constexpr bool isFromClientSplitInto(First, Second)
+{
+    return isEveryKind([](QPlcMessage::Kind kind) {
+        const bool isListed = First::contains(kind) != Second::contains(kind);
+        return isListed ? FromClient::contains(kind) : FromMaster::contains(kind);
+    });
+}
+
+static_assert(isFromClientSplitInto(EverybodyMaySend(), OperatorsMaySend()),
               "a message of FromClient is in neither of EverybodyMaySend and OperatorsMaySend, or in both");
 
 /// What writes signals, or takes or releases the right to: needs a right to each of them.
@@ -142,10 +149,7 @@ using WriteNoSignals = List<ClientHello, AttachCyclicChannel, InitializeAllState
                             Initialized, StartRealTime, RealTimeReady, Stop, SafeStop, Reset, Arm, GetState, GetSignals,
                             NodeFault, GetStatistics, GetSchedule, GetLeases, GetEvents>;
 
-static_assert(isEveryKind([](QPlcMessage::Kind kind) {
-                  const bool isListed = WriteSignals::contains(kind) != WriteNoSignals::contains(kind);
-                  return isListed ? FromClient::contains(kind) : FromMaster::contains(kind);
-              }),
+static_assert(isFromClientSplitInto(WriteSignals(), WriteNoSignals()),
               "a message of FromClient is in neither of WriteSignals and WriteNoSignals, or in both");
 
 template<typename Message>

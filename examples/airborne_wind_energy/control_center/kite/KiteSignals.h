@@ -50,11 +50,11 @@ public:
     QString problem() const;
     /// Now, or at the time that the window shows.
     KiteState state() const;
-    /// Another signal with three elements at the same time; nothing when there is none, or no
-    /// value.
+    /// Another signal with three elements at the same time; nothing if the signal or its value is
+    /// missing.
     std::optional<QVector3D> vectorOf(const QString &reference) const;
-    /// The path up to the time that the window shows. \return false: there is none, and \a trail is
-    /// empty
+    /// The path up to the time that the window shows. \return false if there is no path; \a trail
+    /// is empty then
     bool readTrail(FlightTrail *trail) const;
     /// The scale of the settings; what they leave open is taken from the path.
     ColorScale colorScale(const FlightTrail &trail) const;

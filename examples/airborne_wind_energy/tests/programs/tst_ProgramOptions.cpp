@@ -6,7 +6,7 @@
 #include <QtTest/QtTest>
 
 /// What all programs of the example say before they begin: help, version, and one clear sentence
-/// about each thing that cannot be meant.
+/// about each invalid option.
 class tst_ProgramOptions : public QObject
 {
     Q_OBJECT
