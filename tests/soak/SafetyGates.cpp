@@ -139,20 +139,39 @@ struct SafeSpan
     quint64 cycle;  // that ran when it began, at the latest: frames of all later ones say so
 };
 
+bool hasCycles(const Record &state)
+{
+    return state.numbers[0] == Record::RealTime || state.numbers[0] == Record::WaitingForLateSlaves
+        || state.numbers[0] == Record::SafeStop;
+}
+
+/// The cycle that ran when \a safeStop was recorded, at the latest. It may have begun many numbers
+/// after the newest complete one: a master that stood still skips cycles.
+/// \param begun  the newest cycle of the phase that has recorded its begin
+quint64 cycleInProgress(const Record &safeStop, quint64 begun)
+{
+    return begun > safeStop.cycle ? begun : safeStop.cycle + 1;
+}
+
 /// In order, of all masters.
 std::vector<SafeSpan> safeSpans(const Evidence &evidence)
 {
     std::vector<SafeSpan> spans;
     for (const History &master : evidence.masters) {
         bool isSafe = false;
+        quint64 begun = 0;
         for (const Record &record : master.records) {
+            if (record.kind == Record::Cycle)
+                begun = record.cycle;
             if (record.kind != Record::State)
                 continue;
             if (isSafe)
                 spans.back().end = record.time;
+            if (!hasCycles(record))
+                begun = 0;
             isSafe = record.numbers[0] == Record::SafeStop;
             if (isSafe)
-                spans.push_back({&master, record.time, master.records.back().time, record.cycle + 1});
+                spans.push_back({&master, record.time, master.records.back().time, cycleInProgress(record, begun)});
         }
     }
     return spans;

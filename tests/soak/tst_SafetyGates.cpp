@@ -25,6 +25,8 @@ private Q_SLOTS:
     void aNodeThatMovesAfterASafeStateIsFound();
     void aSafeNodeThatComputesWithASafeDriveIsFound();
     void aNodeThatComputesInASafeStopIsFound();
+    void aCycleThatBeganAfterAGapAndBeforeASafeStopIsComputed();
+    void cyclesOfAFormerPhaseAllowNothingInASafeStop();
     void safeStateWithUnsafeValuesIsFound();
     void aNewPhaseEndsASafeState();
     void aMasterThatStartsByItselfIsFound();
@@ -187,6 +189,36 @@ void tst_SafetyGates::aNodeThatComputesInASafeStopIsFound()
     const Gate gate = plant.judge(&soak::nothingMovesByItself);  // cycle 50 had begun
     QCOMPARE(gate.failed, qint64(1));
     QVERIFY2(gate.examples.first().contains("Node1-life1 computes cycle 51"), textOf(gate));
+}
+
+void tst_SafetyGates::aCycleThatBeganAfterAGapAndBeforeASafeStopIsComputed()
+{
+    for (const quint64 last : {72, 73}) {
+        HandMade plant;
+        HandMade::removeCycles(plant.master(), 50, 71);
+        HandMade::removeCycles(plant.master(), 73, 99);
+        for (int node = 0; node < 3; ++node) {
+            HandMade::removeCycles(plant.node(node), 50, 71);
+            HandMade::removeCycles(plant.node(node), node == 1 ? last + 1 : 73, 99);
+        }
+        plant.setState(Record::SafeStop, HandMade::at(72), 49);  // cycle 72 has begun, 49 is the newest complete one
+        const Gate gate = plant.judge(&soak::nothingMovesByItself);
+        QCOMPARE(gate.failed, qint64(last - 72));
+        if (last == 73)
+            QVERIFY2(gate.examples.first().contains("Node1-life1 computes cycle 73"), textOf(gate));
+    }
+}
+
+void tst_SafetyGates::cyclesOfAFormerPhaseAllowNothingInASafeStop()
+{
+    HandMade plant;
+    const qint64 begin = plant.end() + 100 * ms;
+    HandMade::add(plant.runner(), Record::Command, -1, begin - ms);
+    plant.setState(Record::RealTime, begin);
+    plant.setState(Record::SafeStop, begin + ms);
+    plant.addStep(1, 2).time = begin + 2 * ms;
+    plant.setState(Record::Off, begin + 3 * ms);
+    QCOMPARE(plant.judge(&soak::nothingMovesByItself).failed, qint64(1));
 }
 
 void tst_SafetyGates::safeStateWithUnsafeValuesIsFound()
