@@ -56,7 +56,8 @@ double Histogram::mean() const noexcept
 QVector<QPlcDistribution::Bin> Histogram::filledBins() const
 {
     QVector<QPlcDistribution::Bin> bins;
-    for (int bin = 0; bin < Bins::Count; ++bin) {
+    const int last = Bins::binOf(std::uint64_t(maximum()));
+    for (int bin = Bins::binOf(std::uint64_t(m_minimum.load(std::memory_order_relaxed))); bin <= last; ++bin) {
         if (const std::uint64_t values = m_bins[std::size_t(bin)].load(std::memory_order_acquire))
             bins.append({Bins::upperBorder(bin), values});
     }
