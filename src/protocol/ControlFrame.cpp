@@ -21,16 +21,13 @@ int nestingDepth(const QByteArray &json)
 {
     int depth = 0;
     int deepest = 0;
-    bool inString = false;
-    for (int i = 0; i < json.size(); ++i) {
-        const char character = json.at(i);
-        if (inString) {
-            if (character == '\\')
-                ++i;
-            else if (character == '"')
-                inString = false;
-        } else if (character == '"') {
-            inString = true;
+    const char *const text = json.constData();
+    const int size = json.size();
+    for (int i = 0; i < size; ++i) {
+        const char character = text[i];
+        if (character == '"') {
+            for (++i; i < size && text[i] != '"'; ++i)
+                i += text[i] == '\\' ? 1 : 0;
         } else if (character == '{' || character == '[') {
             deepest = std::max(deepest, ++depth);
         } else if (character == '}' || character == ']') {
@@ -115,18 +112,18 @@ bool ControlFrameReader::parse(const QByteArray &frame, QPlcMessage *message)
         return true;
     }
 
-    const QString thing = QStringLiteral("control frame (%1)%2").arg(QPlcMessage::kindName(kind), place());
+    const auto thing = [&] { return QStringLiteral("control frame (%1)%2").arg(QPlcMessage::kindName(kind), place()); };
     const int depth = nestingDepth(json);
     if (depth > MaximumControlDepth) {
         const QString text = QStringLiteral("%1: arrays and objects %2 deep; at most %3 are allowed");
-        return setError(NestedTooDeep, text.arg(thing).arg(depth).arg(MaximumControlDepth));
+        return setError(NestedTooDeep, text.arg(thing()).arg(depth).arg(MaximumControlDepth));
     }
     if (const std::optional<QString> name = doubledJsonName(json))
-        return setError(InvalidJson, QStringLiteral("%1: the name '%2' stands twice in an object").arg(thing, *name));
+        return setError(InvalidJson, QStringLiteral("%1: the name '%2' stands twice in an object").arg(thing(), *name));
     QJsonParseError error;
     const QJsonDocument document = QJsonDocument::fromJson(json, &error);
     if (!document.isObject())
-        return setError(InvalidJson, QStringLiteral("%1: %2").arg(thing, jsonErrorText(error)));
+        return setError(InvalidJson, QStringLiteral("%1: %2").arg(thing(), jsonErrorText(error)));
     *message = QPlcMessage(kind, document.object());
     return true;
 }

@@ -2,6 +2,8 @@
 #include "JsonNames.h"
 
 #include <algorithm>
+#include <cstring>
+#include <iterator>
 #include <vector>
 
 namespace qplc {
@@ -13,29 +15,42 @@ bool isSpace(char character)
     return character == ' ' || character == '\t' || character == '\n' || character == '\r';
 }
 
-/// Reads the text of one string, from behind its opening quote.
-class StringReader
+/// A name as it stands in the JSON text, between its quotes.
+class RawName
 {
 public:
-    StringReader(const QByteArray &json, int *place)
-        : m_json(json)
-        , m_place(*place)
+    /// \param place  behind the opening quote; is moved behind the closing one
+    RawName(const QByteArray &json, int *place)
+        : m_begin(json.constData() + *place)
     {
+        const int begin = *place;
+        const int size = json.size();
+        int end = begin;
+        for (; end < size && m_begin[end - begin] != '"'; ++end) {
+            if (m_begin[end - begin] == '\\') {
+                m_hasEscapes = true;
+                ++end;
+            }
+        }
+        m_size = std::min(end, size) - begin;
+        *place = end + 1;
     }
 
-    /// The bytes up to the closing quote, which is skipped.
-    QString read()
+    bool hasEscapes() const { return m_hasEscapes; }
+    QString text() const
     {
-        const int begin = m_place;
-        bool hasEscapes = false;
-        while (m_place < m_json.size() && m_json.at(m_place) != '"') {
-            const bool isEscape = m_json.at(m_place) == '\\';
-            hasEscapes = hasEscapes || isEscape;
-            m_place += isEscape ? 2 : 1;
-        }
-        const int end = std::min(m_place++, m_json.size());
-        const QByteArray bytes = m_json.mid(begin, end - begin);
-        return hasEscapes ? unescaped(bytes) : QString::fromUtf8(bytes);
+        const QByteArray bytes = QByteArray::fromRawData(m_begin, m_size);
+        return m_hasEscapes ? unescaped(bytes) : QString::fromUtf8(bytes);
+    }
+    /// Of bytes, in any order that tells them apart.
+    bool operator<(const RawName &other) const
+    {
+        return m_size != other.m_size ? m_size < other.m_size
+                                      : std::memcmp(m_begin, other.m_begin, std::size_t(m_size)) < 0;
+    }
+    bool operator==(const RawName &other) const
+    {
+        return m_size == other.m_size && std::memcmp(m_begin, other.m_begin, std::size_t(m_size)) == 0;
     }
 
 private:
@@ -73,36 +88,53 @@ private:
         }
     }
 
-    const QByteArray &m_json;
-    int &m_place;
+    const char *m_begin;
+    int m_size = 0;
+    bool m_hasEscapes = false;
 };
 
-std::optional<QString> doubledOf(std::vector<QString> *names)
+/// Of the names from \a begin to \a end, which it sorts.
+template<typename Iterator>
+Iterator doubledAmong(Iterator begin, Iterator end)
 {
-    std::sort(names->begin(), names->end());
-    const auto found = std::adjacent_find(names->begin(), names->end());
-    return found == names->end() ? std::nullopt : std::optional<QString>(*found);
+    std::sort(begin, end);
+    return std::adjacent_find(begin, end);
+}
+
+std::optional<QString> doubledOf(std::vector<RawName>::iterator begin, std::vector<RawName>::iterator end)
+{
+    if (std::none_of(begin, end, [](const RawName &name) { return name.hasEscapes(); })) {
+        const auto found = doubledAmong(begin, end);
+        return found == end ? std::nullopt : std::optional<QString>(found->text());
+    }
+    std::vector<QString> texts;  // the same name may be written in several ways
+    std::transform(begin, end, std::back_inserter(texts), [](const RawName &name) { return name.text(); });
+    const auto found = doubledAmong(texts.begin(), texts.end());
+    return found == texts.end() ? std::nullopt : std::optional<QString>(*found);
 }
 
 }  // namespace
 
 std::optional<QString> doubledJsonName(const QByteArray &json)
 {
-    std::vector<std::vector<QString>> open;  // names of the objects (arrays: none) around the place, the innermost last
+    std::vector<RawName> names;        // of the objects around the place, those of the innermost last
+    std::vector<std::ptrdiff_t> open;  // where the names of each object (arrays: none) begin
     for (int place = 0; place < json.size();) {
         const char character = json.at(place++);
         if (character == '{' || character == '[') {
-            open.emplace_back();
+            open.push_back(std::ptrdiff_t(names.size()));
         } else if ((character == '}' || character == ']') && !open.empty()) {
-            if (const std::optional<QString> doubled = doubledOf(&open.back()))
+            const auto begin = names.begin() + open.back();
+            if (const std::optional<QString> doubled = doubledOf(begin, names.end()))
                 return doubled;
+            names.erase(begin, names.end());
             open.pop_back();
         } else if (character == '"') {
-            const QString text = StringReader(json, &place).read();
+            const RawName text(json, &place);
             while (place < json.size() && isSpace(json.at(place)))
                 ++place;
             if (place < json.size() && json.at(place) == ':' && !open.empty())
-                open.back().push_back(text);
+                names.push_back(text);
         }
     }
     return std::nullopt;
