@@ -21,10 +21,10 @@ namespace {
 
 constexpr std::int64_t Shortest = 1000;  // [ns] of a timer with the interval 0, so that time passes
 
-bool isLater(const SimulatedEvent &left, const SimulatedEvent &right)
-{
+// An object, so that the compiler can inline it into the functions of heaps.
+constexpr auto isLater = [](const SimulatedEvent &left, const SimulatedEvent &right) {
     return left.time != right.time ? left.time > right.time : left.order > right.order;
-}
+};
 
 SimulatedHost *currentHost()
 {

@@ -62,7 +62,9 @@ const char *transportOf(int node)
     return transports[node % 3];
 }
 
-QPlcSignalTable table(const PlantShape &shape)
+namespace {
+
+QPlcSignalTable makeTable(const PlantShape &shape)
 {
     static const char *const types[Kinds] = {"Real64", "Real32", "Int32", "Real32[3]"};
     const QByteArray hold = "hold = " + QByteArray::number(shape.hold) + '\n';
@@ -77,6 +79,20 @@ QPlcSignalTable table(const PlantShape &shape)
             ini += '[' + valueName(node, value) + "]\ntype = " + types[kindOf(value)] + '\n' + hold;
     }
     return QPlcSignalTable::fromIni(ini);
+}
+
+}  // namespace
+
+QPlcSignalTable table(const PlantShape &shape)
+{
+    // A thread that simulates a plant asks for the same one whenever a program starts.
+    thread_local PlantShape known{0, 0, 0};
+    thread_local QPlcSignalTable made;
+    if (known.nodes != shape.nodes || known.signalCount != shape.signalCount || known.hold != shape.hold) {
+        made = makeTable(shape);
+        known = shape;
+    }
+    return made;
 }
 
 quint64 rawValue(int node, quint32 life, quint32 counter, int index)
