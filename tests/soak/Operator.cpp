@@ -14,6 +14,8 @@ namespace soak {
 
 namespace {
 
+constexpr int LongestWithoutNews = 100;  // [ms]
+
 int registeredIn(const messages::State &state)
 {
     return state.nodes.size() - 1;  // the recorder is one
@@ -57,6 +59,18 @@ void Operator::wait(int milliseconds)
     loop.exec();
 }
 
+void Operator::waitForNews()
+{
+    wait(10 + m_nodes / 4);  // the state has a part for each node: it is work for the master
+    if (m_hasNews || !m_client || m_client->error() != tools::BlockingClient::NoError)
+        return;
+    QEventLoop loop;
+    QObject::connect(&m_client->control(), &qplc::ControlClient::unasked, &loop, &QEventLoop::quit);
+    QObject::connect(m_client.get(), &tools::BlockingClient::lost, &loop, &QEventLoop::quit);
+    QTimer::singleShot(LongestWithoutNews, Qt::PreciseTimer, &loop, &QEventLoop::quit);
+    loop.exec();
+}
+
 qint64 Operator::now()
 {
     return qplc::monotonicNow() / 1'000'000;
@@ -79,9 +93,10 @@ bool Operator::waitForNodes(int count, int patience)
     const qint64 end = now() + patience;
     messages::State state;
     while (now() < end) {
+        m_hasNews = false;
         if (ask(messages::GetState(), &state) && registeredIn(state) >= count)
             return true;
-        wait(10 + m_nodes / 4);
+        waitForNews();
     }
     m_errorString = QStringLiteral("%1 of the first %2 nodes have registered").arg(registeredIn(state)).arg(count);
     return false;
@@ -91,6 +106,9 @@ tools::BlockingClient &Operator::client()
 {
     if (!m_client || m_client->error() != tools::BlockingClient::NoError) {
         m_client = std::make_unique<tools::BlockingClient>(std::chrono::seconds(3));
+        m_client->control().offer(messages::feature::events);
+        QObject::connect(&m_client->control(), &qplc::ControlClient::unasked, m_client.get(),
+                         [this] { m_hasNews = true; });
         m_client->connectToMaster(m_master);
     }
     return *m_client;
@@ -131,9 +149,10 @@ bool Operator::bringToRealTime(int patience)
 {
     const qint64 end = now() + patience;
     while (now() < end) {
+        m_hasNews = false;
         if (goOn())
             return true;
-        wait(10 + m_nodes / 4);  // the answer has a part for each node: it is work for the master
+        waitForNews();
     }
     return false;
 }

@@ -47,6 +47,8 @@ private:
         return false;
     }
     tools::BlockingClient &client();
+    /// Waits for an event of the master, but not much longer than somebody who looks now and then.
+    void waitForNews();
     bool areAllThere(const qplc::messages::State &state) const;
     /// Arms where the master wants it, and starts.
     void start(const qplc::messages::State &state);
@@ -60,6 +62,7 @@ private:
     int m_formerNode = -1;
     int m_formerId = 0;  // of this node, which its next registration will not have; 0: none
     std::unique_ptr<tools::BlockingClient> m_client;
+    bool m_hasNews = false;  // since the last look at the state
     QString m_errorString;
 };
 
