@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "Waiting.h"
+
 #include <QtCore/QFile>
 #include <QtCore/QTemporaryDir>
-#include <QtTest/QTest>
 
 #include <cstring>
 #include <sys/socket.h>
@@ -41,7 +42,7 @@ public:
     /// Waits for \a line; what comes before it is gone then.
     bool waitFor(const QString &line, int milliseconds = 10000)
     {
-        return QTest::qWaitFor([&] { return take().contains(line); }, milliseconds);
+        return waitUntil([&] { return take().contains(line); }, milliseconds);
     }
 
 private:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "gui3d/OpenGlProbe.h"
 #include "kite/KiteView.h"
 
-#include <QtTest/QtTest>
 #include <QtWidgets/QAction>
 #include <QtWidgets/QCheckBox>
 #include <QtWidgets/QComboBox>

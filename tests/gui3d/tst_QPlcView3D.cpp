@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "KiteFixtures.h"
 #include "gui/layout/LayoutView.h"
 #include "gui3d/OpenGlProbe.h"
@@ -6,7 +7,6 @@
 #include "kite/KiteView.h"
 
 #include <QtCore/QJsonArray>
-#include <QtTest/QtTest>
 
 #include <ctime>
 
@@ -71,7 +71,7 @@ struct ShownView
     bool waitForPictures(int more)
     {
         const int wanted = drawn.count() + more;
-        return QTest::qWaitFor([this, wanted] { return drawn.count() >= wanted; }, patience);
+        return waitUntil([this, wanted] { return drawn.count() >= wanted; }, patience);
     }
 
     FlyingPlant plant;

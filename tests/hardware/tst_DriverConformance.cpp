@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "DriverBench.h"
 #include "FakeDevices.h"
 #include "conformance/CanTestDevices.h"
@@ -7,8 +8,6 @@
 #include "conformance/ModbusTestDevices.h"
 #include "conformance/SerialTestDevices.h"
 #include "conformance/SpiTestDevices.h"
-
-#include <QtTest/QtTest>
 
 #include <mutex>
 

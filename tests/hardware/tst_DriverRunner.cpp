@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "BenchDriver.h"
 #include "DriverBench.h"
-
-#include <QtTest/QtTest>
 
 #include <mutex>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A button at a hardware node stops the plant, and so does its torn wire where it is wired as our
 // pages say.
+#include "../common/Waiting.h"
 #include "DriverBench.h"
 #include "FakeDevices.h"
 #include "WinchBench.h"

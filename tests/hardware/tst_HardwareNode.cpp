@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A hardware node at a master, with devices that the test holds.
+#include "../common/Waiting.h"
 #include "ThreadCosts.h"
 #include "WinchBench.h"
 

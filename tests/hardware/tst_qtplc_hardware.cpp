@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The program of hardware nodes, as a process.
+#include "../common/Waiting.h"
 #include "NodeFixtures.h"
 
 #include <QtCore/QProcess>
 #include <QtCore/QTemporaryDir>
-#include <QtTest/QtTest>
 
 class tst_qtplc_hardware : public QObject
 {
@@ -77,7 +77,7 @@ void tst_qtplc_hardware::watchdogIsActiveUnlessDisabled()
     QTRY_COMPARE(master.nodes().size(), 1);
     QVERIFY(master.startRealTime());
     QVERIFY(master.waitForCycles(5));
-    QCOMPARE(QTest::qWaitFor([&] { return !lost.isEmpty(); }, barks ? 5000 : 1000), barks);
+    QCOMPARE(waitUntil([&] { return !lost.isEmpty(); }, barks ? 5000 : 1000), barks);
     master.stop();
     board.terminate();
     QVERIFY(board.waitForFinished(10000));

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "ListenerPlant.h"
 #include "Program.h"
 #include "ThreadCosts.h"
-
-#include <QtTest/QtTest>
 
 #include <csignal>
 
@@ -55,8 +54,8 @@ public:
     }
     bool start(int remoteNodes)
     {
-        return QTest::qWaitFor([&] { return nodes().size() == remoteNodes; }, 20000) && startRealTime()
-            && QTest::qWaitFor([&] { return statistics().cycles > 100; }, 20000);
+        return waitUntil([&] { return nodes().size() == remoteNodes; }, 20000) && startRealTime()
+            && waitUntil([&] { return statistics().cycles > 100; }, 20000);
     }
     QPlcNodeInfo info(const QString &name) const
     {
@@ -75,7 +74,7 @@ public:
 bool suspend(Program &program)
 {
     program.sendSignal(SIGSTOP);
-    return QTest::qWaitFor([&] {
+    return waitUntil([&] {
         QFile file(QString("/proc/%1/stat").arg(program.processId()));
         return file.open(QIODevice::ReadOnly) && file.readAll().contains(") T ");
     });

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "../common/Waiting.h"
+
 #include <QtPlcCore>
 
 #include <QtTest/QSignalSpy>
-#include <QtTest/QTest>
 
 #include <functional>
 
@@ -98,13 +99,13 @@ public:
     bool startArmed() { return initializeAllStates() && waitForState(Ready) && arm() && startRealTime(); }
     bool waitForCycles(quint64 cycles)
     {
-        return QTest::qWaitFor([&] { return statistics().cycles >= cycles; }, 10000);
+        return waitUntil([&] { return statistics().cycles >= cycles; }, 10000);
     }
     /// A short phase may be over before anybody looks: after startRealTime() wait for Off, not for
     /// RealTime and then for Off.
     bool waitForState(State wanted)
     {
-        return QTest::qWaitFor([&] { return state() == wanted; }, 10000);
+        return waitUntil([&] { return state() == wanted; }, 10000);
     }
 };
 

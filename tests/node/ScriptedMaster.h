@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "../common/Waiting.h"
 #include "NodeFixtures.h"
 #include "node/security/Handshake.h"
 #include "protocol/CyclicFrame.h"
@@ -67,7 +68,7 @@ public:
     }
     QPlcMessage next(int timeout = 5000)
     {
-        (void)QTest::qWaitFor([this] { return m_taken < messages.size(); }, timeout);
+        (void)waitUntil([this] { return m_taken < messages.size(); }, timeout);
         return m_taken < messages.size() ? messages.at(m_taken++) : QPlcMessage();
     }
     void forgetMessages()
@@ -109,7 +110,7 @@ public:
             send(QPlcMessage::CyclicChannelAttached);
         else if (next().kind() != QPlcMessage::AttachCyclicChannel)
             return false;
-        return QTest::qWaitFor([&] { return node.state() == QPlcSlaveNode::Off; }, 5000);
+        return waitUntil([&] { return node.state() == QPlcSlaveNode::Off; }, 5000);
     }
     QJsonObject startFields(const QString &clock = QStringLiteral("RealTime"), qint64 period = 10'000'000) const
     {
@@ -164,7 +165,7 @@ public:
     }
     bool waitForAnswers(int count)
     {
-        return QTest::qWaitFor([&] { return answers.size() >= count; }, 5000);
+        return waitUntil([&] { return answers.size() >= count; }, 5000);
     }
 
 private:

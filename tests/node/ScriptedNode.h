@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "../common/Waiting.h"
 #include "NodeFixtures.h"
 #include "node/security/SealFields.h"
 #include "protocol/ControlFrame.h"
@@ -79,7 +80,7 @@ public:
     {
         m_port = port;
         control.connectToMaster(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, port));
-        return QTest::qWaitFor([this] { return control.isConnected(); }, 5000);
+        return waitUntil([this] { return control.isConnected(); }, 5000);
     }
     void send(QPlcMessage::Kind kind, const QJsonObject &fields = {})
     {
@@ -88,7 +89,7 @@ public:
     /// The next message; of kind Invalid when none comes.
     QPlcMessage next(int timeout = 5000)
     {
-        (void)QTest::qWaitFor([this] { return m_taken < messages.size(); }, timeout);
+        (void)waitUntil([this] { return m_taken < messages.size(); }, timeout);
         return m_taken < messages.size() ? messages.at(m_taken++) : QPlcMessage();
     }
     void forgetMessages()
@@ -98,7 +99,7 @@ public:
     }
     bool waitForMessage(QPlcMessage::Kind kind)
     {
-        return QTest::qWaitFor(
+        return waitUntil(
             [&] {
                 return std::any_of(messages.begin(), messages.end(),
                                    [&](const QPlcMessage &m) { return m.kind() == kind; });
@@ -169,14 +170,14 @@ public:
     bool attach(quint64 token = 0)
     {
         stream.connectToHost(QHostAddress::LocalHost, m_port);
-        if (!QTest::qWaitFor([this] { return stream.state() == QAbstractSocket::ConnectedState; }, 5000))
+        if (!waitUntil([this] { return stream.state() == QAbstractSocket::ConnectedState; }, 5000))
             return false;
         stream.write(qplc::encodeControlFrame(
             QPlcMessage(QPlcMessage::AttachCyclicChannel,
                         {{QStringLiteral("node"), registered.fields().value(QStringLiteral("node"))},
                          {QStringLiteral("token"),
                           token ? QPlcMessage::fromHex64(token) : registered.text(QStringLiteral("token"))}})));
-        return QTest::qWaitFor([this] { return m_attachAnswer.kind() != QPlcMessage::Invalid; }, 5000)
+        return waitUntil([this] { return m_attachAnswer.kind() != QPlcMessage::Invalid; }, 5000)
             && m_attachAnswer.kind() == QPlcMessage::CyclicChannelAttached;
     }
     QPlcMessage attachAnswer() const { return m_attachAnswer; }
@@ -218,12 +219,12 @@ public:
     }
     bool waitForRequests(int count)
     {
-        return QTest::qWaitFor([&] { return requests.size() >= count; }, 5000);
+        return waitUntil([&] { return requests.size() >= count; }, 5000);
     }
     /// Whether a request of this cycle came, again or for the first time.
     bool waitForRequestOf(quint64 cycle, quint8 flags = 0)
     {
-        return QTest::qWaitFor(
+        return waitUntil(
             [&] {
                 return std::any_of(frames.begin(), frames.end(),
                                    [&](const Request &r) { return r.cycle == cycle && r.flags == flags; });

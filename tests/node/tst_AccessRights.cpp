@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "SecurityFixtures.h"
 #include "node/security/AccessRights.h"
 #include "node/security/Keyring.h"
 
 #include <QtCore/QMetaEnum>
-#include <QtTest/QtTest>
 
 using qplc::Keyring;
 using qplc::Peer;

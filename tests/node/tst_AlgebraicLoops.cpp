@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "SameCycleFixtures.h"
-
-#include <QtTest/QtTest>
 
 #include <algorithm>
 #include <atomic>

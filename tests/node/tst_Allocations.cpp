@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "ScriptedNode.h"
 #include "ThreadCosts.h"
 #include "transport/CyclicHub.h"
 #include "transport/StreamTransport.h"
 #include "transport/UdpTransport.h"
-
-#include <QtTest/QtTest>
 
 #include <mutex>
 #include <thread>
@@ -106,7 +105,7 @@ void checkCosts(TestMaster &master, quint64 cycles)
     QVERIFY(master.startRealTime());
     QVERIFY(master.waitForCycles(begin));
     const ThreadCosts before = ThreadCosts::ofWatchedThreads();
-    QVERIFY(QTest::qWaitFor([&] { return master.statistics().cycles >= begin + cycles; }, 50000));
+    QVERIFY(waitUntil([&] { return master.statistics().cycles >= begin + cycles; }, 50000));
     const ThreadCosts spent = ThreadCosts::ofWatchedThreads() - before;
     QVERIFY(master.waitForState(QPlcMasterNode::Off));
     QCOMPARE(master.statistics().cycles, begin + cycles + end);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "ScriptedMaster.h"
 #include "ScriptedNode.h"
 #include "VirtualPlant.h"
@@ -6,7 +7,6 @@
 #include "transport/FaultInjector.h"
 
 #include <QtCore/QScopeGuard>
-#include <QtTest/QtTest>
 
 #include <atomic>
 #include <thread>
@@ -74,7 +74,7 @@ Misses missesOf(std::uint64_t seed, int cycles)
 quint64 digestAfter(TestMaster &master, quint64 cycles)
 {
     master.setCycleLimit(cycles);
-    if (!master.startRealTime() || !QTest::qWaitFor([&] { return master.statistics().cycles == cycles; }, 60000)
+    if (!master.startRealTime() || !waitUntil([&] { return master.statistics().cycles == cycles; }, 60000)
         || !master.waitForState(QPlcMasterNode::Off))
         return 0;
     return master.statistics().imageDigest;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "SecurityFixtures.h"
-
-#include <QtTest/QtTest>
 
 // Nodes and tools at a master with certificates, over TLS on loopback. All of them are made by
 // openssl here.

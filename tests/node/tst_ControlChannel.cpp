@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "ScriptedNode.h"
 
 #include <QtNetwork/QSslSocket>
 #include <QtNetwork/QTcpServer>
-#include <QtTest/QtTest>
 
 // What a tool may ask, and set.
 class tst_ControlChannel : public QObject

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "ScriptedMaster.h"
 #include "node/session/ControlClient.h"
-
-#include <QtTest/QtTest>
 
 using qplc::ControlClient;
 namespace messages = qplc::messages;
@@ -48,11 +47,11 @@ private:
         if (m_master->next().kind() != QPlcMessage::Hello)
             return false;
         m_master->send(QPlcMessage::Hello, m_master->helloFields());
-        return QTest::qWaitFor([&] { return m_client->isGreeted(); }, 5000);
+        return waitUntil([&] { return m_client->isGreeted(); }, 5000);
     }
     bool isLost()
     {
-        return QTest::qWaitFor([&] { return m_losses.size() > 0; }, 5000);
+        return waitUntil([&] { return m_losses.size() > 0; }, 5000);
     }
     /// Writes down the kind of the answer, or the error of the refusal.
     template<typename Request>

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "../realtime/FakeTime.h"
 #include "NodeFixtures.h"
 #include "node/api/QPlcSlaveNodePrivate.h"
 #include "node/cycle/MasterCycle.h"
-
-#include <QtTest/QtTest>
 
 #include <algorithm>
 #include <cmath>
@@ -56,7 +55,7 @@ public:
         m_origin = time.time;
         if (!cycle.start(phase))
             return false;
-        const bool ended = QTest::qWaitFor([this] { return hasEnded(); }, 60'000);
+        const bool ended = waitUntil([this] { return hasEnded(); }, 60'000);
         cycle.stop();
         return ended;
     }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "NodeFixtures.h"
-
-#include <QtTest/QtTest>
 
 #include <atomic>
 #include <memory>
@@ -126,7 +125,7 @@ std::optional<QStringList> tst_Destruction::warningsOfDestroying(std::unique_ptr
     const bool flies = (kind == QLatin1String("local") || master.listen()) && master.admit(*node, kind)
         && master.startRealTime() && master.waitForState(QPlcMasterNode::RealTime) && master.waitForCycles(3);
     node.reset();
-    const bool isGone = QTest::qWaitFor([&] { return master.nodes().isEmpty(); });
+    const bool isGone = waitUntil([&] { return master.nodes().isEmpty(); });
     return flies && isGone ? std::optional<QStringList>(log.matching(Warning)) : std::nullopt;
 }
 

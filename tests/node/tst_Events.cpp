@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "ScriptedNode.h"
 
 #include "realtime/TimeSource.h"
 
 #include <QtCore/QElapsedTimer>
-#include <QtTest/QtTest>
 
 // What a master tells viewers of what happens in it.
 class tst_Events : public QObject

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // A master on this machine that names other things than its own memory and pipe, to let a node
 // write into them.
+#include "../common/Waiting.h"
 #include "ScriptedMaster.h"
 #include "protocol/ControlFrame.h"
 #include "transport/SharedChannel.h"
-
-#include <QtTest/QtTest>
 
 #include <fcntl.h>
 #include <functional>

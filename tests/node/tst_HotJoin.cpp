@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "ScriptedNode.h"
-
-#include <QtTest/QtTest>
 
 // Nodes that come and go while others run.
 class tst_HotJoin : public QObject

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "NodeFixtures.h"
 
 #include <QtCore/QThread>
-#include <QtTest/QtTest>
 
 #include <atomic>
 #include <thread>
@@ -63,7 +63,7 @@ public:
     bool connectTo(const QPlcUnderlyingProtocol &protocol)
     {
         inThreadOf(node, [&] { node->connectToMaster(protocol); });
-        return QTest::qWaitFor([this] { return state() == QPlcSlaveNode::Off; }, 5000);
+        return waitUntil([this] { return state() == QPlcSlaveNode::Off; }, 5000);
     }
     QPlcSlaveNode::State state()
     {
@@ -72,7 +72,7 @@ public:
         const auto answer = std::make_shared<std::atomic<int>>(-1);
         QMetaObject::invokeMethod(
             node, [this, answer] { *answer = node->state(); }, Qt::QueuedConnection);
-        (void)QTest::qWaitFor([&] { return *answer >= 0; }, 5000);
+        (void)waitUntil([&] { return *answer >= 0; }, 5000);
         return QPlcSlaveNode::State(answer->load());
     }
     QPlcIOBufferSlaveNode *node = new QPlcIOBufferSlaveNode("Viewer");
@@ -311,7 +311,7 @@ void tst_IONodes::fullBufferInAnotherThreadDelaysNoCycle()
     QVERIFY(viewer.connectTo(master.protocol("tcp")));
     master.setCycleLimit(500);  // and nobody takes what the viewer keeps
     QVERIFY(master.startRealTime());
-    QVERIFY(QTest::qWaitFor([&] { return master.statistics().cycles == 500; }, 20000));
+    QVERIFY(waitUntil([&] { return master.statistics().cycles == 500; }, 20000));
     QTRY_COMPARE(viewer.node->lostCycles(), quint64(500 - 64));
     QVector<quint64> numbers;
     QCOMPARE(viewer.node->takeInputSignals(&numbers).size(), 64);

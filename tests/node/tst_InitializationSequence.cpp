@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "ScriptedMaster.h"
 #include "ScriptedNode.h"
-
-#include <QtTest/QtTest>
 
 // Figure 4.16 of the thesis: the initial outputs of all nodes become the initial inputs of all
 // nodes.

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "node/cycle/CycleStatistics.h"
 #include "node/statistics/Journal.h"
-
-#include <QtTest/QtTest>
 
 using qplc::Journal;
 using qplc::JournalEvent;

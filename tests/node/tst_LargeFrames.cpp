@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "NodeFixtures.h"
 #include "protocol/CyclicFrame.h"
 #include "signals/PayloadLayout.h"
-
-#include <QtTest/QtTest>
 
 // Inputs and outputs of more bytes than one frame holds; texts and arrays among them.
 class tst_LargeFrames : public QObject
@@ -151,8 +150,8 @@ void tst_LargeFrames::textsAndArraysTravelUnchanged()
     QVERIFY2(master.admit(writer, writerKind), qPrintable(master.errorString() + writer.errorString()));
     QVERIFY2(master.admit(copier, copierKind), qPrintable(master.errorString() + copier.errorString()));
     QVERIFY2(master.startRealTime(), qPrintable(master.errorString()));
-    QVERIFY(QTest::qWaitFor(
-        [&] { return master.statistics().cycles == Cycles && master.state() == QPlcMasterNode::Off; }, 30000));
+    QVERIFY(waitUntil([&] { return master.statistics().cycles == Cycles && master.state() == QPlcMasterNode::Off; },
+                      30000));
     writer.disconnectFromMaster();
     copier.disconnectFromMaster();
     QCOMPARE(copier.good, Cycles);
@@ -224,8 +223,8 @@ void tst_LargeFrames::payloadsAroundTheFrameLimitTravelUnchanged()
                                           QPlcValue::fromBytes(table.at(QPlcSignalIndex(i)).type, bytes)));
         }
         QVERIFY(master.startRealTime());
-        QVERIFY(QTest::qWaitFor(
-            [&] { return master.statistics().cycles == 20 && master.state() == QPlcMasterNode::Off; }, 10000));
+        QVERIFY(waitUntil([&] { return master.statistics().cycles == 20 && master.state() == QPlcMasterNode::Off; },
+                          10000));
         node.disconnectFromMaster();
         for (int i = 0; i < 3; ++i)
             QCOMPARE(master.signalValue(QString("out%1").arg(i)).toBytes(),

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "ScriptedNode.h"
 
 #include <QtCore/QElapsedTimer>
 #include <QtCore/QRegularExpression>
-#include <QtTest/QtTest>
 
 // A node that is late in every cycle does not flood the log: a line at once, then one a second that
 // tells how many there were.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "ScriptedNode.h"
-
-#include <QtTest/QtTest>
 
 // Initialization and start wait for no listener: it goes through both at its own pace, and joins
 // when it has come so far.
@@ -168,7 +167,7 @@ void tst_ListenerSequence::earlyReadyListenerReceivesTheStart()
     listener.giveOutputs();
     QVERIFY(listener.waitForMessage(QPlcMessage::RealTimeStarted));
     QCOMPARE(master.state(), QPlcMasterNode::Initializing);
-    QVERIFY(!QTest::qWaitFor([&] { return !listener.requests.isEmpty(); }, 50));
+    QVERIFY(!waitUntil([&] { return !listener.requests.isEmpty(); }, 50));
     slow.send(QPlcMessage::RealTimeReady);
     QVERIFY(listener.waitForRequests(1));
     QCOMPARE(listener.requests.at(0).cycle, listener.messages.last().hex64("cycleZero"));  // nothing is missed

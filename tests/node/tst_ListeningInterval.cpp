@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "../realtime/FakeTime.h"
 #include "ScriptedMaster.h"
 #include "ScriptedNode.h"
 #include "node/cycle/MasterCycle.h"
 #include "transport/StreamTransport.h"
-
-#include <QtTest/QtTest>
 
 #include <sys/socket.h>
 #include <unistd.h>
@@ -98,7 +97,7 @@ public:
         m_decoder.restart(zero);
         if (!m_cycle.start(phase))
             return {};
-        (void)QTest::qWaitFor([&] { return m_cycle.cycle() + 1 == cycles; }, 10000);
+        (void)waitUntil([&] { return m_cycle.cycle() + 1 == cycles; }, 10000);
         m_cycle.stop();
         QVector<quint64> heard;
         char frame[64];

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "NodeFixtures.h"
 #include "ScriptedNode.h"
-
-#include <QtTest/QtTest>
 
 // Nodes in the process of the master, clocks, and the signals that the master writes.
 class tst_LocalNodes : public QObject
@@ -161,7 +160,7 @@ void tst_LocalNodes::aScaledClockRunsScaled()
     QElapsedTimer timer;
     timer.start();
     QVERIFY(master.startRealTime());
-    QVERIFY(QTest::qWaitFor([&] { return master.cycle() >= 30; }, 10000));
+    QVERIFY(waitUntil([&] { return master.cycle() >= 30; }, 10000));
     QVERIFY(timer.elapsed() >= 29);   // not faster than said
     QVERIFY(timer.elapsed() < 2900);  // and not in real time
     master.stop();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "ScriptedNode.h"
 
 #include <QtCore/QLoggingCategory>
-#include <QtTest/QtTest>
 
 // The log at its debug level shows the exact bytes of what travels, and nothing of it otherwise.
 class tst_Logging : public QObject

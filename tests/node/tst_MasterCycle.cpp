@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "node/cycle/MasterCycle.h"
 #include "protocol/CyclicFrame.h"
 #include "transport/StreamTransport.h"
-
-#include <QtTest/QtTest>
 
 #include <sys/socket.h>
 #include <unistd.h>

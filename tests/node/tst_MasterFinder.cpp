@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "../common/RuntimeFolder.h"
+#include "../common/Waiting.h"
 #include "NodeFixtures.h"
 #include "node/session/MasterBeacon.h"
 #include "node/session/MasterFinder.h"
 
 #include <QtNetwork/QNetworkInterface>
 #include <QtNetwork/QUdpSocket>
-#include <QtTest/QtTest>
 
 using qplc::Beacon;
 using qplc::FoundMaster;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "ScriptedMaster.h"
 #include "node/api/QPlcSlaveNodePrivate.h"
 #include "node/cycle/SlaveCycle.h"
 
 #include <QtCore/QDir>
 #include <QtCore/QElapsedTimer>
-#include <QtTest/QtTest>
 
 // One datagram for many nodes.
 class tst_Multicast : public QObject

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Nodes that say how far their outputs can be trusted, and nodes that ask for a safe stop.
+#include "../common/Waiting.h"
 #include "NodeFixtures.h"
 #include "ScriptedMaster.h"
 #include "ScriptedNode.h"
-
-#include <QtTest/QtTest>
 
 namespace {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "SecurityFixtures.h"
 
 #include <QtCore/QLoggingCategory>
 #include <QtNetwork/QTcpServer>
-#include <QtTest/QtTest>
 
 #include <unistd.h>
 

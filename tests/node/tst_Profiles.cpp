@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the profiles Simulation and Plant decide, and what wins over them.
+#include "../common/Waiting.h"
 #include "NodeFixtures.h"
 #include "ScriptedMaster.h"
 #include "ScriptedNode.h"
 #include "node/cycle/ProfileDefaults.h"
-
-#include <QtTest/QtTest>
 
 using namespace std::chrono_literals;
 using Profile = QPlcProfile;

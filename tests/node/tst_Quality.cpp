@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The qualities of signals from their writer to the code of their reader: with real nodes, and with
 // scripted ones that break the rules.
+#include "../common/Waiting.h"
 #include "NodeFixtures.h"
 #include "ScriptedNode.h"
 
 #include <QtCore/QProcess>
-#include <QtTest/QtTest>
 
 #include <atomic>
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "PhaseFixtures.h"
-
-#include <QtTest/QtTest>
 
 using qplc::NodeSession;
 using Answers = NodeSession::Answers;

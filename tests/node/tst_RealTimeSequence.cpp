@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "ScriptedMaster.h"
 #include "ScriptedNode.h"
-
-#include <QtTest/QtTest>
 
 // Figure 4.15 of the thesis: one cycle. New values go to every node, every node computes once and
 // answers.
@@ -213,7 +212,7 @@ void tst_RealTimeSequence::framesBetweenPhasesAreDropped()
     master.send(QPlcMessage::RealTimeStopped);
     QTRY_COMPARE(node.state(), QPlcSlaveNode::Off);
     master.request(1);
-    QVERIFY(!QTest::qWaitFor([&] { return master.answers.size() > 1; }, 30));
+    QVERIFY(!waitUntil([&] { return master.answers.size() > 1; }, 30));
 }
 
 void tst_RealTimeSequence::valuesOfSeveralPartsTravel_data()

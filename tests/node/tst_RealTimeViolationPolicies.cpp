@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "ScriptedNode.h"
-
-#include <QtTest/QtTest>
 
 #include <numeric>
 

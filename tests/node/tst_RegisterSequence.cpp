@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "ScriptedMaster.h"
 #include "ScriptedNode.h"
-
-#include <QtTest/QtTest>
 
 // Figure 4.14 of the thesis: server start of the master, connection and registration of a slave.
 class tst_RegisterSequence : public QObject

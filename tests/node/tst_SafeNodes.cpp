@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "ScriptedMaster.h"
 #include "node/api/QPlcSlaveNodePrivate.h"
-
-#include <QtTest/QtTest>
 
 #include <mutex>
 
@@ -246,8 +245,8 @@ void tst_SafeNodes::nodeIsSafeAfterMasterLossAndReconnects()
         QCOMPARE(winch.story(), (QStringList{"step", "safe MasterLost", "stopped"}));
     }
     TestMaster successor(QPlcClock::realTime(), winchTable());
-    QVERIFY(QTest::qWaitFor(
-        [&] { return successor.startServer(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, port)); }, 10000));
+    QVERIFY(waitUntil([&] { return successor.startServer(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, port)); },
+                      10000));
     QTRY_COMPARE_WITH_TIMEOUT(winch.state(), QPlcSlaveNode::Registered, 15000);
     QCOMPARE(winch.error(), QPlcSlaveNode::NoError);
     QCOMPARE(successor.state(), QPlcMasterNode::Off);  // and nothing moves

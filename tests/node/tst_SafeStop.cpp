@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "SafeNode.h"
 #include "SameCycleFixtures.h"
-
-#include <QtTest/QtTest>
 
 using namespace std::chrono_literals;
 using qplc::SafeStopFlag;
@@ -198,7 +197,7 @@ void tst_SafeStop::answersDuringASafeStopAreIgnored()
     QTRY_COMPARE(master.signalValue("echo").toReal(), 0.25);
     const quint64 cycles = master.statistics().cycles;
     int others = 0;
-    QVERIFY(QTest::qWaitFor(
+    QVERIFY(waitUntil(
         [&] {
             others += master.signalValue("echo").toReal() == 0.25 ? 0 : 1;
             return master.statistics().cycles >= cycles + 10;
@@ -312,7 +311,7 @@ void tst_SafeStop::listenersContinueAndMayJoinDuringASafeStop()
     QVERIFY(master.addLocalNode(&winch));
     QPlcSignalIndexTable::setCurrent(testTable());
     const auto hears = [](QPlcIOBufferSlaveNode &node) {
-        return QTest::qWaitFor([&] { return !node.takeInputSignals().isEmpty(); }, 10000);
+        return waitUntil([&] { return !node.takeInputSignals().isEmpty(); }, 10000);
     };
     QPlcIOBufferSlaveNode viewer("Viewer");
     viewer.setInputSignalIndices(indices({"echo"}));

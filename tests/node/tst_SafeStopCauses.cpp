@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "../realtime/FakeTime.h"
 #include "SafeNode.h"
 #include "ScriptedNode.h"
 #include "node/api/QPlcSlaveNodePrivate.h"
 #include "node/cycle/MasterCycle.h"
-
-#include <QtTest/QtTest>
 
 using namespace std::chrono_literals;
 using qplc::SafeStopFlag;
@@ -282,12 +281,12 @@ void tst_SafeStopCauses::aMasterThatStoodStillStopsSafely()
     phase.gapLimit = 1s;
     QVERIFY(cycle.start(phase));
     QVector<qplc::CycleEvent> events;
-    QVERIFY(QTest::qWaitFor([&] {
+    QVERIFY(waitUntil([&] {
         cycle.reports().take([&](const qplc::CycleEvent &event) { events << event; }, [](const qplc::TappedFrame &) {});
         return !events.isEmpty();
     }));
     const std::uint64_t newest = cycle.cycle();
-    QVERIFY(QTest::qWaitFor([&] { return cycle.cycle() > newest + 10; }));  // beyond the limit, too
+    QVERIFY(waitUntil([&] { return cycle.cycle() > newest + 10; }));  // beyond the limit, too
     cycle.stop();
     QCOMPARE(events.at(0).kind, qplc::CycleEvent::TrippedByGap);
     QCOMPARE(events.at(0).cycle, quint64(302));  // 0.99 s were borne; 1.02 s skip 101 cycles

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "SameCycleFixtures.h"
 #include "ScriptedMaster.h"
-
-#include <QtTest/QtTest>
 
 #include <algorithm>
 #include <optional>

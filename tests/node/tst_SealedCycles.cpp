@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "ScriptedMaster.h"
 #include "SecurityFixtures.h"
 #include "WireTap.h"
-
-#include <QtTest/QtTest>
 
 #include <random>
 

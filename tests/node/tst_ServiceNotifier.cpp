@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "../common/NotifyListener.h"
+#include "../common/Waiting.h"
 #include "ScriptedMaster.h"
 
 #include <QtCore/QSemaphore>
-#include <QtTest/QtTest>
 
 #include <memory>
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "ScriptedMaster.h"
 #include "ScriptedNode.h"
 #include "node/api/QPlcSlaveNodePrivate.h"
@@ -6,7 +7,6 @@
 #include "realtime/TimeSource.h"
 
 #include <QtCore/QSemaphore>
-#include <QtTest/QtTest>
 
 #include <atomic>
 #include <limits>
@@ -254,7 +254,7 @@ void tst_SlaveFaults::frameFloodAfterAPauseDoesNotBlockTheNode()
     phase.period = 1ms;
     phase.watchdog = 20ms;
     QVERIFY2(cycle.start(phase), qPrintable(cycle.errorString()));
-    const bool barks = QTest::qWaitFor([&] { return cycle.counters().watchdog == 1; }, 2000);
+    const bool barks = waitUntil([&] { return cycle.counters().watchdog == 1; }, 2000);
     ends = !barks;  // else a node that is held never stops
     cycle.stop();
     QVERIFY(barks);

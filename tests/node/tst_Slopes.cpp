@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "NodeFixtures.h"
 #include "ScriptedNode.h"
 #include "node/cycle/SlopeLimits.h"
-
-#include <QtTest/QtTest>
 
 #include <cmath>
 #include <mutex>

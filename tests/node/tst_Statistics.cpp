@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "ScriptedNode.h"
 #include "node/statistics/StatisticSignals.h"
-
-#include <QtTest/QtTest>
 
 // The statistics of master and nodes as their users see them: API, control channel, signals.
 class tst_Statistics : public QObject

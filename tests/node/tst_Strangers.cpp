@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "SecurityFixtures.h"
 #include "protocol/ControlFrame.h"
 
 #include <QtCore/QDir>
 #include <QtCore/QElapsedTimer>
 #include <QtCore/QRandomGenerator>
-#include <QtTest/QtTest>
 
 #include <netinet/in.h>
 #include <sys/socket.h>
@@ -238,7 +238,7 @@ void tst_Strangers::excessConnectionsAreClosedImmediately()
     QCOMPARE(m_master->statistics().refusedConnections, quint64(1));
     QTRY_VERIFY(!m_log->matching("too many connections").isEmpty());
     tools[0].control.close();
-    QTRY_VERIFY(lets("Counter"));
+    QVERIFY(waitUntil([this] { return lets("Counter"); }));
 }
 
 void tst_Strangers::toolThatSendsTooManyRequestsIsDisconnected()

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "SameCycleFixtures.h"
-
-#include <QtTest/QtTest>
 
 // Persons who take signals over by leases, at the control channel of a real master.
 class tst_TakeOver : public QObject

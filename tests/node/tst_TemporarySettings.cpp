@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "ScriptedNode.h"
-
-#include <QtTest/QtTest>
 
 // SetSignals with a duration, from tools at the control channel of a master.
 class tst_TemporarySettings : public QObject

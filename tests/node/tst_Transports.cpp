@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "NodeFixtures.h"
 
 #include <QtCore/QStandardPaths>
 #include <QtNetwork/QTcpServer>
 #include <QtNetwork/QTcpSocket>
 #include <QtNetwork/QUdpSocket>
-#include <QtTest/QtTest>
 
 #include <cerrno>
 #include <netinet/in.h>

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "ScriptedMaster.h"
 #include "ScriptedNode.h"
-
-#include <QtTest/QtTest>
 
 #include <random>
 

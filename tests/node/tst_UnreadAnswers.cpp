@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "protocol/ControlFrame.h"
 
 #include <QtPlcCore>
 
 #include <QtNetwork/QTcpServer>
 #include <QtNetwork/QTcpSocket>
-#include <QtTest/QtTest>
 
 // Who asks and asks, and takes no answer, costs a bounded amount of memory.
 class tst_UnreadAnswers : public QObject

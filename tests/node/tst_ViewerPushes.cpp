@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "node/session/ViewerPushes.h"
 #include "protocol/ControlFrame.h"
-
-#include <QtTest/QtTest>
 
 #include <sys/socket.h>
 #include <unistd.h>
@@ -70,7 +69,7 @@ public:
             QPlcMessage(QPlcMessage::Hello, {{"protocol", 1}, {"name", "Viewer"}, {"features", features}}));
         return ::connect(m_descriptor, address.data(), address.length) == 0
             && ::send(m_descriptor, hello.constData(), std::size_t(hello.size()), MSG_NOSIGNAL) == hello.size()
-            && QTest::qWaitFor([this] { return next().kind() == QPlcMessage::Hello; }, 5000);
+            && waitUntil([this] { return next().kind() == QPlcMessage::Hello; }, 5000);
     }
     /// The next message that is there; of kind Invalid when there is none.
     QPlcMessage next()
@@ -119,7 +118,7 @@ void tst_ViewerPushes::stoppedViewerCostsNoMemoryAndSeesTheGap()
     quint64 sequence = 0;
     quint64 widestGap = 0;
     int pictures = 0;
-    QVERIFY(QTest::qWaitFor(
+    QVERIFY(waitUntil(
         [&] {
             for (QPlcMessage message; (message = viewer.next()).kind() != QPlcMessage::Invalid;) {
                 pictures += message.kind() == QPlcMessage::LeasesChanged;
@@ -145,7 +144,7 @@ void tst_ViewerPushes::viewerWithoutTheFeatureGetsNoPushes()
     QVERIFY(leasesOnly.greet(master.server.port(), {"leases"}));
     master.happens("something");
     master.pushes.leasesChanged();
-    QVERIFY(QTest::qWaitFor([&] { return leasesOnly.next().kind() == QPlcMessage::LeasesChanged; }, 5000));
+    QVERIFY(waitUntil([&] { return leasesOnly.next().kind() == QPlcMessage::LeasesChanged; }, 5000));
     QTest::qWait(50);
     QCOMPARE(leasesOnly.next().kind(), QPlcMessage::Invalid);
     QCOMPARE(plain.next().kind(), QPlcMessage::Invalid);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "ProcessPlant.h"
 
 #include <QtNetwork/QTcpSocket>
 #include <QtNetwork/QUdpSocket>
-#include <QtTest/QtTest>
 
 #include <csignal>
 #include <random>
@@ -53,7 +53,7 @@ private:
     bool waitForCycles(int count) const
     {
         const double before = counter("cycles");
-        return QTest::qWaitFor([&] { return counter("cycles") >= before + count; }, Program::patience);
+        return waitUntil([&] { return counter("cycles") >= before + count; }, Program::patience);
     }
     QString events() const { return m_plant->qtplc(QStringLiteral("events")).output; }
 
@@ -79,7 +79,7 @@ void tst_PlantFaults::stoppedNodeIsLateAndResumes()
     const double lateAfter = late("Autopilot");
     QVERIFY2(lateAfter - lateBefore >= 5, qPrintable(QString::number(lateAfter - lateBefore)));
     // It computes the newest cycle, and then each one: punctual again for many cycles in a row.
-    QVERIFY(QTest::qWaitFor(
+    QVERIFY(waitUntil(
         [&] {
             const double before = late("Autopilot");
             return waitForCycles(20) && late("Autopilot") - before < 15;

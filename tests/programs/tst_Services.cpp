@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "../common/NotifyListener.h"
+#include "../common/Waiting.h"
 #include "Program.h"
-
-#include <QtTest/QtTest>
 
 #include <csignal>
 #include <memory>
@@ -82,8 +81,7 @@ void tst_Services::runningPlantFeedsTheWatchdogs()
     QVERIFY(model.listener.waitFor("READY=1") && autopilot.listener.waitFor("READY=1"));
     QCOMPARE(runProgram(QTPLC_PROGRAMS "/qtplc", {"--master", address, "start"}).exitCode, 0);
     for (Service *service : {&master, &model, &autopilot}) {
-        QVERIFY(
-            QTest::qWaitFor([&] { return service->listener.take().join('\n').contains("STATUS=Real time"); }, 10000));
+        QVERIFY(waitUntil([&] { return service->listener.take().join('\n').contains("STATUS=Real time"); }, 10000));
         QVERIFY(service->listener.waitFor("WATCHDOG=1"));
         QVERIFY(service->listener.waitFor("WATCHDOG=1"));
     }

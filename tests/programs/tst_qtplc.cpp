@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "Program.h"
 
 #include <QtPlcCore>
 
 #include <QtNetwork/QTcpServer>
 #include <QtNetwork/QTcpSocket>
-#include <QtTest/QtTest>
 
 #include <csignal>
 

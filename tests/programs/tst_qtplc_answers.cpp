@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "ProcessPlant.h"
 
 #include <QtPlcCore>
 
 #include <QtNetwork/QTcpServer>
-#include <QtTest/QtTest>
 
 namespace {
 
@@ -31,7 +31,7 @@ public:
     Outcome qtplc(const QString &command)
     {
         Program program(programPath("qtplc"), withMaster(command));
-        (void)QTest::qWaitFor([&program] { return program.state() == QProcess::NotRunning; }, Program::patience);
+        (void)waitUntil([&program] { return program.state() == QProcess::NotRunning; }, Program::patience);
         return {program.waitForEnd(), program.output(), program.errors()};
     }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "ProcessPlant.h"
-
-#include <QtTest/QtTest>
 
 #include <csignal>
 #include <fcntl.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "LaweModel.h"
 #include "Program.h"
 
@@ -10,7 +11,6 @@
 #include <QtCore/QUuid>
 #include <QtNetwork/QTcpServer>
 #include <QtNetwork/QTcpSocket>
-#include <QtTest/QtTest>
 
 #include <cmath>
 #include <csignal>
@@ -115,7 +115,7 @@ bool tst_ThesisPrograms::startMaster(const QString &variant)
 {
     m_master = std::make_unique<Program>(path(variant, QStringLiteral("master")), QStringList{QStringLiteral("0")});
     const QRegularExpression listening(QStringLiteral("listening on 127\\.0\\.0\\.1 port (\\d+) security none\n"));
-    if (!QTest::qWaitFor([&] { return listening.match(m_master->errors()).hasMatch(); }, Program::patience))
+    if (!waitUntil([&] { return listening.match(m_master->errors()).hasMatch(); }, Program::patience))
         return false;
     m_port = listening.match(m_master->errors()).captured(1).toUShort();
     return connectTool();
@@ -257,7 +257,7 @@ void tst_ThesisPrograms::modelFollowsTheMaster()
     const QDateTime after = QDateTime::currentDateTimeUtc();
     for (const char *measured : {"masterWorkload", "masterJitter", "modelWorkload"}) {
         const auto isMeasured = [&] { return values().value(QString::fromLatin1(measured)).toReal() > 0.0; };
-        QVERIFY2(QTest::qWaitFor(isMeasured, Program::patience), measured);
+        QVERIFY2(waitUntil(isMeasured, Program::patience), measured);
     }
     QTRY_VERIFY_WITH_TIMEOUT(tetherLength() > 100.2, Program::patience);
     const qint64 early = values().value(QStringLiteral("masterTime")).toInt64();

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "transport/ConnectionGate.h"
 #include "transport/ControlListener.h"
 
 #include <QtNetwork/QTcpSocket>
-#include <QtTest/QtTest>
 
 #include <sys/resource.h>
 #include <unistd.h>
@@ -217,7 +217,7 @@ void tst_ConnectionGate::aConnectionWithoutADescriptorIsClosed()
     const rlimit none = {rlim_t(free), former.rlim_max};  // the lowest free descriptor is out of bounds
     QCOMPARE(::setrlimit(RLIMIT_NOFILE, &none), 0);
     // Each client that ends gives a descriptor back, with which the next one may be taken as usual.
-    const bool areClosed = QTest::qWaitFor(
+    const bool areClosed = waitUntil(
         [&] {
             return std::all_of(clients.begin(), clients.end(), [](const std::unique_ptr<QTcpSocket> &client) {
                 return client->state() == QAbstractSocket::UnconnectedState;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a program of this machine names is looked at before it is opened.
+#include "../common/Waiting.h"
 #include "transport/PeerFile.h"
 
 #include "transport/PeerUser.h"
@@ -8,7 +9,6 @@
 #include <QtCore/QTemporaryDir>
 #include <QtNetwork/QTcpServer>
 #include <QtNetwork/QTcpSocket>
-#include <QtTest/QtTest>
 
 #include <csignal>
 #include <fcntl.h>

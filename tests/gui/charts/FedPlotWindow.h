@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "../../common/Waiting.h"
 #include "NodeFixtures.h"
 #include "QPlcTimePlot.h"
 #include "gui/charts/PlotCanvas.h"
@@ -64,7 +65,7 @@ public:
     bool show()
     {
         plot->show();
-        return QTest::qWaitForWindowExposed(plot) && QTest::qWaitFor([this] { return plot->drawnPictures() > 0; });
+        return QTest::qWaitForWindowExposed(plot) && waitUntil([this] { return plot->drawnPictures() > 0; });
     }
     qplc::PlotCanvas *canvas() const { return plot->findChild<qplc::PlotCanvas *>(); }
     qplc::PlotLegend *legend() const { return plot->findChild<qplc::PlotLegend *>(); }

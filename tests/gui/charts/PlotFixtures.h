@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "../../common/Waiting.h"
 #include "PlantFixtures.h"
 #include "QPlcTimePlot.h"
 #include "gui/charts/PlotCanvas.h"
@@ -36,7 +37,7 @@ public:
             return false;
         context.plants()->add(master.address(), QStringLiteral("kite"));
         plot->show();
-        return QTest::qWaitForWindowExposed(plot) && QTest::qWaitFor([&] { return past() >= seconds; }, 15'000);
+        return QTest::qWaitForWindowExposed(plot) && waitUntil([&] { return past() >= seconds; }, 15'000);
     }
     /// Seconds of values.
     double past()
@@ -55,7 +56,7 @@ public:
     /// Waits until the plot shows the frozen view, but for a column of pixels.
     bool isDrawn()
     {
-        return QTest::qWaitFor([this] {
+        return waitUntil([this] {
             const auto column = time()->span() / canvas()->deviceWidth() + 1;
             return std::abs(canvas()->begin() - time()->begin()) <= column
                 && std::abs(canvas()->end() - time()->end()) <= column;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Charts paint every pixel of theirs, also the last column and row, at scale factors between whole
 // numbers. This program runs once for each scale factor: see CMakeLists.txt.
+#include "../../common/Waiting.h"
 #include "FedPlotWindow.h"
 #include "PanelFixtures.h"
 #include "QPlcJitterHistogram.h"

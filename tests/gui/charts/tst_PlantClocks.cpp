@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Plants of one window whose clocks differ: in lockstep, rows run far ahead of those of a plant in
 // real time.
+#include "../../common/Waiting.h"
 #include "NodeFixtures.h"
 #include "QPlcTimePlot.h"
 #include "QPlcXyPlot.h"

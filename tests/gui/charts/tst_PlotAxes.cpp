@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Curves of different units in a time plot.
+#include "../../common/Waiting.h"
 #include "FedPlotWindow.h"
 #include "gui/panel/SignalDropArea.h"
 

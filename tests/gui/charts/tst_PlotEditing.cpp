@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What people change of a time plot: curves, settings, exports.
+#include "../../common/Waiting.h"
 #include "PlotFixtures.h"
 #include "gui/charts/PlotPicture.h"
 #include "gui/charts/PlotSettingsEditor.h"

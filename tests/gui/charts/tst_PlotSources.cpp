@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a time plot holds of its sources, how they are named, and how often it draws.
+#include "../../common/Waiting.h"
 #include "PlotFixtures.h"
 
 #include <QtCore/QElapsedTimer>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A time plot with a trigger, with a real plant.
+#include "../../common/Waiting.h"
 #include "PlotFixtures.h"
 #include "gui/charts/TriggerBar.h"
 

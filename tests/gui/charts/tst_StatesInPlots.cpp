@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // States with names in a time plot.
+#include "../../common/Waiting.h"
 #include "FedPlotWindow.h"
 #include "gui/charts/StatisticsView.h"
 

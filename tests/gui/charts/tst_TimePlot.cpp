@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a time plot shows, with a real plant, and what people do with the mouse.
+#include "../../common/Waiting.h"
 #include "PlotFixtures.h"
 
 #include <QtCore/QJsonArray>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../../common/Waiting.h"
 #include "PlantFixtures.h"
 #include "QPlcGauge.h"
 #include "QPlcPanelContext.h"
@@ -32,7 +33,7 @@ public:
     }
     bool runs()
     {
-        return master.startRealTime() && QTest::qWaitFor([this] { return rows() > 20; });
+        return master.startRealTime() && waitUntil([this] { return rows() > 20; });
     }
     int rows() const { return plant->store() ? int(plant->store()->endRow() - plant->store()->firstRow()) : 0; }
     int channel() const { return plant->values().channels().channel(plant->table().indexOf(QStringLiteral("count"))); }

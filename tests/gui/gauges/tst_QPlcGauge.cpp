@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../../common/Waiting.h"
 #include "PlantFixtures.h"
 #include "QPlcGauge.h"
 #include "QPlcPanelContext.h"
@@ -57,7 +58,7 @@ public:
     }
     bool isAtRest()
     {
-        return QTest::qWaitFor([this] { return plant->quality() == Plant::AtRest; });
+        return waitUntil([this] { return plant->quality() == Plant::AtRest; });
     }
     void set(const char *signal, const QPlcValue &value)
     {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "../../common/Waiting.h"
 #include "NodeFixtures.h"
 #include "gui/panel/WindowContext.h"
 #include "kite/KiteGeometry.h"
-
-#include <QtTest/QtTest>
 
 #include <cmath>
 
@@ -89,10 +88,10 @@ struct FlyingPlant
     {
         context.plants()->add(QStringLiteral("127.0.0.1:%1").arg(master.serverPort()));
         qplc::Plant *plant = context.plants()->at(0);
-        if (!QTest::qWaitFor([plant] { return plant->nextAction() == qplc::Plant::Start; }, 10'000))
+        if (!waitUntil([plant] { return plant->nextAction() == qplc::Plant::Start; }, 10'000))
             return false;
         plant->start();
-        return QTest::qWaitFor([plant] { return plant->store() && plant->store()->endRow() > 20; }, 10'000);
+        return waitUntil([plant] { return plant->store() && plant->store()->endRow() > 20; }, 10'000);
     }
 
     CirclingKite kite;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../../common/Waiting.h"
 #include "KiteFixtures.h"
 #include "QPlcWidgetFactoryOf.h"
 #include "kite/WindWindow.h"

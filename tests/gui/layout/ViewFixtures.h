@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "../../common/Waiting.h"
 #include "DummyPanels.h"
 #include "LayoutFixtures.h"
 #include "gui/layout/FloatingWindow.h"
@@ -14,7 +15,6 @@
 #include "gui/layout/PanelTitleBar.h"
 #include "gui/layout/ShareSplitter.h"
 
-#include <QtTest/QtTest>
 #include <QtWidgets/QAction>
 #include <QtWidgets/QMenu>
 

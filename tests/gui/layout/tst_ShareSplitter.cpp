@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../../common/Waiting.h"
 #include "gui/layout/ShareSplitter.h"
-
-#include <QtTest/QtTest>
 
 using namespace qplc;
 

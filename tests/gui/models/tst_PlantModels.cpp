@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../../common/Waiting.h"
 #include "PlantFixtures.h"
 #include "gui/models/EventLogModel.h"
 #include "gui/models/NodeTableModel.h"

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../../common/Waiting.h"
 #include "PlantFixtures.h"
 #include "QPlcPanelContext.h"
 #include "QPlcTimeAxis.h"
 #include "QPlcWidget.h"
 #include "gui/panel/WindowContext.h"
 #include "gui/plant/PlantFeed.h"
-
-#include <QtTest/QtTest>
 
 #include <cmath>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // A window at a master that answers nonsense.
+#include "../../common/Waiting.h"
 #include "NodeFixtures.h"
 #include "gui/models/EventLogModel.h"
 #include "gui/plant/PlantList.h"
 
 #include <QtCore/QJsonArray>
 #include <QtNetwork/QTcpServer>
-#include <QtTest/QtTest>
 
 using namespace qplc;
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../../common/Waiting.h"
 #include "PlantFixtures.h"
 #include "ProgramFixtures.h"
 
@@ -98,7 +99,7 @@ void tst_PlantPrograms::suspendedWindowHasAGapAndDoesNotDelayTheMaster()
     QTRY_VERIFY_WITH_TIMEOUT(reportOf(window).rows > 200, patience);
     window.sendSignal(SIGSTOP);
     const quint64 cycles = master.statistics().cycles;
-    QVERIFY(QTest::qWaitFor([&] { return master.statistics().cycles > cycles + 3000; }, patience));
+    QVERIFY(waitUntil([&] { return master.statistics().cycles > cycles + 3000; }, patience));
     const Report before = reportOf(window);
     window.sendSignal(SIGCONT);
     QTRY_VERIFY_WITH_TIMEOUT(reportOf(window).rows > before.rows + 500, patience);

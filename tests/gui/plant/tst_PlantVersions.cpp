@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A window at a master of another version.
+#include "../../common/Waiting.h"
 #include "ScriptedMaster.h"
 #include "gui/models/EventLogModel.h"
 #include "gui/plant/PlantList.h"
-
-#include <QtTest/QtTest>
 
 using namespace qplc;
 

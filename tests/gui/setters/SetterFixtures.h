@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "../../common/Waiting.h"
 #include "PlantFixtures.h"
 #include "gui/panel/WindowContext.h"
 
@@ -23,7 +24,7 @@ public:
     }
     bool isReady()
     {
-        return QTest::qWaitFor([this] { return plant->hasLeases() && !plant->writer(6).isEmpty(); }, 5000);
+        return waitUntil([this] { return plant->hasLeases() && !plant->writer(6).isEmpty(); }, 5000);
     }
     bool isMine(const QString &signal) const { return plant->lease(signal) && plant->lease(signal)->isMine; }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../../common/Waiting.h"
 #include "QPlcSetter.h"
 #include "SetterFixtures.h"
 
@@ -38,7 +39,7 @@ struct Desk
     bool show(const QJsonObject &settings)
     {
         return showPanel(&setter, &window.context, settings)
-            && QTest::qWaitFor([this] { return window.plant->hasLeases(); }, 5000);
+            && waitUntil([this] { return window.plant->hasLeases(); }, 5000);
     }
     double valueOf(const char *signal) const { return master.signalValue(QLatin1String(signal)).toReal(); }
     template<typename Part>

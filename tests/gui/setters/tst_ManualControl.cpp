@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../../common/Waiting.h"
 #include "SetterFixtures.h"
 #include "gui/panel/ValueStream.h"
 #include "gui/setters/ManualControl.h"
@@ -40,14 +41,14 @@ struct Pilot
     }
     bool isReady()
     {
-        return window.isReady() && QTest::qWaitFor([this] { return control.control().mayTake(); });
+        return window.isReady() && waitUntil([this] { return control.control().mayTake(); });
     }
     bool takesControl()
     {
         if (!isReady())
             return false;
         control.control().take();
-        return QTest::qWaitFor([this] { return control.isFlying(); });
+        return waitUntil([this] { return control.isFlying(); });
     }
 
     TestWindow window;

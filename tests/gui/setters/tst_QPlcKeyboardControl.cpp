@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../../common/Waiting.h"
 #include "QPlcKeyboardControl.h"
 #include "SetterFixtures.h"
 #include "gui/setters/ElidedLabel.h"
@@ -34,10 +35,10 @@ struct Pilot
     bool begin()
     {
         if (!showPanel(&panel, &window.context, keySettings()) || !window.isReady()
-            || !QTest::qWaitFor([this] { return buttonOf(&panel, QStringLiteral("Take control")) != nullptr; }))
+            || !waitUntil([this] { return buttonOf(&panel, QStringLiteral("Take control")) != nullptr; }))
             return false;
         QTest::mouseClick(buttonOf(&panel, QStringLiteral("Take control")), Qt::LeftButton);
-        return QTest::qWaitFor([this] { return buttonOf(&panel, QStringLiteral("Give back")) != nullptr; });
+        return waitUntil([this] { return buttonOf(&panel, QStringLiteral("Give back")) != nullptr; });
     }
 
     TestWindow window;

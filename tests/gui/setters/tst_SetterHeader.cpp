@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../../common/Waiting.h"
 #include "QPlcSetter.h"
 #include "gui/setters/ElidedLabel.h"
-
-#include <QtTest/QtTest>
 
 using namespace qplc;
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../../common/Waiting.h"
 #include "PlantFixtures.h"
 #include "QPlcSignalTree.h"
 #include "gui/SignalsMimeType.h"
@@ -32,7 +33,7 @@ public:
     }
     bool isThere()
     {
-        return QTest::qWaitFor([this] { return find("Counter").isValid() && view->isExpanded(find("Counter")); });
+        return waitUntil([this] { return find("Counter").isValid() && view->isExpanded(find("Counter")); });
     }
     QModelIndex top() const { return view->model()->index(0, 0); }
     QModelIndex find(const char *name) const

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../../common/Waiting.h"
 #include "PlantFixtures.h"
 #include "QPlcValueTable.h"
 #include "gui/panel/WindowContext.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "../../common/Waiting.h"
 #include "CommandTap.h"
 #include "SetterFixtures.h"
 #include "WindowFixtures.h"
@@ -37,21 +38,24 @@ struct TwoPlants : WindowFixture
             return plant(place)->hasLeases() && !plant(place)->writer(6).isEmpty()
                 && plant(place)->quality() == qplc::Plant::Good && plant(place)->status().isRunning();
         };
-        return QTest::qWaitFor([&] { return hasAll(0) && hasAll(1); }, patience) && settle();
+        return waitUntil([&] { return hasAll(0) && hasAll(1); }, patience) && settle();
     }
-    /// All that the window has sent so far has arrived, and was answered.
+    /// All that the window has sent so far has arrived and was answered, and what it sent upon
+    /// these answers, and so on.
     bool settle()
     {
-        for (int round = 0; round < 2; ++round) {  // what waits behind a command is sent with its answer
+        int before = -1;
+        while (before != commandCount()) {
+            before = commandCount();
             auto answers = std::make_shared<int>(0);
             for (int place = 0; place < 2; ++place) {
                 const auto ask = [this, place, answers] {
                     return plant(place)->ask(qplc::messages::GetState(), [answers](const auto &) { ++*answers; });
                 };
-                if (!QTest::qWaitFor(ask, patience))
+                if (!waitUntil(ask, patience))
                     return false;
             }
-            if (!QTest::qWaitFor([&] { return *answers == 2; }, patience))
+            if (!waitUntil([&] { return *answers == 2; }, patience))
                 return false;
         }
         return true;
@@ -133,5 +137,7 @@ struct TwoPlants : WindowFixture
     qplc::LayoutEditor *editor;
 
 private:
+    int commandCount() const { return northTap.commands().size() + southTap.commands().size(); }
+
     QString m_above;
 };

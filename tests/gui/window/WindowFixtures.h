@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "../../common/Waiting.h"
 #include "DummyPanels.h"
 #include "PlantFixtures.h"
 #include "WindowStructure.h"
@@ -9,7 +10,6 @@
 #include <QtCore/QSettings>
 #include <QtCore/QTemporaryDir>
 #include <QtGui/QScreen>
-#include <QtTest/QtTest>
 #include <QtWidgets/QAction>
 #include <QtWidgets/QLineEdit>
 

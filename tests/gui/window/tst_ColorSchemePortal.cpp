@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../../common/Waiting.h"
 #include "gui/window/ColorSchemePortal.h"
 
 #include <QtCore/QProcess>
 #include <QtCore/QStandardPaths>
 #include <QtDBus/QtDBus>
-#include <QtTest/QtTest>
 
 using namespace qplc;
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../../common/Waiting.h"
 #include "SetterFixtures.h"
 #include "WindowFixtures.h"
 
@@ -19,7 +20,7 @@ std::unique_ptr<Plant> otherWindow(const RunningMaster &master)
 
 bool isReady(const Plant &plant)
 {
-    return QTest::qWaitFor([&] { return plant.hasLeases() && plant.table().size() > 0; }, patience);
+    return waitUntil([&] { return plant.hasLeases() && plant.table().size() > 0; }, patience);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../../common/Waiting.h"
 #include "QPlcSignalTree.h"
 #include "WindowFixtures.h"
 
@@ -223,6 +224,7 @@ void tst_ControlCenter::theBottomLineKeepsItsPlaceWhileNumbersCount()
     view->freeze();
     view->setNewest(200'300'000'000);
     QTRY_VERIFY2(bar->stateText().contains(QLatin1String("100.3 s behind")), qPrintable(bar->stateText()));
+    QCoreApplication::processEvents();  // the line is laid out
     const int place = fixture.part<EventLine>()->x();
     view->setNewest(101'100'000'000);
     QTRY_VERIFY2(bar->stateText().contains(QLatin1String("1.1 s behind")), qPrintable(bar->stateText()));

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../../common/Waiting.h"
 #include "QPlcPanelContext.h"
 #include "QPlcSignalTree.h"
 #include "QPlcWidgetFactoryOf.h"
@@ -304,7 +305,7 @@ void tst_ControlCenterPanels::unpaintedPanelHasThePanelColour()
     const QString id = view->editor()->addPanel(Listening::typeName(), {},
                                                 LayoutTarget::inTab(view->editor()->layout().currentTab().id));
     QPlcWidget *panel = view->widget(id);
-    QVERIFY(QTest::qWaitFor([panel] { return panel->isVisible(); }));
+    QVERIFY(waitUntil([panel] { return panel->isVisible(); }));
     for (const QPlcControlCenter::Theme theme : {QPlcControlCenter::DarkTheme, QPlcControlCenter::LightTheme}) {
         fixture.window.setTheme(theme);
         const QImage picture = panel->parentWidget()->grab().toImage();

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../../common/Waiting.h"
 #include "QPlcEventLog.h"
 #include "QPlcSignalTree.h"
 #include "QPlcTimePlot.h"
@@ -100,7 +101,7 @@ struct FlyingWindow : WindowFixture
     {
         isReady = master.startRealTime();
         window.connectToMaster(master.address());
-        isReady = isReady && QTest::qWaitFor([this] { return plant()->status().isRunning(); }, patience);
+        isReady = isReady && waitUntil([this] { return plant()->status().isRunning(); }, patience);
         auto *editor = part<LayoutView>()->editor();
         editor->addTab();
         const LayoutTarget here = LayoutTarget::inTab(editor->layout().currentTab().id);
@@ -119,7 +120,7 @@ struct FlyingWindow : WindowFixture
         plot = add("Time plot");
         tree = part<SignalDock>()->tree();
         makeThings();
-        isReady = isReady && QTest::qWaitFor([this] { return number->isEnabled() && slider->isEnabled(); }, patience);
+        isReady = isReady && waitUntil([this] { return number->isEnabled() && slider->isEnabled(); }, patience);
     }
 
     void makeThings();
@@ -228,7 +229,7 @@ void FlyingWindow::makeThings()
                                || QGuiApplication::mouseButtons() != Qt::NoButton)
                                return false;
                            action(text)->trigger();
-                           return QTest::qWaitFor(
+                           return waitUntil(
                                [] { return qobject_cast<QDialog *>(QApplication::activeWindow()) != nullptr; }, 1000);
                        },
                        [] { return qobject_cast<QDialog *>(QApplication::activeWindow()) != nullptr; }});

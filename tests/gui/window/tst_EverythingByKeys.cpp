@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../../common/Waiting.h"
 #include "QPlcSignalTree.h"
 #include "WindowFixtures.h"
 #include "gui/layout/PanelFrame.h"
@@ -47,7 +48,7 @@ struct PanelFixture : WindowFixture
         const QString id = editor->addPanel(type, settings, LayoutTarget::inTab(editor->layout().currentTab().id));
         frame = view->frame(id);
         panel = view->widget(id);
-        isReady = QTest::qWaitFor([this] { return plant()->hasLeases() && plant()->table().size() > 0; }, patience);
+        isReady = waitUntil([this] { return plant()->hasLeases() && plant()->table().size() > 0; }, patience);
     }
     /// Gives the keyboard to the panel as a person without a mouse does: its title, and what can be
     /// done there. \return whether it came further than to the title

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "../../common/RuntimeFolder.h"
+#include "../../common/Waiting.h"
 #include "WindowFixtures.h"
 #include "gui/window/FoundMasters.h"
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../../common/Waiting.h"
 #include "WindowFixtures.h"
 #include "gui/layout/EmptyPage.h"
 #include "gui/layout/PanelFrame.h"

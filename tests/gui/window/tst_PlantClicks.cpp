@@ -76,7 +76,14 @@ private:
     void nameHeld()
     {
         m_named << m_held;
-        m_held.clear();
+        const auto isPressed = [](const QPlcSetter *setter) {
+            const QList<QAbstractButton *> buttons = setter->findChildren<QAbstractButton *>();
+            const auto *slider = setter->findChild<QSlider *>();
+            return (slider && slider->isSliderDown())
+                || std::any_of(buttons.begin(), buttons.end(), [](const auto *button) { return button->isDown(); });
+        };
+        if (std::none_of(m_setters.begin(), m_setters.end(), isPressed))
+            m_held.clear();
     }
     QString select()
     {

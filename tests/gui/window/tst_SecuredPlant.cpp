@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../../common/Waiting.h"
 #include "SecurityFixtures.h"
 #include "WindowFixtures.h"
 
@@ -26,7 +27,7 @@ private:
     bool next(WindowFixture *fixture, const char *text)
     {
         BarButton *button = fixture->topBar()->nextButton();
-        if (!QTest::qWaitFor([&] { return button->isVisible() && button->text() == QLatin1String(text); }, patience))
+        if (!waitUntil([&] { return button->isVisible() && button->text() == QLatin1String(text); }, patience))
             return false;
         QTest::mouseClick(button, Qt::LeftButton);
         return true;

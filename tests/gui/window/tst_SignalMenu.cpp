@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../../common/Waiting.h"
 #include "LayoutFixtures.h"
 #include "QPlcSignalTree.h"
 #include "WindowFixtures.h"
@@ -27,8 +28,8 @@ struct MenuFixture : WindowFixture
         window.connectToMaster(master.address());
         editor->setLayout(threePanels());
         // Rows that move below their writers take no selection along.
-        isReady = QTest::qWaitFor([this] { return find("time").parent().data() == QLatin1String("Master"); }, patience)
-            && QTest::qWaitFor([this] { return find("count").parent().data() == QLatin1String("Counter"); }, patience)
+        isReady = waitUntil([this] { return find("time").parent().data() == QLatin1String("Master"); }, patience)
+            && waitUntil([this] { return find("count").parent().data() == QLatin1String("Counter"); }, patience)
             && find("setpoint").isValid();
         rows->setFocus();
     }

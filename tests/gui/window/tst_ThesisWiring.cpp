@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../../common/Waiting.h"
 #include "NodeFixtures.h"
 #include "gui/panel/WindowContext.h"
 #include "gui/window/ConnectStrip.h"
@@ -7,7 +8,6 @@
 #include <QtCore/QSettings>
 #include <QtCore/QTemporaryDir>
 #include <QtPlc>
-#include <QtTest/QtTest>
 
 using namespace qplc;
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../../common/Waiting.h"
 #include "QPlcEventLog.h"
 #include "WindowFixtures.h"
 #include "gui/plant/PlantLeases.h"

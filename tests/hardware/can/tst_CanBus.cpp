@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../../common/Waiting.h"
 #include "hardware/can/CanBus.h"
 #include "hardware/can/FakeCanBus.h"
 #include "hardware/can/WallTimeConverter.h"
 #include "realtime/TimeSource.h"
-
-#include <QtTest/QtTest>
 
 #include <linux/can/error.h>
 #include <memory>

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../../common/Waiting.h"
 #include "CanBench.h"
 #include "hardware/can/CanLog.h"
-
-#include <QtTest/QtTest>
 
 #include <linux/can/error.h>
 

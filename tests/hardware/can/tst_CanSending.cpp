@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../../common/Waiting.h"
 #include "CanBench.h"
 #include "hardware/can/CanSender.h"
-
-#include <QtTest/QtTest>
 
 using namespace qplc;
 using namespace std::chrono_literals;

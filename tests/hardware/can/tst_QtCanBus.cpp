@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../../common/Waiting.h"
 #include "DriverBench.h"
 #include "TestCanPlugin.h"
 #include "hardware/can/QtCanBus.h"
-
-#include <QtTest/QtTest>
 
 #include <QtCore/QtPlugin>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The program of hardware nodes as a process, with a board that this test plays, at a master that
 // this test runs.
+#include "../../common/Waiting.h"
 #include "../FakeDevices.h"
 #include "NodeFixtures.h"
 #include "hardware/gpio/FakeGpioChip.h"
 
 #include <QtCore/QProcess>
-#include <QtTest/QtTest>
 
 using qplc::FakeGpioChip;
 
@@ -43,7 +43,7 @@ struct Plant
         program.start(QStringLiteral(QTPLC_HARDWARE_PROGRAM),
                       {file.fileName(), QStringLiteral("--watchdog"), QStringLiteral("2"), QStringLiteral("--master"),
                        QStringLiteral("udp://127.0.0.1:%1").arg(master->serverPort())});
-        return QTest::qWaitFor([this] { return !master->nodes().isEmpty(); }, 20000) && master->startRealTime()
+        return waitUntil([this] { return !master->nodes().isEmpty(); }, 20000) && master->startRealTime()
             && master->waitForState(QPlcMasterNode::RealTime) && master->setSignalValue("brakeRelease", 1);
     }
     void pull(bool isHigh) { memory.at(2) = isHigh ? FakeGpioChip::Pulled : 0; }

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../../common/Waiting.h"
 #include "../DriverBench.h"
 #include "../FakeDevices.h"
 #include "../conformance/GpioTestDevices.h"
 #include "ThreadCosts.h"
 #include "hardware/gpio/FakeGpioChip.h"
 #include "hardware/gpio/GpioLineWords.h"
-
-#include <QtTest/QtTest>
 
 using namespace qplc;
 using namespace std::chrono_literals;
