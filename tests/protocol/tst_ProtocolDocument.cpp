@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "QPlcMessage.h"
+#include "FieldTable.h"
 #include "Vectors.h"
 
 #include <QtCore/QMetaEnum>
@@ -14,6 +14,7 @@ class tst_ProtocolDocument : public QObject
 private Q_SLOTS:
     void initTestCase();
     void documentListsEveryKindWithItsNumber();
+    void documentListsEveryFieldWithItsTypePresenceAndValues();
     void documentDescribesTheFieldsOfEveryExample();
     void documentContainsTheExampleOfTheVectors();
     void documentContainsTheSealedExampleOfTheVectors();
@@ -35,6 +36,23 @@ void tst_ProtocolDocument::documentListsEveryKindWithItsNumber()
         const QString row = QStringLiteral("| %1 | `%2` |").arg(kinds.value(i)).arg(QLatin1String(kinds.key(i)));
         QVERIFY2(m_text.contains(row) || kinds.value(i) == QPlcMessage::Invalid, qPrintable(row));
     }
+}
+
+void tst_ProtocolDocument::documentListsEveryFieldWithItsTypePresenceAndValues()
+{
+    const QString begin = QStringLiteral("<!-- fields -->\n\n");
+    const QString end = QStringLiteral("<!-- end of fields -->");
+    const int from = m_text.indexOf(begin) + begin.size();
+    const int to = m_text.indexOf(end, from);
+    QVERIFY(from > begin.size() && to >= from);
+    if (m_text.mid(from, to - from) == fieldtable::text())
+        return;
+    QFile file(QStringLiteral("protocol.md"));
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    file.write((m_text.left(from) + fieldtable::text() + m_text.mid(to)).toUtf8());
+    QFAIL(qPrintable(QStringLiteral("the structs have other fields than section 5.9; remedy: look at %1, and copy it "
+                                    "to docs/protocol.md")
+                         .arg(QFileInfo(file).absoluteFilePath())));
 }
 
 void tst_ProtocolDocument::documentDescribesTheFieldsOfEveryExample()
