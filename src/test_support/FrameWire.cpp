@@ -113,6 +113,7 @@ FrameEnd::FrameEnd(SimulatedHost &host, quint16 port)
     : m_host(host)
     , m_wire(host.simulator().frameWire())
     , m_key(SocketAddress(host.address(), port).key())
+    , m_descriptor(host.simulator().openDescriptor(&host))
 {
     std::unique_ptr<FramePort> &own = m_wire.m_ports[m_key];
     if (!own)
@@ -122,6 +123,7 @@ FrameEnd::FrameEnd(SimulatedHost &host, quint16 port)
 
 FrameEnd::~FrameEnd()
 {
+    m_host.simulator().closeDescriptor(m_descriptor);
     const auto own = m_wire.m_ports.find(m_key);
     if (own != m_wire.m_ports.end() && own->second->end == this)
         own->second->end = nullptr;
@@ -140,6 +142,8 @@ const SimulatedFrame *FrameEnd::take()
         return nullptr;
     m_taken = m_unread.front();
     m_unread.pop_front();
+    if (m_unread.empty())
+        m_host.simulator().setReadable(m_descriptor, false);
     return &m_wire.frame(m_taken);
 }
 
@@ -166,6 +170,7 @@ void FrameEnd::arrived(std::size_t number)
         return;
     }
     m_unread.push_back(number);
+    simulator.setReadable(m_descriptor, true);
     if (m_waiting)
         m_waiting->wake();
 }

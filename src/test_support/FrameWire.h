@@ -88,6 +88,8 @@ public:
     quint64 key() const noexcept { return m_key; }
     SimulatedHost &host() const noexcept { return m_host; }
     bool isEmpty() const noexcept { return m_unread.empty(); }
+    /// Readable while a frame is there.
+    int descriptor() const noexcept { return m_descriptor; }
     /// The next frame, valid until the next call. Null: there is none.
     const SimulatedFrame *take();
     /// Waits for a frame, at most until \a deadline [ns] of the host. On a fiber; elsewhere it does
@@ -105,6 +107,7 @@ private:
     SimulatedHost &m_host;
     FrameWire &m_wire;
     const quint64 m_key;
+    const int m_descriptor;
     std::deque<std::size_t> m_unread;
     std::unordered_map<const FramePort *, std::int64_t> m_arrivals;  // of the last frame to each port [ns]
     std::size_t m_taken = None;

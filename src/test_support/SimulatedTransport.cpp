@@ -110,6 +110,7 @@ public:
         , m_master(master)
     {
     }
+    int descriptor() const noexcept override { return m_end.descriptor(); }
     Status receive(const char **frame, std::size_t *size) noexcept override
     {
         m_end.wait(Fiber::Never);

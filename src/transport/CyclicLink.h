@@ -30,6 +30,8 @@ public:
     ///         network)
     virtual bool send(const char *frame, std::size_t size) noexcept = 0;
 
+    /// Readable while a frame is there; -1: the link has none.
+    virtual int descriptor() const noexcept { return m_descriptor; }
     /// To be called behind the last frame of an answer.
     virtual void flush() noexcept {}
 

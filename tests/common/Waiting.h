@@ -2,27 +2,31 @@
 #pragma once
 
 #include <QtCore/QCoreApplication>
-#include <QtCore/QDeadlineTimer>
 #include <QtCore/QEventLoop>
 #include <QtCore/QTimer>
 #include <QtTest/QtTest>
 
+#include <chrono>
+
 /// Handles events until a test has what it waits for. Qt 5 sleeps 10 ms (QTest::qWaitFor()) or
 /// 50 ms (QTRY_VERIFY()) between two looks, whatever happens meanwhile; a request, its way through
-/// a master and the answer are a dozen events. Here each event is followed by a look.
+/// a master and the answer are a dozen events. Here each event is followed by a look. Time is that
+/// of timers: virtual time in a simulator.
 class Waiting
 {
 public:
     explicit Waiting(int milliseconds)
-        : m_deadline(milliseconds, Qt::PreciseTimer)
     {
+        m_end.setTimerType(Qt::PreciseTimer);
+        m_end.setSingleShot(true);
+        m_end.start(milliseconds);
         m_looks.setTimerType(Qt::PreciseTimer);
         m_looks.start(2);  // what other threads and processes do is no event
     }
     /// Whether there is time for another look; what happens next has happened then.
     bool goesOn()
     {
-        if (m_deadline.hasExpired())
+        if (!m_end.isActive())
             return false;
         QCoreApplication::processEvents(QEventLoop::AllEvents | QEventLoop::WaitForMoreEvents);
         QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
@@ -30,7 +34,7 @@ public:
     }
 
 private:
-    QDeadlineTimer m_deadline;
+    QTimer m_end;
     QTimer m_looks;
 };
 
@@ -43,6 +47,17 @@ bool waitUntil(Predicate predicate, int milliseconds = 5000)
             return false;
     }
     return true;
+}
+
+template<typename Predicate>
+bool waitUntil(Predicate predicate, std::chrono::milliseconds longest)
+{
+    return waitUntil(predicate, int(longest.count()));
+}
+/// Handles events while \a duration passes.
+inline void pass(std::chrono::milliseconds duration)
+{
+    (void)waitUntil([] { return false; }, duration);
 }
 
 // The last part of QTRY_VERIFY(), QTRY_COMPARE() and their relatives.

@@ -2,12 +2,27 @@
 #pragma once
 
 #include "../common/Waiting.h"
+#include "realtime/Host.h"
+#include "realtime/TimeSource.h"
 
 #include <QtPlcCore>
 
 #include <QtTest/QSignalSpy>
 
+#include <chrono>
 #include <functional>
+
+/// As a step of a node that computes for long, or a thread that has other work.
+inline void beBusyFor(std::chrono::nanoseconds duration)
+{
+    qplc::TimeSource::monotonic().sleepUntil(qplc::monotonicNow() + duration.count());
+}
+
+/// The transport whose frames travel one by one: that of the machine, or that of the simulator.
+inline QString datagrams()
+{
+    return qplc::Host::current().controlNetwork() ? QStringLiteral("sim") : QStringLiteral("udp");
+}
 
 /// The table of most node tests. Values are held for long: a computer that is busy with other tests
 /// makes no signal safe.
@@ -86,8 +101,7 @@ public:
     }
     QPlcUnderlyingProtocol protocol(const QString &kind) const
     {
-        return kind == QLatin1String("udp") ? QPlcUnderlyingProtocol::udp(QHostAddress::LocalHost, serverPort())
-                                            : QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, serverPort());
+        return QPlcUnderlyingProtocol::fromString(QStringLiteral("%1://127.0.0.1:%2").arg(kind).arg(serverPort()));
     }
     /// \param kind  "local": in this process; else the protocol over which the node connects
     bool admit(QPlcSlaveNode &node, const QString &kind)

@@ -6,16 +6,15 @@
 #include "node/security/Handshake.h"
 #include "protocol/CyclicFrame.h"
 #include "signals/PayloadLayout.h"
+#include "transport/ControlListener.h"
+#include "transport/CyclicHub.h"
+#include "transport/TransportRegistry.h"
 
 #include <QtCore/QJsonArray>
-#include <QtNetwork/QTcpServer>
 #include <QtNetwork/QTcpSocket>
-#include <QtNetwork/QUdpSocket>
-
-#include <unistd.h>
 
 /// A master that speaks the protocol as the test tells it, message by message and frame by frame,
-/// to one real node.
+/// to one real node: on the machine, or on a host of a simulator.
 class ScriptedMaster : public QObject
 {
     Q_OBJECT
@@ -36,10 +35,18 @@ public:
     explicit ScriptedMaster(const QPlcSignalTable &signalTable = testTable())
         : table(signalTable)
     {
-        m_server.listen(QHostAddress::LocalHost, 0);
-        m_udp.bind(QHostAddress::LocalHost, m_server.serverPort());
-        connect(&m_server, &QTcpServer::newConnection, this, &ScriptedMaster::accept);
-        connect(&m_udp, &QUdpSocket::readyRead, this, &ScriptedMaster::readDatagrams);
+        QString error;
+        const bool listens = m_listener.listen(QHostAddress::LocalHost, 0);
+        if (!listens || !m_hub.open({m_listener.address(), m_listener.port()}, &error))
+            qFatal("%s", qPrintable(m_listener.errorString() + error));
+        connect(&m_listener, &qplc::ControlListener::arrived, this, &ScriptedMaster::accept);
+        connect(&m_look, &QTimer::timeout, this, &ScriptedMaster::readHub);
+        m_look.start(1);
+    }
+    ~ScriptedMaster() override
+    {
+        if (m_peer)
+            m_hub.detach(m_peer.get());
     }
 
     const QPlcSignalTable table;
@@ -49,14 +56,14 @@ public:
     QVector<Answer> answers;
     quint64 first = 100;  // number on the wire of cycle 0
 
-    QPlcUnderlyingProtocol udp() const
+    /// Where frames travel one by one.
+    QPlcUnderlyingProtocol place() const { return over(datagrams()); }
+    QPlcUnderlyingProtocol over(const QString &kind) const
     {
-        return QPlcUnderlyingProtocol::udp(QHostAddress::LocalHost, m_server.serverPort());
+        return QPlcUnderlyingProtocol::fromString(QStringLiteral("%1://127.0.0.1:%2").arg(kind).arg(m_listener.port()));
     }
-    QPlcUnderlyingProtocol tcp() const
-    {
-        return QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, m_server.serverPort());
-    }
+    QPlcUnderlyingProtocol udp() const { return over(QStringLiteral("udp")); }
+    QPlcUnderlyingProtocol tcp() const { return over(QStringLiteral("tcp")); }
 
     /// Nodes come over TLS from now on.
     void setSecurity(const QPlcSecurity &security) { m_security = security; }
@@ -91,7 +98,7 @@ public:
                                        m_in.partBorders(qplc::MaximumCyclicPayload));
         m_decoder = qplc::FrameDecoder(qplc::FrameKind::Outputs, {Session, Node, m_out.hash()},
                                        m_out.partBorders(qplc::MaximumCyclicPayload));
-        m_peerPort = quint16(message.fields().value(QStringLiteral("udpPort")).toInt());
+        attachPeer(message);
         return {{QStringLiteral("node"), Node},
                 {QStringLiteral("inputsHash"), QPlcMessage::fromHex64(m_in.hash())},
                 {QStringLiteral("outputsHash"), QPlcMessage::fromHex64(m_out.hash())},
@@ -106,11 +113,11 @@ public:
         send(QPlcMessage::Hello, helloFields());
         const QPlcMessage request = next();
         send(QPlcMessage::Registered, registeredFields(request));
-        if (address.kind() == QPlcUnderlyingProtocol::Udp)
+        if (address.kindName() == datagrams())
             send(QPlcMessage::CyclicChannelAttached);
         else if (next().kind() != QPlcMessage::AttachCyclicChannel)
             return false;
-        return waitUntil([&] { return node.state() == QPlcSlaveNode::Off; }, 5000);
+        return waitUntil([&] { return node.state() == QPlcSlaveNode::Off; });
     }
     QJsonObject startFields(const QString &clock = QStringLiteral("RealTime"), qint64 period = 10'000'000) const
     {
@@ -130,8 +137,8 @@ public:
         send(QPlcMessage::RealTimeStarted, fields);
         return next().kind() == QPlcMessage::RealTimeReady;
     }
-    /// Admits \a node over UDP, and starts it in lockstep.
-    bool beginWith(QPlcSlaveNode &node) { return admit(node, udp()) && start(QStringLiteral("Lockstep")); }
+    /// Admits \a node, and starts it in lockstep.
+    bool beginWith(QPlcSlaveNode &node) { return admit(node, place()) && start(QStringLiteral("Lockstep")); }
 
     // ---- cyclic channel ----
     quint32 inputSize() const { return m_in.size(); }
@@ -156,16 +163,17 @@ public:
     void request(quint64 cycle, quint8 flags = 0) { request(cycle, QByteArray(int(m_in.size()), '\0'), flags); }
     void sendFrame(const QByteArray &frame)
     {
-        if (stream)
+        if (stream) {
             stream->write(frame);
-        else
-            m_udp.writeDatagram(frame, QHostAddress::LocalHost, m_peerPort);
-        if (stream)
             stream->flush();
+            return;
+        }
+        m_hub.send(m_peer.get(), frame.constData(), std::size_t(frame.size()));
+        m_hub.flush();
     }
     bool waitForAnswers(int count)
     {
-        return waitUntil([&] { return answers.size() >= count; }, 5000);
+        return waitUntil([&] { return answers.size() >= count; });
     }
 
 private:
@@ -178,15 +186,21 @@ private:
     }
     void accept()
     {
-        QTcpSocket *newcomer = m_server.nextPendingConnection();
-        if (m_security.isNone() || control) {  // the cyclic connection has no TLS
-            take(new QPlcSlaveSocket(newcomer, this));
-            return;
-        }
-        auto *handshake = new qplc::Handshake(::dup(int(newcomer->socketDescriptor())), m_security, this);
-        delete newcomer;
-        connect(handshake, &qplc::Handshake::succeeded, this,
-                [this, handshake] { take(new QPlcSlaveSocket(handshake->takeSocket(), this)); });
+        auto *handshake = new qplc::Handshake(m_listener.take(), m_security, this);
+        connect(handshake, &qplc::Handshake::succeeded, this, [this, handshake] {
+            take(new QPlcSlaveSocket(handshake->takeSocket(), this));
+            handshake->deleteLater();
+        });
+    }
+    /// The node that has sent \a message, its Register, has a link whose frames travel one by one.
+    void attachPeer(const QPlcMessage &message)
+    {
+        const auto *kind = qplc::TransportRegistry::instance().named(datagrams());
+        const qplc::Newcomer node{{}, QHostAddress(QHostAddress::LocalHost), false, false, 1, message.fields()};
+        if (m_peer)
+            m_hub.detach(m_peer.get());
+        m_peer = kind->makePeer(m_hub, node, nullptr, nullptr);
+        m_hub.attach(m_peer.get());
     }
     void take(QPlcSlaveSocket *socket)
     {
@@ -213,13 +227,12 @@ private:
             m_streamBytes.remove(0, size);
         }
     }
-    void readDatagrams()
+    void readHub()
     {
-        while (m_udp.hasPendingDatagrams()) {
-            QByteArray bytes(int(m_udp.pendingDatagramSize()), '\0');
-            m_udp.readDatagram(bytes.data(), bytes.size());
-            take(bytes);
-        }
+        qplc::HubFrame frame;
+        (void)m_hub.wait(0);
+        while (m_hub.next(&frame))
+            take(QByteArray(frame.bytes, int(frame.size)));
     }
     void take(const QByteArray &bytes)
     {
@@ -230,9 +243,10 @@ private:
 
     QPlcSecurity m_security;
     int m_taken = 0;
-    quint16 m_peerPort = 0;
-    QTcpServer m_server;
-    QUdpSocket m_udp;
+    qplc::ControlListener m_listener;
+    qplc::CyclicHub m_hub;
+    std::unique_ptr<qplc::HubPeer> m_peer;  // null: nobody has registered, or over a stream
+    QTimer m_look;
     QByteArray m_streamBytes;
     qplc::PayloadLayout m_in;
     qplc::PayloadLayout m_out;

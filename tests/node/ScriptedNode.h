@@ -8,10 +8,11 @@
 #include "protocol/CyclicFrame.h"
 #include "protocol/messages/MessageTable.h"
 #include "signals/PayloadLayout.h"
+#include "transport/TransportRegistry.h"
 
 #include <QtCore/QJsonArray>
+#include <QtCore/QSocketNotifier>
 #include <QtNetwork/QTcpSocket>
-#include <QtNetwork/QUdpSocket>
 
 #include <functional>
 
@@ -25,7 +26,7 @@ inline QVector<QPlcSignalIndex> indicesOf(const QPlcSignalTable &table, const QS
 }
 
 /// A node that speaks the protocol as the test tells it, message by message and frame by frame,
-/// against a real master.
+/// against a real master: on the machine, or on a host of a simulator.
 class ScriptedNode : public QObject
 {
     Q_OBJECT
@@ -48,7 +49,6 @@ public:
             if (playsAlong)
                 playAlong(message);
         });
-        connect(&m_udp, &QUdpSocket::readyRead, this, &ScriptedNode::readDatagrams);
         connect(&stream, &QTcpSocket::readyRead, this, &ScriptedNode::readStream);
     }
 
@@ -56,7 +56,7 @@ public:
     QString name;
     QString uuid;
     QString policy = QStringLiteral("ErrorZeroOrderHold");
-    QString cyclic = QStringLiteral("udp");
+    QString cyclic = datagrams();
     bool listener = false;
     int every = 1;  // cycles
     QPlcSignalTable table = testTable();
@@ -80,7 +80,7 @@ public:
     {
         m_port = port;
         control.connectToMaster(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, port));
-        return waitUntil([this] { return control.isConnected(); }, 5000);
+        return waitUntil([this] { return control.isConnected(); });
     }
     void send(QPlcMessage::Kind kind, const QJsonObject &fields = {})
     {
@@ -99,12 +99,10 @@ public:
     }
     bool waitForMessage(QPlcMessage::Kind kind)
     {
-        return waitUntil(
-            [&] {
-                return std::any_of(messages.begin(), messages.end(),
-                                   [&](const QPlcMessage &m) { return m.kind() == kind; });
-            },
-            5000);
+        return waitUntil([&] {
+            return std::any_of(messages.begin(), messages.end(),
+                               [&](const QPlcMessage &m) { return m.kind() == kind; });
+        });
     }
     QJsonObject helloFields() const
     {
@@ -126,17 +124,20 @@ public:
     }
     QJsonObject registerFields()
     {
-        if (m_udp.state() != QAbstractSocket::BoundState)
-            m_udp.bind(QHostAddress::LocalHost, 0);
-        return {{QStringLiteral("name"), name},
-                {QStringLiteral("uuid"), uuid},
-                {QStringLiteral("policy"), policy},
-                {QStringLiteral("listener"), listener},
-                {QStringLiteral("every"), every},
-                {QStringLiteral("inputs"), describe(inputs)},
-                {QStringLiteral("outputs"), describe(outputs)},
-                {QStringLiteral("cyclic"), cyclic},
-                {QStringLiteral("udpPort"), m_udp.localPort()}};
+        if (!m_link)
+            beginLink();
+        QJsonObject fields = m_linkFields;
+        const QJsonObject own{{QStringLiteral("name"), name},
+                              {QStringLiteral("uuid"), uuid},
+                              {QStringLiteral("policy"), policy},
+                              {QStringLiteral("listener"), listener},
+                              {QStringLiteral("every"), every},
+                              {QStringLiteral("inputs"), describe(inputs)},
+                              {QStringLiteral("outputs"), describe(outputs)},
+                              {QStringLiteral("cyclic"), cyclic}};
+        for (auto field = own.begin(); field != own.end(); ++field)
+            fields.insert(field.key(), field.value());
+        return fields;
     }
     /// Greets and registers, and attaches its cyclic channel.
     bool registerAt(quint16 port)
@@ -149,7 +150,7 @@ public:
         send(QPlcMessage::Register, registerFields());
         if (hello.kind() != QPlcMessage::Hello || !takeRegistered(next()))
             return false;
-        return cyclic == QLatin1String("udp") ? next().kind() == QPlcMessage::CyclicChannelAttached : attach();
+        return cyclic == datagrams() ? next().kind() == QPlcMessage::CyclicChannelAttached : attach();
     }
     bool takeRegistered(const QPlcMessage &message)
     {
@@ -170,14 +171,14 @@ public:
     bool attach(quint64 token = 0)
     {
         stream.connectToHost(QHostAddress::LocalHost, m_port);
-        if (!waitUntil([this] { return stream.state() == QAbstractSocket::ConnectedState; }, 5000))
+        if (!waitUntil([this] { return stream.state() == QAbstractSocket::ConnectedState; }))
             return false;
         stream.write(qplc::encodeControlFrame(
             QPlcMessage(QPlcMessage::AttachCyclicChannel,
                         {{QStringLiteral("node"), registered.fields().value(QStringLiteral("node"))},
                          {QStringLiteral("token"),
                           token ? QPlcMessage::fromHex64(token) : registered.text(QStringLiteral("token"))}})));
-        return waitUntil([this] { return m_attachAnswer.kind() != QPlcMessage::Invalid; }, 5000)
+        return waitUntil([this] { return m_attachAnswer.kind() != QPlcMessage::Invalid; })
             && m_attachAnswer.kind() == QPlcMessage::CyclicChannelAttached;
     }
     QPlcMessage attachAnswer() const { return m_attachAnswer; }
@@ -207,8 +208,8 @@ public:
     }
     void sendFrame(const QByteArray &frame)
     {
-        if (cyclic == QLatin1String("udp"))
-            m_udp.writeDatagram(frame, QHostAddress::LocalHost, m_port);
+        if (cyclic == datagrams())
+            m_link->send(frame.constData(), std::size_t(frame.size()));
         else
             stream.write(frame);
     }
@@ -219,17 +220,15 @@ public:
     }
     bool waitForRequests(int count)
     {
-        return waitUntil([&] { return requests.size() >= count; }, 5000);
+        return waitUntil([&] { return requests.size() >= count; });
     }
     /// Whether a request of this cycle came, again or for the first time.
     bool waitForRequestOf(quint64 cycle, quint8 flags = 0)
     {
-        return waitUntil(
-            [&] {
-                return std::any_of(frames.begin(), frames.end(),
-                                   [&](const Request &r) { return r.cycle == cycle && r.flags == flags; });
-            },
-            5000);
+        return waitUntil([&] {
+            return std::any_of(frames.begin(), frames.end(),
+                               [&](const Request &r) { return r.cycle == cycle && r.flags == flags; });
+        });
     }
     /// Answers every request at once.
     void answerAll()
@@ -259,13 +258,20 @@ private:
             break;
         }
     }
-    void readDatagrams()
+    void beginLink()
     {
-        while (m_udp.hasPendingDatagrams()) {
-            QByteArray bytes(int(m_udp.pendingDatagramSize()), '\0');
-            m_udp.readDatagram(bytes.data(), bytes.size());
-            take(bytes);
-        }
+        const qplc::ControlEnds ends{{}, {QHostAddress(QHostAddress::LocalHost), m_port}, {}};
+        QString error;
+        if (!qplc::TransportRegistry::instance().named(datagrams())->beginLink(ends, &m_linkFields, &m_link, &error))
+            qFatal("%s", qPrintable(error));
+        m_arrival = std::make_unique<QSocketNotifier>(m_link->descriptor(), QSocketNotifier::Read);
+        connect(m_arrival.get(), &QSocketNotifier::activated, this, &ScriptedNode::readLink);
+    }
+    void readLink()
+    {
+        const char *frame = nullptr;
+        for (std::size_t size = 0; m_link->poll(&frame, &size) == qplc::CyclicLink::Received;)
+            take(QByteArray(frame, int(size)));
     }
     void readStream()
     {
@@ -302,7 +308,9 @@ private:
 
     quint16 m_port = 0;
     int m_taken = 0;
-    QUdpSocket m_udp;
+    std::unique_ptr<qplc::CyclicLink> m_link;  // null: it has not registered yet
+    std::unique_ptr<QSocketNotifier> m_arrival;
+    QJsonObject m_linkFields;  // of Register
     QByteArray m_streamBytes;
     qplc::ControlFrameReader m_reader;
     QPlcMessage m_attachAnswer;

@@ -178,7 +178,7 @@ void tst_SafeStopCauses::thePolicyStopsThePlantAtTheFirstLateAnswer()
     QVERIFY(master.startRealTime());
     QVERIFY(master.waitForState(QPlcMasterNode::SafeStop));
     QVERIFY2(master.stateReason().contains("'Scripted' was late in cycle 0"), qPrintable(master.stateReason()));
-    QCOMPARE(violated.size(), 1);
+    QTRY_COMPARE(violated.size(), 1);
     QVERIFY(node.waitForRequests(3));
     QCOMPARE(int(node.requests.at(0).flags), 0);
     QCOMPARE(int(node.requests.at(1).flags), int(SafeStopFlag));  // the very next cycle

@@ -109,6 +109,8 @@ void tst_Writers::theFirstWriterThatIsFreshIsTheSource()
         else if (request.cycle == 10) {
             a.control.close();
             a.stream.abort();
+            while (master.statistics().cycles < 20)  // before the master hears that the node is gone
+                QThread::msleep(1);
         }
     };
     QVERIFY(a.registerAt(master.serverPort()));
