@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "../common/Waiting.h"
 #include "SecurityFixtures.h"
+#include "VirtualTime.h"
 #include "node/security/AccessRights.h"
 #include "node/security/Keyring.h"
 
@@ -231,7 +232,7 @@ void tst_AccessRights::aNodeHasTheNameOfItsIdentity()
     QVERIFY(master.listen());
     EchoNode node(QStringLiteral("Counter"));
     node.setSecurity(m_files.echo());
-    QVERIFY(!master.admit(node, "udp"));
+    QVERIFY(!master.admit(node, datagrams()));
     QCOMPARE(node.error(), QPlcSlaveNode::RegistrationError);
     QVERIFY(!log.matching("identity 'Echo' may not be node 'Counter'").isEmpty());
     QVERIFY(master.nodes().isEmpty());
@@ -342,7 +343,7 @@ void tst_AccessRights::identityIsLimitedToThirtyTwoConnections()
     SecuredTool other(m_files.anna());
     QVERIFY(other.greetAt(master.serverPort()));
     tools.pop_back();
-    QTRY_VERIFY_WITH_TIMEOUT(SecuredTool(m_files.bert()).greetAt(master.serverPort()), 10000);
+    QVERIFY(waitUntil([&] { return SecuredTool(m_files.bert()).greetAt(master.serverPort()); }));
 }
 
 void tst_AccessRights::signalsAreWrittenOnlyWithAccessRights()
@@ -373,7 +374,7 @@ void tst_AccessRights::signalsAreWrittenOnlyWithAccessRights()
     QCOMPARE(set(carl, {{"free", "1"}}).text("error"), QString("Denied"));
     CounterNode counter;  // writes sum, too
     counter.setSecurity(m_files.counter());
-    QVERIFY(!master.admit(counter, "udp"));
+    QVERIFY(!master.admit(counter, datagrams()));
     QVERIFY(counter.errorString().contains("may not write signal 'sum'"));
     QVERIFY(!log.matching("identity 'Counter' with role Node may not write signal 'sum'").isEmpty());
 }
@@ -499,5 +500,5 @@ void tst_AccessRights::keysFilesHaveClearErrors()
     QVERIFY2(!told.contains("77777777"), qPrintable(told));
 }
 
-QTEST_GUILESS_MAIN(tst_AccessRights)
+QTPLC_VIRTUAL_TIME_MAIN(tst_AccessRights)
 #include "tst_AccessRights.moc"

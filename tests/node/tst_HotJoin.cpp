@@ -16,6 +16,8 @@ private Q_SLOTS:
     void aJoinerThatFailsIsDropped();
     void nodeRegisteredDuringTheStartJoinsAfterwards();
     void answersOutOfTurnFail();
+    void aProcessThatStaysAliveKeepsItsState_data();
+    void aProcessThatStaysAliveKeepsItsState();
 };
 
 void tst_HotJoin::joinerGetsTheCurrentValues()
@@ -173,6 +175,47 @@ void tst_HotJoin::answersOutOfTurnFail()
     QVERIFY(master.waitForCycles(master.statistics().cycles + 5));  // it has not joined: nobody waits for it
     master.stop();
     QCOMPARE(node.next().kind(), QPlcMessage::RealTimeStopped);
+}
+
+void tst_HotJoin::aProcessThatStaysAliveKeepsItsState_data()
+{
+    QTest::addColumn<int>("profile");
+    QTest::addColumn<QString>("kind");
+    QTest::addColumn<bool>("keeps");
+    QTest::newRow("simulation, udp") << int(QPlcProfile::Simulation) << "udp" << true;
+    QTest::newRow("simulation, tcp") << int(QPlcProfile::Simulation) << "tcp" << true;
+    QTest::newRow("plant, udp") << int(QPlcProfile::Plant) << "udp" << false;
+}
+
+void tst_HotJoin::aProcessThatStaysAliveKeepsItsState()
+{
+    QFETCH(int, profile);
+    QFETCH(QString, kind);
+    QFETCH(bool, keeps);
+    const LogCapture log;
+    TestMaster master(QPlcClock::realTime());
+    master.setProfile(QPlcProfile::Value(profile));
+    master.setInterval(0.005);
+    QVERIFY(master.listen());
+    CounterNode counter;
+    std::atomic<int> smallest{1000000};
+    QVERIFY(master.admit(counter, kind));
+    QVERIFY(master.startRealTime());
+    QTRY_VERIFY(master.signalValue("count").toInt() > 50);
+    counter.disconnectFromMaster();
+    QTRY_VERIFY(master.nodes().isEmpty());
+    const int before = master.signalValue("count").toInt();
+    QVERIFY(master.admit(counter, kind));
+    QTRY_COMPARE(counter.state(), QPlcSlaveNode::RealTime);
+    counter.onStep
+        = [&](const QPlcCycle &) { smallest = std::min(smallest.load(), master.signalValue("count").toInt()); };
+    QTRY_VERIFY(smallest < 1000000);
+    QCOMPARE(counter.resets, keeps ? 1 : 2);
+    QCOMPARE(counter.initializations, keeps ? 1 : 2);
+    if (keeps)
+        QVERIFY2(smallest >= before, qPrintable(QString::number(smallest)));
+    QCOMPARE(log.matching("node Counter goes on where it was").size(), keeps ? 1 : 0);
+    master.stop();
 }
 
 QTEST_GUILESS_MAIN(tst_HotJoin)

@@ -27,6 +27,7 @@ private Q_SLOTS:
     void aCriticalNodeMayLeaveAfterAStartThatFailed();
     void aNodeThatEndsBeforeItsMasterLeavesIt_data();
     void aNodeThatEndsBeforeItsMasterLeavesIt();
+    void unreadEventsDelayNoCycle();
 };
 
 void tst_LocalNodes::theOrderOfTheNodesDoesNotMatter()
@@ -324,6 +325,32 @@ void tst_LocalNodes::aNodeThatEndsBeforeItsMasterLeavesIt()
     QCOMPARE(master.state(), QPlcMasterNode::Off);
     QCOMPARE(master.nodes().size(), 2);
     QCOMPARE(master.writer("count"), QString());
+}
+
+/// As when the event loop hangs: nobody takes what the cycles have to tell, which is far more than
+/// there is room for.
+void tst_LocalNodes::unreadEventsDelayNoCycle()
+{
+    constexpr quint64 cycles = 10'000;
+    class Babbler : public QPlcCompactSlaveNode
+    {
+    public:
+        Babbler()
+            : QPlcCompactSlaveNode("Babbler")
+        {
+        }
+        void step(const QPlcCycle &cycle) override { m_echo = cycle.number() % 2 == 0 ? qQNaN() : 1.0; }
+        QPlcOutput<double> m_echo{this, "echo"};
+    } babbler;
+    const LogCapture log;
+    TestMaster master;
+    QVERIFY(master.addLocalNode(&babbler));
+    QVERIFY(master.startRealTime());
+    const QDeadlineTimer deadline(10'000);
+    while (master.statistics().cycles < cycles && !deadline.hasExpired())
+        QThread::msleep(1);  // without a look at events
+    QVERIFY(master.statistics().cycles >= cycles);
+    master.stop();
 }
 
 QTEST_GUILESS_MAIN(tst_LocalNodes)

@@ -2,6 +2,7 @@
 #include "../common/RuntimeFolder.h"
 #include "../common/Waiting.h"
 #include "NodeFixtures.h"
+#include "VirtualTime.h"
 #include "node/session/MasterBeacon.h"
 #include "node/session/MasterFinder.h"
 
@@ -11,16 +12,26 @@
 using qplc::Beacon;
 using qplc::FoundMaster;
 using qplc::MasterFinder;
+using namespace std::chrono_literals;
 
 /// Masters are found without an address: on this machine by their notices, on networks by their
-/// beacons.
+/// beacons. Files and datagrams are those of the machine; the timers that look at them are in
+/// virtual time.
 class tst_MasterFinder : public QObject
 {
     Q_OBJECT
 
 private Q_SLOTS:
-    void init() { m_folder = std::make_unique<RuntimeFolder>(); }
-    void cleanup() { m_folder.reset(); }
+    void init()
+    {
+        m_folder = std::make_unique<RuntimeFolder>();
+        m_machine = std::make_unique<OnTheMachine>();
+    }
+    void cleanup()
+    {
+        m_machine.reset();
+        m_folder.reset();
+    }
     void localMasterIsFoundAndItsEndIsNoticed();
     void theNameOfAMasterIsShown();
     void networkMastersAreFoundAndOneDisappears();
@@ -43,6 +54,21 @@ private:
         std::int64_t now() noexcept override { return time; }
         bool sleepUntil(std::int64_t deadline) noexcept override { return time = deadline, true; }
         std::int64_t time = 1'000'000'000;
+    };
+    /// That of the timers.
+    struct VirtualClock : qplc::TimeSource
+    {
+        std::int64_t now() noexcept override { return simulator.now(); }
+        bool sleepUntil(std::int64_t deadline) noexcept override
+        {
+            simulator.runFor(deadline - now());
+            return true;
+        }
+        bool waits(const std::function<bool()> &isReached, std::chrono::nanoseconds longest)
+        {
+            return simulator.runUntil(isReached, longest.count());
+        }
+        qplc::Simulator &simulator = static_cast<qplc::Simulator &>(*QAbstractEventDispatcher::instance());
     };
     static void hear(MasterFinder &finder, const Beacon &beacon, const char *sender = "192.0.2.77")
     {
@@ -67,25 +93,30 @@ private:
     /// Masters are not seen as those of this machine from now on.
     static void hideNotices() { qputenv("XDG_RUNTIME_DIR", "/proc/nowhere"); }
 
-    static constexpr int patience = 20000;  // [ms]
+    static constexpr std::chrono::milliseconds heard = 250ms;  // the longest time to the next look at datagrams
+    static constexpr std::chrono::milliseconds noticed = 1s;   // and at notices
+    static constexpr std::chrono::milliseconds interval{qplc::MasterBeacon::Interval};
+    static constexpr std::chrono::nanoseconds lifetime{MasterFinder::Lifetime};
     std::unique_ptr<RuntimeFolder> m_folder;
+    std::unique_ptr<OnTheMachine> m_machine;
 };
 
 void tst_MasterFinder::localMasterIsFoundAndItsEndIsNoticed()
 {
-    MasterFinder finder;
+    VirtualClock clock;
+    MasterFinder finder(nullptr, clock);
     QSignalSpy changed(&finder, &MasterFinder::changed);
     finder.start();
     TestMaster master;
     QVERIFY(master.listen());
-    QTRY_VERIFY_WITH_TIMEOUT(finds(finder, master), patience);
+    QVERIFY(clock.waits([&] { return finds(finder, master); }, noticed));
     const QVector<FoundMaster> masters = finder.masters();
     QVERIFY(masters.constFirst().isLocal && !masters.constFirst().isSecured);
     QCOMPARE(masters.constFirst().tableHash, master.signalTable().hash());
     QCOMPARE(changed.count(), 1);
     master.stopServer();
-    QTRY_COMPARE_WITH_TIMEOUT(changed.count(), 2, patience);
-    QVERIFY(finder.masters().isEmpty());
+    QVERIFY(clock.waits([&] { return finder.masters().isEmpty(); }, noticed));
+    QCOMPARE(changed.count(), 2);
 }
 
 void tst_MasterFinder::theNameOfAMasterIsShown()
@@ -106,20 +137,22 @@ void tst_MasterFinder::theNameOfAMasterIsShown()
 void tst_MasterFinder::networkMastersAreFoundAndOneDisappears()
 {
     hideNotices();
-    MasterFinder finder;
+    VirtualClock clock;
+    MasterFinder finder(nullptr, clock);
     finder.start();
     TestMaster one, other;
     for (TestMaster *master : {&one, &other}) {
         master->setBeacon(true);
         QVERIFY(master->listen());
     }
-    QTRY_VERIFY_WITH_TIMEOUT(finds(finder, one) && finds(finder, other), patience);
+    QVERIFY(clock.waits([&] { return finds(finder, one) && finds(finder, other); }, heard));
     const QVector<FoundMaster> masters = finder.masters();
     QVERIFY(!find(masters, addressOf(one))->isLocal);
     QCOMPARE(find(masters, addressOf(one))->tableHash, one.signalTable().hash());
     const QString gone = addressOf(one);
     one.stopServer();
-    QTRY_VERIFY_WITH_TIMEOUT(!find(finder.masters(), gone), patience);
+    QVERIFY(!clock.waits([&] { return !find(finder.masters(), gone); }, lifetime - interval));
+    QVERIFY(clock.waits([&] { return !find(finder.masters(), gone); }, interval + heard));
     QVERIFY(finds(finder, other));
 }
 
@@ -149,26 +182,27 @@ void tst_MasterFinder::theFirstBeaconIsSentAtOnce()
 void tst_MasterFinder::masterSendsNoBeaconByDefault()
 {
     hideNotices();
-    MasterFinder finder;
+    VirtualClock clock;
+    MasterFinder finder(nullptr, clock);
     finder.start();
     TestMaster silent, loud;
     QVERIFY(silent.listen());
     loud.setBeacon(true);
     QVERIFY(loud.listen());
-    QTRY_VERIFY_WITH_TIMEOUT(finds(finder, loud), patience);
-    QTest::qWait(qplc::MasterBeacon::Interval + 300);
-    QVERIFY(!finds(finder, silent));
+    QVERIFY(clock.waits([&] { return finds(finder, loud); }, heard));
+    QVERIFY(!clock.waits([&] { return finds(finder, silent); }, interval + heard));
 }
 
 void tst_MasterFinder::localMasterWithABeaconIsListedOnce()
 {
     TestMaster master;
     master.setBeacon(true);
-    MasterFinder finder;
+    VirtualClock clock;
+    MasterFinder finder(nullptr, clock);
     finder.start();
     QVERIFY(master.listen());
-    QTRY_VERIFY_WITH_TIMEOUT(finds(finder, master), patience);
-    QTest::qWait(qplc::MasterBeacon::Interval + 300);
+    QVERIFY(clock.waits([&] { return finds(finder, master); }, noticed));
+    clock.simulator.runFor(std::chrono::nanoseconds(interval + heard).count());
     QCOMPARE(finder.masters().size(), 1);
     QVERIFY(finder.masters().constFirst().isLocal);
 }
@@ -298,9 +332,10 @@ void tst_MasterFinder::localMastersAreFoundWithoutMulticast()
     master.setBeacon(true);
     QVERIFY(master.listen());
     const int said = log.all().size();
-    MasterFinder finder;
+    VirtualClock clock;
+    MasterFinder finder(nullptr, clock);
     finder.start();
-    QTRY_VERIFY_WITH_TIMEOUT(finds(finder, master), patience);
+    QVERIFY(clock.waits([&] { return finds(finder, master); }, noticed));
     QVERIFY2(log.all().size() == said, qPrintable(log.all().join(QLatin1Char(10))));
 }
 
@@ -321,5 +356,5 @@ void tst_MasterFinder::stopClearsTheList()
     QVERIFY(finds(finder, master));
 }
 
-QTEST_GUILESS_MAIN(tst_MasterFinder)
+QTPLC_VIRTUAL_TIME_MAIN(tst_MasterFinder)
 #include "tst_MasterFinder.moc"

@@ -4,6 +4,7 @@
 #include "NodeFixtures.h"
 #include "ScriptedMaster.h"
 #include "ScriptedNode.h"
+#include "VirtualTime.h"
 #include "node/cycle/ProfileDefaults.h"
 
 using namespace std::chrono_literals;
@@ -55,8 +56,6 @@ private Q_SLOTS:
     void settingsOfANodeWinOverTheProfile();
     void aMasterThatListensOnANetworkIsAPlant();
     void aListenerHasNoWatchdogByDefault();
-    void aProcessThatStaysAliveKeepsItsState_data();
-    void aProcessThatStaysAliveKeepsItsState();
     void aRestartedProcessBeginsAtItsInitialStateWithAnEvent();
     void aNewPhaseBeginsAtTheInitialState();
     void simulationWaitsForALateNodeWithoutLimit();
@@ -128,7 +127,7 @@ void tst_Profiles::aPhaseKeepsItsProfile()
     ProfiledMaster master(Profile::Simulation);
     CounterNode counter;
     QVERIFY(master.listen());
-    QVERIFY(master.admit(counter, "udp"));
+    QVERIFY(master.admit(counter, datagrams()));
     QCOMPARE(counter.profile(), Profile::Automatic);
     QVERIFY(master.startRealTime());
     QVERIFY(master.waitForCycles(3));
@@ -149,7 +148,7 @@ void tst_Profiles::simulationHoldsValuesWithoutHoldTimeForever()
     QVERIFY(master.listen());
     {
         CounterNode counter;
-        QVERIFY(master.admit(counter, "udp"));
+        QVERIFY(master.admit(counter, datagrams()));
         QVERIFY(master.startRealTime());
         QTRY_VERIFY(master.signalValue("count").toInt() > 3);
         counter.disconnectFromMaster();
@@ -172,7 +171,7 @@ void tst_Profiles::plantGoesToSafeValues()
     QVERIFY(master.listen());
     {
         CounterNode counter;
-        QVERIFY(master.admit(counter, "udp"));
+        QVERIFY(master.admit(counter, datagrams()));
         QVERIFY(master.startRealTime());
         QTRY_VERIFY(master.signalValue("count").toInt() > 3);
         counter.disconnectFromMaster();
@@ -203,7 +202,7 @@ void tst_Profiles::aWatchdogReportsInASimulation()
     QSignalSpy timedOut(&node, &QPlcSlaveNode::watchdogTimedOut);
     QSignalSpy safe(&node, &QPlcSlaveNode::safeStateEntered);
     QSignalSpy gone(&node, &QPlcSlaveNode::disconnectedFromMaster);
-    QVERIFY(master.admit(node, master.udp()));
+    QVERIFY(master.admit(node, master.place()));
     QVERIFY(start(master, "Simulation"));
     QCOMPARE(node.watchdog(), std::chrono::nanoseconds(15ms));
     master.request(0);
@@ -231,7 +230,7 @@ void tst_Profiles::plantActivatesTheWatchdogByDefault()
     CounterNode node;
     node.setSignalTable(profileTable());
     QSignalSpy safe(&node, &QPlcSlaveNode::safeStateEntered);
-    QVERIFY(master.admit(node, master.udp()));
+    QVERIFY(master.admit(node, master.place()));
     QVERIFY(start(master, "Plant"));
     QCOMPARE(node.watchdog(), std::chrono::nanoseconds(500ms));
     master.request(0);
@@ -246,7 +245,7 @@ void tst_Profiles::unknownProfileCountsAsPlant()
         ScriptedMaster master(profileTable());
         CounterNode node;
         node.setSignalTable(profileTable());
-        QVERIFY(master.admit(node, master.udp()));
+        QVERIFY(master.admit(node, master.place()));
         QVERIFY(start(master, told));
         QCOMPARE(node.profile(), Profile::Plant);
         QCOMPARE(node.watchdog(), std::chrono::nanoseconds(500ms));
@@ -262,7 +261,7 @@ void tst_Profiles::settingsOfANodeWinOverTheProfile()
     node.activateWatchdog(20ms);
     node.setWatchdogReaction(QPlcSlaveNode::WatchdogReaction::SafeState);
     QSignalSpy safe(&node, &QPlcSlaveNode::safeStateEntered);
-    QVERIFY(master.admit(node, master.udp()));
+    QVERIFY(master.admit(node, master.place()));
     QVERIFY(start(master, "Simulation"));
     master.request(0);
     QTRY_COMPARE(safe.size(), 1);
@@ -272,13 +271,14 @@ void tst_Profiles::settingsOfANodeWinOverTheProfile()
     CounterNode calm;
     calm.setSignalTable(profileTable());
     calm.activateWatchdog(0ms);
-    QVERIFY(strict.admit(calm, strict.udp()));
+    QVERIFY(strict.admit(calm, strict.place()));
     QVERIFY(start(strict, "Plant"));
     QCOMPARE(calm.watchdog(), std::chrono::nanoseconds(0));
 }
 
 void tst_Profiles::aMasterThatListensOnANetworkIsAPlant()
 {
+    const OnTheMachine here;  // a simulated computer has one address
     ProfiledMaster master(Profile::Automatic);
     master.setClock(QPlcClock::realTime());
     QVERIFY(master.listen());
@@ -296,47 +296,9 @@ void tst_Profiles::aListenerHasNoWatchdogByDefault()
     CounterNode node;
     node.setSignalTable(profileTable());
     node.setListener(true);
-    QVERIFY(master.admit(node, master.udp()));
+    QVERIFY(master.admit(node, master.place()));
     QVERIFY(start(master, "Plant"));
     QCOMPARE(node.watchdog(), std::chrono::nanoseconds(0));
-}
-
-void tst_Profiles::aProcessThatStaysAliveKeepsItsState_data()
-{
-    QTest::addColumn<int>("profile");
-    QTest::addColumn<QString>("kind");
-    QTest::addColumn<bool>("keeps");
-    QTest::newRow("simulation, udp") << int(Profile::Simulation) << "udp" << true;
-    QTest::newRow("simulation, tcp") << int(Profile::Simulation) << "tcp" << true;
-    QTest::newRow("plant, udp") << int(Profile::Plant) << "udp" << false;
-}
-
-void tst_Profiles::aProcessThatStaysAliveKeepsItsState()
-{
-    QFETCH(int, profile);
-    QFETCH(QString, kind);
-    QFETCH(bool, keeps);
-    ProfiledMaster master{Profile::Value(profile)};
-    QVERIFY(master.listen());
-    CounterNode counter;
-    std::atomic<int> smallest{1000000};
-    QVERIFY(master.admit(counter, kind));
-    QVERIFY(master.startRealTime());
-    QTRY_VERIFY(master.signalValue("count").toInt() > 50);
-    counter.disconnectFromMaster();
-    QTRY_VERIFY(master.nodes().isEmpty());
-    const int before = master.signalValue("count").toInt();
-    QVERIFY(master.admit(counter, kind));
-    QTRY_COMPARE(counter.state(), QPlcSlaveNode::RealTime);
-    counter.onStep
-        = [&](const QPlcCycle &) { smallest = std::min(smallest.load(), master.signalValue("count").toInt()); };
-    QTRY_VERIFY(smallest < 1000000);
-    QCOMPARE(counter.resets, keeps ? 1 : 2);
-    QCOMPARE(counter.initializations, keeps ? 1 : 2);
-    if (keeps)
-        QVERIFY2(smallest >= before, qPrintable(QString::number(smallest)));
-    QCOMPARE(master.eventsOf("node Counter goes on where it was").size(), keeps ? 1 : 0);
-    master.stop();
 }
 
 void tst_Profiles::aRestartedProcessBeginsAtItsInitialStateWithAnEvent()
@@ -345,7 +307,7 @@ void tst_Profiles::aRestartedProcessBeginsAtItsInitialStateWithAnEvent()
     QVERIFY(master.listen());
     {
         CounterNode counter;
-        QVERIFY(master.admit(counter, "udp"));
+        QVERIFY(master.admit(counter, datagrams()));
         QVERIFY(master.startRealTime());
         QTRY_VERIFY(master.signalValue("count").toInt() > 3);
         counter.disconnectFromMaster();
@@ -353,7 +315,7 @@ void tst_Profiles::aRestartedProcessBeginsAtItsInitialStateWithAnEvent()
     QTRY_VERIFY(master.nodes().isEmpty());
     QVERIFY(master.eventsOf("initial state").isEmpty());
     CounterNode again;
-    QVERIFY(master.admit(again, "udp"));
+    QVERIFY(master.admit(again, datagrams()));
     QTRY_COMPARE(again.state(), QPlcSlaveNode::RealTime);
     QCOMPARE(again.resets, 1);
     QCOMPARE(master.eventsOf("node Counter begins again at its initial state").size(), 1);
@@ -365,7 +327,7 @@ void tst_Profiles::aNewPhaseBeginsAtTheInitialState()
     ProfiledMaster master(Profile::Simulation);
     QVERIFY(master.listen());
     CounterNode counter;
-    QVERIFY(master.admit(counter, "udp"));
+    QVERIFY(master.admit(counter, datagrams()));
     QVERIFY(master.startRealTime());
     QVERIFY(master.waitForCycles(3));
     counter.disconnectFromMaster();
@@ -373,7 +335,7 @@ void tst_Profiles::aNewPhaseBeginsAtTheInitialState()
     QTRY_VERIFY(master.nodes().isEmpty());
     QVERIFY(master.startRealTime());
     QVERIFY(master.waitForState(QPlcMasterNode::RealTime));
-    QVERIFY(master.admit(counter, "udp"));  // it has not been in this phase
+    QVERIFY(master.admit(counter, datagrams()));  // it has not been in this phase
     QTRY_COMPARE(counter.state(), QPlcSlaveNode::RealTime);
     QCOMPARE(counter.resets, 2);
     master.stop();
@@ -390,11 +352,11 @@ void tst_Profiles::simulationWaitsForALateNodeWithoutLimit()
         std::atomic<bool> mayGoOn{false};
         node.onStep = [&](const QPlcCycle &cycle) {
             while (cycle.number() == 3 && !mayGoOn)
-                QThread::msleep(1);
+                beBusyFor(1ms);
         };
-        bool isRight = master.listen() && master.admit(node, "udp") && master.startRealTime()
+        bool isRight = master.listen() && master.admit(node, datagrams()) && master.startRealTime()
             && master.waitForState(QPlcMasterNode::WaitingForLateSlaves);
-        QTest::qWait(400);  // longer than the limit that was set
+        pass(400ms);  // longer than the limit that was set
         const auto state = master.state();
         mayGoOn = true;
         isRight = isRight && (isSet || master.waitForState(QPlcMasterNode::RealTime));
@@ -414,10 +376,10 @@ void tst_Profiles::gapDoesNotStopASimulation()
         CounterNode node;  // in the process of the master: while it stands still, so do the cycles
         node.onStep = [](const QPlcCycle &cycle) {
             if (cycle.number() == 3)
-                QThread::msleep(1100);
+                beBusyFor(1100ms);
         };
         const bool isRight = master.addLocalNode(&node) && master.startRealTime() && master.waitForCycles(4);
-        QTest::qWait(50);
+        pass(50ms);
         const auto state = master.state();
         master.stop();
         return isRight ? state : QPlcMasterNode::Fault;
@@ -432,7 +394,7 @@ void tst_Profiles::realDevicesMakeAPlant()
     QVERIFY(master.listen());
     CounterNode winch(QStringLiteral("Winch"));
     winch.setHardware(true);
-    QVERIFY(master.admit(winch, "udp"));
+    QVERIFY(master.admit(winch, datagrams()));
     QCOMPARE(master.profile(), Profile::Plant);
     QCOMPARE(master.profileReason(), QString("node 'Winch' drives real devices"));
     QVERIFY(master.startRealTime());
@@ -450,18 +412,18 @@ void tst_Profiles::realDevicesAreRefusedInASimulationUntilTheNextStart()
     ProfiledMaster master(Profile::Automatic);
     QVERIFY(master.listen());
     EchoNode echo;
-    QVERIFY(master.admit(echo, "udp"));
+    QVERIFY(master.admit(echo, datagrams()));
     QVERIFY(master.startRealTime());
     QVERIFY(master.waitForCycles(3));
     CounterNode winch(QStringLiteral("Winch"));
     winch.setHardware(true);
-    QVERIFY(!master.admit(winch, "udp"));
+    QVERIFY(!master.admit(winch, datagrams()));
     QCOMPARE(winch.error(), QPlcSlaveNode::RegistrationError);
     QVERIFY2(winch.errorString().contains("the phase at hand has the profile Simulation"),
              qPrintable(winch.errorString()));
     QCOMPARE(winch.resets, 0);
     master.stop();
-    QVERIFY(master.admit(winch, "udp"));
+    QVERIFY(master.admit(winch, datagrams()));
     QCOMPARE(master.profile(), Profile::Plant);
     QVERIFY(master.startRealTime());
     QTRY_COMPARE(winch.state(), QPlcSlaveNode::RealTime);
@@ -482,5 +444,5 @@ void tst_Profiles::realDevicesInThisProcessMakeAPlant()
     master.stop();
 }
 
-QTEST_GUILESS_MAIN(tst_Profiles)
+QTPLC_VIRTUAL_TIME_MAIN(tst_Profiles)
 #include "tst_Profiles.moc"

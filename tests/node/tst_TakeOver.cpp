@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "../common/Waiting.h"
 #include "SameCycleFixtures.h"
+#include "VirtualTime.h"
+
+using namespace std::chrono_literals;
 
 // Persons who take signals over by leases, at the control channel of a real master.
 class tst_TakeOver : public QObject
@@ -177,7 +180,7 @@ void tst_TakeOver::takingOverIsExplicit()
     QCOMPARE(set(*m_anna, "setpoint", "6").text("error"), QString("LeaseHeld"));
     QCOMPARE(set(*m_bert, "setpoint", "7").kind(), QPlcMessage::Done);
     m_anna->control.abort();  // what is no longer hers does not go with her
-    QTest::qWait(20);
+    pass(20ms);
     QCOMPARE(value("setpoint"), QString("7"));
     QCOMPARE(m_master->leases().at(0).isLost, false);
 }
@@ -228,11 +231,9 @@ void tst_TakeOver::signalIsNeutralWhenTheHolderIsSilent()
 void tst_TakeOver::anyMessageOfTheHolderRenewsTheLease()
 {
     take(*m_anna, {"setpoint"}, {{"values", QJsonObject{{"setpoint", "4"}}}, {"timeout", 1e9}});
-    QElapsedTimer clock;
-    clock.start();
-    for (int i = 0; clock.elapsed() < 1500; ++i) {
+    for (int i = 0; i < 30; ++i) {
         QCOMPARE(m_anna->ask(QPlcMessage::GetState).kind(), QPlcMessage::State);
-        QTest::qWait(50);
+        pass(50ms);
     }
     QCOMPARE(value("setpoint"), QString("4"));
     QVERIFY(!m_master->leases().at(0).isLost);
@@ -277,14 +278,14 @@ void tst_TakeOver::temporaryValuesAreNotRestoredDuringALease()
     m_bert->ask(QPlcMessage::SetSignals, {{"values", values}, {"duration", 100e6}});
     take(*m_anna, {"setpoint"});
     set(*m_anna, "setpoint", "6");
-    QTest::qWait(150);
+    pass(150ms);
     QCOMPARE(value("setpoint"), QString("6"));
     // Nor over the neutral value.
     m_anna->ask(QPlcMessage::SetSignals, {{"values", values}, {"duration", 1e15}});
     QCOMPARE(value("setpoint"), QString("5"));
     m_anna->control.abort();
     QTRY_COMPARE(value("setpoint"), QString("0"));
-    QTest::qWait(20);
+    pass(20ms);
     QCOMPARE(value("setpoint"), QString("0"));
 }
 
@@ -380,7 +381,7 @@ void tst_TakeOver::laterWriterDoesNotEndTheLease()
     QVERIFY(m_master->startRealTime());
     QVERIFY(m_master->waitForCycles(3));
     m_anna->forgetMessages();
-    QTest::qWait(20);
+    pass(20ms);
     m_anna->forgetMessages();
     take(*m_anna, {"echo"}, {{"values", QJsonObject{{"echo", "-1"}}}});
     ScriptedNode late;
@@ -513,5 +514,5 @@ void tst_TakeOver::leaseChangesArePushedToToolsWithTheFeature()
     QVERIFY(m_bert->messages.last().kind() == QPlcMessage::Done);  // without the feature: nothing
 }
 
-QTEST_GUILESS_MAIN(tst_TakeOver)
+QTPLC_VIRTUAL_TIME_MAIN(tst_TakeOver)
 #include "tst_TakeOver.moc"

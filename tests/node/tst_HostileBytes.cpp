@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "SecurityFixtures.h"
+
+#include <QtCore/QDir>
+#include <QtCore/QRandomGenerator>
+#include <QtTest/QtTest>
+
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+using namespace std::chrono_literals;
+
+// What strangers may send to sockets of the machine, and to OpenSSL: see tst_Strangers.
+class tst_HostileBytes : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void thousandsOfConnectionsLeaveNoResources_data() { addSecurities(); }
+    void thousandsOfConnectionsLeaveNoResources();
+    void slowTlsGreetingIsClosed();
+    void garbageEndsItsOwnConnectionOnly_data() { addSecurities(); }
+    void garbageEndsItsOwnConnectionOnly();
+
+private:
+    static void addSecurities()
+    {
+        QTest::addColumn<bool>("isSecured");
+        QTest::newRow("without security") << false;
+        QTest::newRow("with keys") << true;
+    }
+    bool listen(bool isSecured)
+    {
+        m_master.reset(new TestMaster);
+        m_security = isSecured ? m_files.counter() : QPlcSecurity();
+        if (isSecured)
+            m_master->setSecurity(QPlcSecurity::preSharedKeys(m_files.masterKeys()));
+        return m_master->listen();
+    }
+    /// A plain connection to the master, of the system.
+    int connected() const
+    {
+        sockaddr_in address = {};
+        address.sin_family = AF_INET;
+        address.sin_port = htons(m_master->serverPort());
+        address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        const int descriptor = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+        if (::connect(descriptor, reinterpret_cast<const sockaddr *>(&address), sizeof address) < 0)
+            qFatal("cannot connect");
+        return descriptor;
+    }
+    /// Whether the other end has closed the connection, whatever it said before.
+    static bool isClosed(int descriptor)
+    {
+        char bytes[4096];
+        ssize_t count = 0;
+        do
+            count = ::recv(descriptor, bytes, sizeof bytes, MSG_DONTWAIT);
+        while (count > 0);
+        return count == 0 || (errno != EAGAIN && errno != EWOULDBLOCK);
+    }
+    static qint64 residentKiB()
+    {
+        QFile file("/proc/self/statm");
+        return file.open(QIODevice::ReadOnly)
+            ? file.readAll().split(' ').at(1).toLongLong() * ::sysconf(_SC_PAGESIZE) / 1024
+            : 0;
+    }
+    static int descriptors()
+    {
+        return int(QDir("/proc/self/fd").entryList(QDir::NoDotAndDotDot | QDir::System | QDir::Files).size());
+    }
+    bool lets(const QString &name)
+    {
+        CounterNode node(name);
+        node.setSecurity(m_security);
+        return m_master->admit(node, "udp");
+    }
+    SecurityFiles m_files;
+    QPlcSecurity m_security;  // of Counter
+    QScopedPointer<TestMaster> m_master;
+};
+
+void tst_HostileBytes::thousandsOfConnectionsLeaveNoResources()
+{
+    QFETCH(bool, isSecured);
+    const LogCapture log;
+    QVERIFY(listen(isSecured));
+    const auto comeAndGo = [this](int times) {
+        for (int i = 0; i < times; ++i) {
+            const int descriptor = connected();
+            if (i % 3 == 1)
+                (void)!::write(descriptor, "\x16\x03\x01\x02", 4);
+            ::close(descriptor);
+            if (i % 8 == 0)
+                pass(1ms);  // the queue of the system is not to be full: connected() would wait for this thread
+        }
+        pass(20ms);
+    };
+    comeAndGo(300);  // buffers of the first ones stay
+    const int openBefore = descriptors();
+    const qint64 before = residentKiB();
+    comeAndGo(2000);
+    QTRY_COMPARE(descriptors(), openBefore);
+    const qint64 growth = residentKiB() - before;
+#if !defined(QTPLC_CALLS_SANITIZED) && !defined(__SANITIZE_ADDRESS__)
+    QVERIFY2(growth < 256, qPrintable(QString("%1 KiB").arg(growth)));
+#else
+    Q_UNUSED(growth)
+#endif
+    QVERIFY(lets("Counter"));
+}
+
+void tst_HostileBytes::slowTlsGreetingIsClosed()
+{
+    const LogCapture log;
+    QVERIFY(listen(true));
+    const int descriptor = connected();
+    const QByteArray begin("\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03", 11);
+    const std::int64_t last = qplc::monotonicNow() + std::chrono::nanoseconds(12s).count();
+    for (int sent = 0; !isClosed(descriptor) && qplc::monotonicNow() < last; pass(200ms)) {
+        if (sent < begin.size() - 1)
+            (void)!::send(descriptor, begin.constData() + sent++, 1, MSG_NOSIGNAL);
+    }
+    ::close(descriptor);
+    QVERIFY(qplc::monotonicNow() < last);
+    QVERIFY(lets("Counter"));
+}
+
+void tst_HostileBytes::garbageEndsItsOwnConnectionOnly()
+{
+    QFETCH(bool, isSecured);
+    const LogCapture log;
+    QVERIFY(listen(isSecured));
+    EchoNode echo;
+    echo.setSecurity(isSecured ? m_files.echo() : QPlcSecurity());
+    QVERIFY(m_master->admit(echo, "udp"));
+    QRandomGenerator random(4711);
+    for (int i = 0; i < 100; ++i) {
+        QByteArray garbage(random.bounded(1, 600), '\0');
+        for (char &byte : garbage)
+            byte = char(random.bounded(256));
+        if (i % 4 == 0)
+            garbage.prepend(QByteArray("\x16\x03\x01\x00\x40\x01", 6));  // as TLS begins
+        if (i % 4 == 1)
+            garbage.prepend(QByteArray("\x20\x00\x00\x00\x01{", 6));  // as a greeting begins
+        const int descriptor = connected();
+        (void)!::send(descriptor, garbage.constData(), std::size_t(garbage.size()), MSG_NOSIGNAL);
+        ::shutdown(descriptor, SHUT_WR);
+        QTRY_VERIFY_WITH_TIMEOUT(isClosed(descriptor), 10000);
+        ::close(descriptor);
+    }
+    QCOMPARE(echo.state(), QPlcSlaveNode::Off);
+    QVERIFY(lets("Counter"));
+}
+
+QTEST_GUILESS_MAIN(tst_HostileBytes)
+#include "tst_HostileBytes.moc"
