@@ -2,11 +2,14 @@
 #include "../common/Waiting.h"
 #include "NodeFixtures.h"
 #include "ScriptedNode.h"
+#include "VirtualTime.h"
 #include "node/cycle/SlopeLimits.h"
 
 #include <cmath>
 #include <mutex>
 #include <vector>
+
+using namespace std::chrono_literals;
 
 namespace {
 
@@ -85,6 +88,7 @@ private Q_SLOTS:
     void aSignalMovesToTheValueWithWhichItIsTaken();
     void renewedLeaseKeepsTheTarget();
     void releasedSignalFollowsItsWriterWithoutSlope();
+    void aWriterThatJoinsEndsTheWayOfItsSignal_data();
     void aWriterThatJoinsEndsTheWayOfItsSignal();
     void safeStopIgnoresTheSlope();
     void slopeIsIgnoredWithoutCycles();
@@ -143,7 +147,7 @@ double tst_Slopes::largestChange(const QString &name, double last)
         }
         before = now;
         cycle = nextCycle;
-        QTest::qWait(1);
+        pass(1ms);
     }
     return largest;
 }
@@ -179,7 +183,7 @@ void tst_Slopes::eachElementOfAnArrayMovesOnItsOwn()
         QVERIFY2(value.toReal(0) <= 0.1f && value.toReal(1) >= -0.2f && value.toReal(2) == 0.0, qPrintable(text));
         // Both elements have come as far, until the first one is there.
         QVERIFY2(value.toReal(0) >= 0.0999 || std::abs(value.toReal(0) + value.toReal(1)) < 1e-6, qPrintable(text));
-        QTest::qWait(1);
+        pass(1ms);
     }
     m_master->stop();
 }
@@ -267,9 +271,18 @@ void tst_Slopes::releasedSignalFollowsItsWriterWithoutSlope()
     m_master->stop();
 }
 
+void tst_Slopes::aWriterThatJoinsEndsTheWayOfItsSignal_data()
+{
+    QTest::addColumn<int>("cycles");
+    QTest::newRow("that has begun") << 10;
+    QTest::newRow("that would begin in the same cycle") << 0;
+}
+
 void tst_Slopes::aWriterThatJoinsEndsTheWayOfItsSignal()
 {
+    QFETCH(int, cycles);
     QVERIFY(set("speed", "1000"));
+    QVERIFY(m_master->waitForCycles(m_master->statistics().cycles + quint64(cycles)));
     ScriptedNode writer("Writer");
     writer.table = slopeTable();
     writer.inputs.clear();
@@ -297,6 +310,7 @@ void tst_Slopes::safeStopIgnoresTheSlope()
     for (double now = before; now != -0.5; before = now) {
         now = number("drive");
         QVERIFY2(now == -0.5 || now >= before, qPrintable(QString::number(now)));  // no way down, but one jump
+        pass(1ms);
     }
     QVERIFY(m_master->waitForCycles(m_master->statistics().cycles + 5));
     const double halted = number("speed");  // it has no safe value
@@ -360,5 +374,5 @@ void tst_Slopes::theNeighbourOfAMovingSignalStays()
     QCOMPARE(image.value(drive).toReal(), 7.0);
 }
 
-QTEST_GUILESS_MAIN(tst_Slopes)
+QTPLC_VIRTUAL_TIME_MAIN(tst_Slopes)
 #include "tst_Slopes.moc"

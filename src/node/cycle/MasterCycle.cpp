@@ -293,11 +293,12 @@ void MasterCycle::takeCommands() noexcept
 
 void MasterCycle::carryOut(const SetCommand &command) noexcept
 {
-    if (command.isEndOfWay) {
+    const bool isLimited = m_slopes.isLimited(command.signal);
+    if (command.isEndOfWay || (isLimited && m_roster->isWritten(command.signal))) {  // by a node that has joined since
         m_slopes.leave(command.signal);
         return;
     }
-    if (m_slopes.isLimited(command.signal) && !m_guard.isTripped())
+    if (isLimited && !m_guard.isTripped())
         m_slopes.aim(command.signal, command.bytes.data());
     else
         std::memcpy(m_image.data() + m_image.offset(command.signal), command.bytes.data(),
@@ -308,11 +309,9 @@ void MasterCycle::carryOut(const SetCommand &command) noexcept
 /// What a node writes is its own from the next answer on.
 void MasterCycle::leaveSlopesToWriters() noexcept
 {
-    for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
-        for (const PayloadLayout::Field &field : slot->outputLayout.fields()) {
-            if (field.signal >= m_roster->held.size() || !m_roster->held[field.signal])
-                m_slopes.leave(field.signal);
-        }
+    for (std::size_t signal = 0; signal < m_roster->written.size(); ++signal) {
+        if (m_roster->written[signal])
+            m_slopes.leave(QPlcSignalIndex(signal));
     }
 }
 

@@ -43,7 +43,10 @@ void Roster::arrange(const ProcessImage &image)
     stages.assign(schedule.stageCount(), {});
     for (std::size_t i = 0; i < nodes.size(); ++i)
         stages[schedule.stage(i)].push_back({nodes[i].get(), schedule.feedsLaterStage(i)});
+    written.assign(image.table().size(), false);
     for (const std::shared_ptr<NodeSlot> &slot : nodes) {
+        for (const PayloadLayout::Field &field : slot->outputLayout.fields())
+            written[field.signal] = field.signal >= held.size() || !held[field.signal];
         anyRemote = anyRemote || slot->peer;
         if (slot->twoPhase)
             twoPhase.push_back(slot.get());

@@ -34,6 +34,7 @@ struct Roster
     std::vector<QPlcSignalIndex> abandoned{};
 
     // made by arrange()
+    std::vector<bool> written{};  // by index: signals that have the values of their writers
     std::vector<std::vector<Turn>> stages{};
     std::vector<NodeSlot *> twoPhase{};
     std::vector<std::shared_ptr<NodeSlot>> multicast{};  // one node of each part
@@ -44,6 +45,7 @@ struct Roster
 
     /// Puts the nodes into stages. \pre they have no algebraic loop: NodeRegistry admits none
     void arrange(const ProcessImage &image);
+    bool isWritten(QPlcSignalIndex signal) const noexcept { return signal < written.size() && written[signal]; }
 
 private:
     void findContests(const QPlcSignalTable &table);
