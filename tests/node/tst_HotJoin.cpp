@@ -9,7 +9,6 @@ class tst_HotJoin : public QObject
 
 private Q_SLOTS:
     void joinerGetsTheCurrentValues();
-    void initialOutputsOfAJoinerReachTheMaster();
     void cyclesContinueWhileNodesJoinAndLeave_data();
     void cyclesContinueWhileNodesJoinAndLeave();
     void aJoinerThatFailsIsDropped_data();
@@ -44,24 +43,6 @@ void tst_HotJoin::joinerGetsTheCurrentValues()
     const int count
         = QPlcValue::fromBytes(QPlcSignalType(QPlcSignalType::Int32), joiner.requests.at(0).payload).toInt();
     QVERIFY(quint64(count) <= joiner.requests.at(0).cycle - started.hex64("cycleZero"));
-    master.stop();
-}
-
-void tst_HotJoin::initialOutputsOfAJoinerReachTheMaster()
-{
-    TestMaster master(QPlcClock::realTime());
-    master.setInterval(0.002);
-    QVERIFY(master.listen());
-    QVERIFY(master.startRealTime());
-    ScriptedNode joiner;  // it never answers a request
-    joiner.initialValues = QPlcValue(0.25).toBytes();
-    QVERIFY(joiner.registerAt(master.serverPort()));
-    QTRY_COMPARE(master.signalValue("echo").toReal(), 0.25);
-    QVERIFY(master.signalQuality("echo").isUsable());
-    joiner.control.abort();
-    QTRY_VERIFY(master.nodes().isEmpty());
-    QTRY_COMPARE(master.signalQuality("echo").kind(), QPlcQuality::Safe);  // and do not stay for ever
-    QCOMPARE(master.signalValue("echo").toReal(), 0.0);
     master.stop();
 }
 

@@ -3,7 +3,6 @@
 #include "SecurityFixtures.h"
 
 #include <QtCore/QLoggingCategory>
-#include <QtNetwork/QTcpServer>
 
 #include <unistd.h>
 
@@ -29,7 +28,6 @@ private Q_SLOTS:
     void unreadableKeysFileRefusesAllClients();
     void aNodeIsReplacedByItsOwnIdentityOnly();
     void ambiguousIdentityIsReported();
-    void silentMasterIsGivenUp();
     void keyOfANodeIsRefusedForAMaster();
     void noKeyIsEverLogged();
     void multicastIsRefused();
@@ -263,20 +261,6 @@ void tst_PreSharedKeys::ambiguousIdentityIsReported()
     QVERIFY(!m_master->admit(node, "udp"));
     QVERIFY2(node.errorString().contains("has the keys of 5 identities; say which one"),
              qPrintable(node.errorString()));
-}
-
-void tst_PreSharedKeys::silentMasterIsGivenUp()
-{
-    LogCapture log;
-    QTcpServer dumb;
-    QVERIFY(dumb.listen(QHostAddress::LocalHost));
-    QPlcMasterSocket socket;
-    socket.setSecurity(m_files.counter());
-    QSignalSpy errors(&socket, &QPlcAbstractSocket::errorOccurred);
-    socket.connectToMaster(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, dumb.serverPort()));
-    QTRY_VERIFY_WITH_TIMEOUT(!errors.isEmpty(), 15000);
-    QCOMPARE(socket.error(), QPlcAbstractSocket::TimeoutError);
-    QVERIFY(!socket.isConnected());
 }
 
 /// A node knows its own key alone: it cannot play the master for another one.

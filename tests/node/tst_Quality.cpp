@@ -2,71 +2,13 @@
 // The qualities of signals from their writer to the code of their reader: with real nodes, and with
 // scripted ones that break the rules.
 #include "../common/Waiting.h"
-#include "NodeFixtures.h"
-#include "ScriptedNode.h"
+#include "QualityFixtures.h"
 
 #include <QtCore/QProcess>
 
 #include <atomic>
 
 namespace {
-
-QPlcSignalTable qualityTable(const QByteArray &more = {})
-{
-    QVector<QPlcParseError> errors;
-    const QPlcSignalTable table
-        = QPlcSignalTable::fromIni("[count]\ntype = Int32\n[echo]\ntype = Real64\nmin = -100\nmax = 100\nsafe = -5\n"
-                                   "[sum]\ntype = Real64\nunit = m\n[vector]\ntype = Real64Triple\nmax = 9\nhold = 1\n"
-                                   "[free]\ntype = Real32\ninitial = 3\n"
-                                       + more,
-                                   &errors);
-    Q_ASSERT_X(errors.isEmpty(), "qualityTable", qPrintable(QPlcParseError::toString(errors)));
-    return table;
-}
-
-/// Writes "echo": the number of the cycle, unless the test has another idea.
-class Source : public QPlcCompactSlaveNode
-{
-public:
-    explicit Source(const QString &name = QStringLiteral("Source"))
-        : QPlcCompactSlaveNode(name)
-    {
-    }
-    std::function<double(quint64)> idea;
-    QPlcOutput<double> m_echo{this, "echo"};
-    QPlcOutput<std::array<double, 3>> m_vector{this, "vector"};
-
-private:
-    void reset() override { m_echo = 0.5; }
-    void step(const QPlcCycle &cycle) override { m_echo = idea ? idea(cycle.number()) : double(cycle.number()); }
-};
-
-/// Moves something by "echo", and writes down what it was told in each cycle: "7 good".
-class Actuator : public QPlcCompactSlaveNode
-{
-public:
-    explicit Actuator(QPlcInputTiming::Value timing = QPlcInputTiming::LastCycle, bool asks = true)
-        : QPlcCompactSlaveNode(QStringLiteral("Actuator"))
-        , m_echo(this, "echo", timing)
-    {
-        setReceivesQuality(asks);
-    }
-    QStringList record;
-    std::function<void()> afterStep;
-    QString seenFree;
-    QPlcInput<double> m_echo;
-    QPlcInput<float> m_free{this, "free"};
-
-private:
-    void reset() override { record.clear(); }
-    void step(const QPlcCycle &) override
-    {
-        record << QStringLiteral("%1 %2").arg(m_echo.value()).arg(m_echo.quality().toString());
-        seenFree = QStringLiteral("%1 %2").arg(double(m_free.value())).arg(m_free.quality().toString());
-        if (afterStep)
-            afterStep();
-    }
-};
 
 void addKinds()
 {
@@ -92,13 +34,11 @@ private Q_SLOTS:
     void aWriterThatIsLostIsHeldAndThenSafe_data();
     void aWriterThatIsLostIsHeldAndThenSafe();
     void aWriterThatIsKilledIsHeldAndThenSafe_data();
-    void skippedCyclesCountAsHoldTime();
     void aWriterThatIsKilledIsHeldAndThenSafe();
     void valueOfAListenerIsGoodUntilItLeaves();
     void theNextPhaseBeginsWithoutOldValues();
     void nodeRefusesInputsOutsideItsOwnLimits();
     void refusedValuesAreCountedAndRaiseAnAlarm();
-    void signalOscillatingAtItsLimitRaisesOneAlarm();
     void initialOutputsOutOfRangeEndTheInitialization();
 };
 
@@ -232,38 +172,6 @@ void tst_Quality::aWriterThatIsKilledIsHeldAndThenSafe_data()
         QTest::newRow(kind) << QString(kind);
 }
 
-void tst_Quality::skippedCyclesCountAsHoldTime()
-{
-    constexpr int Tries = 5;  // a machine that stands still leaves out cycles by itself, at another time
-    int held = -1;
-    Actuator actuator;
-    for (int i = 0; i < Tries && held < 0; ++i) {
-        TestMaster master(QPlcClock::realTime(), qualityTable());
-        master.setInterval(0.02);
-        actuator.afterStep = [&] {
-            if (actuator.record.last() == QLatin1String("19 held 1"))
-                QThread::msleep(150);  // the master leaves out more cycles than the value may be held
-        };
-        QVERIFY(master.addLocalNode(&actuator));
-        QVERIFY(master.listen());
-        ScriptedNode writer;
-        writer.table = qualityTable();
-        writer.onRequest = [&](const ScriptedNode::Request &request) {
-            if (request.cycle < 20)
-                writer.answer(request.cycle, QPlcValue(19.0).toBytes());
-        };
-        QVERIFY(writer.registerAt(master.serverPort()));
-        QVERIFY(master.startRealTime());
-        QTRY_VERIFY(master.cycle() > 40);
-        master.stop();
-        held = actuator.record.indexOf("19 held 1");
-        QVERIFY(held < 0 || master.statistics().skippedCycles >= 3);
-        master.removeLocalNode(&actuator);
-    }
-    QVERIFY(held >= 0);
-    QCOMPARE(actuator.record.value(held + 1), QString("-5 safe"));
-}
-
 /// The process gets no chance to say goodbye.
 void tst_Quality::aWriterThatIsKilledIsHeldAndThenSafe()
 {
@@ -381,29 +289,6 @@ void tst_Quality::refusedValuesAreCountedAndRaiseAnAlarm()
              1);
     QCOMPARE(log.matching("safe values: echo = -5").size(), 1);
     QCOMPARE(log.matching("echo").size(), 3);
-}
-
-void tst_Quality::signalOscillatingAtItsLimitRaisesOneAlarm()
-{
-    LogCapture log;
-    std::atomic<bool> isBad{true};
-    TestMaster master(QPlcClock::realTime(), qualityTable());
-    master.setInterval(std::chrono::milliseconds(5));
-    Source source;
-    source.idea = [&isBad](quint64 cycle) { return isBad && cycle % 2 == 0 ? 112.5 : 1.0; };
-    QVERIFY(master.addLocalNode(&source));
-    QVERIFY(master.startRealTime());
-    const auto lines = [&log] { return log.matching("echo of Source").size(); };
-    QTRY_VERIFY(master.cycleStatistics().nodes.value(0).outOfRange > 50);
-    QCOMPARE(lines(), 1);
-    isBad = false;
-    QTRY_COMPARE(log.matching("echo of Source: no more values are refused").size(), 1);
-    QCOMPARE(lines(), 2);
-    isBad = true;
-    QTRY_COMPARE(lines(), 3);
-    master.stop();
-    QVERIFY(master.waitForState(QPlcMasterNode::Off));
-    QCOMPARE(lines(), 4);
 }
 
 void tst_Quality::initialOutputsOutOfRangeEndTheInitialization()

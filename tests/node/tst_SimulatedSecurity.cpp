@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SecurityFixtures.h"
+#include "transport/ControlListener.h"
 
 #include <QtPlcTest>
 
@@ -20,6 +21,7 @@ private Q_SLOTS:
     void nodeWithoutKeyGetsTheReason();
     void securedNodeReportsAnUnsecuredMaster();
     void handshakeSucceedsAfterALinkOutage();
+    void silentMasterIsGivenUp();
 
 private:
     SecurityFiles m_files;
@@ -141,6 +143,30 @@ void tst_SimulatedSecurity::handshakeSucceedsAfterALinkOutage()
         simulator.resetRoads();
         simulator.setRoads({});
         QVERIFY(simulator.runUntil([&] { return master->nodes().size() == 1; }, 60s));
+    });
+}
+
+void tst_SimulatedSecurity::silentMasterIsGivenUp()
+{
+    const auto connectToNobody = [this](const QPlcUnderlyingProtocol &place) {
+        qplc::ControlListener dumb;
+        QVERIFY(dumb.listen(place.address(), place.port()));
+        dumb.setAttentive(false);  // what comes stays in the queue of the system
+        QPlcMasterSocket socket;
+        socket.setSecurity(m_files.counter());
+        QSignalSpy errors(&socket, &QPlcAbstractSocket::errorOccurred);
+        socket.connectToMaster(place);
+        pass(4990ms);
+        QVERIFY(errors.isEmpty());
+        pass(20ms);
+        QCOMPARE(errors.size(), 1);
+        QCOMPARE(socket.error(), QPlcAbstractSocket::TimeoutError);
+        QVERIFY(!socket.isConnected());
+    };
+    QPlcSimulator::run(1, [&](QPlcSimulator &simulator) {
+        const LogCapture log;
+        QPlcSimulatedHost host(simulator, "machine");
+        host.call([&] { connectToNobody(host.place()); });
     });
 }
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "../common/Waiting.h"
+#include "VirtualTime.h"
 #include "node/session/ViewerPushes.h"
 #include "protocol/ControlFrame.h"
-
-#include <sys/socket.h>
-#include <unistd.h>
+#include "transport/ControlNetwork.h"
 
 using namespace qplc;
+using namespace std::chrono_literals;
 
 // What viewers are told without asking, and what becomes of it when one of them takes nothing in.
 class tst_ViewerPushes : public QObject
@@ -58,32 +58,26 @@ struct Master
 class Viewer
 {
 public:
-    ~Viewer() { ::close(m_descriptor); }
     bool greet(quint16 port, const QJsonArray &features)
     {
-        const SocketAddress address(QHostAddress(QHostAddress::LocalHost), port);
-        m_descriptor = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-        const int small = 8192;  // so that a viewer that does not read is noticed soon
-        ::setsockopt(m_descriptor, SOL_SOCKET, SO_RCVBUF, &small, sizeof small);
-        const QByteArray hello = encodeControlFrame(
-            QPlcMessage(QPlcMessage::Hello, {{"protocol", 1}, {"name", "Viewer"}, {"features", features}}));
-        return ::connect(m_descriptor, address.data(), address.length) == 0
-            && ::send(m_descriptor, hello.constData(), std::size_t(hello.size()), MSG_NOSIGNAL) == hello.size()
-            && waitUntil([this] { return next().kind() == QPlcMessage::Hello; }, 5000);
+        QObject::connect(m_socket.get(), &QTcpSocket::connected, m_socket.get(), [this, features] {
+            m_socket->write(encodeControlFrame(
+                QPlcMessage(QPlcMessage::Hello, {{"protocol", 1}, {"name", "Viewer"}, {"features", features}})));
+        });
+        m_socket->connectToHost(QHostAddress(QHostAddress::LocalHost), port);
+        return waitUntil([this] { return next().kind() == QPlcMessage::Hello; });
     }
     /// The next message that is there; of kind Invalid when there is none.
     QPlcMessage next()
     {
-        QByteArray bytes(65536, '\0');
-        const ssize_t size = ::recv(m_descriptor, bytes.data(), std::size_t(bytes.size()), MSG_DONTWAIT);
-        m_reader.append(bytes.left(int(std::max<ssize_t>(size, 0))));
+        m_reader.append(m_socket->readAll());
         QPlcMessage message;
         m_reader.next(&message);
         return message;
     }
 
 private:
-    int m_descriptor = -1;
+    std::unique_ptr<QTcpSocket> m_socket{ControlNetwork::current().makeSocket(nullptr)};
     ControlFrameReader m_reader;
 };
 
@@ -97,12 +91,10 @@ void tst_ViewerPushes::stoppedViewerCostsNoMemoryAndSeesTheGap()
     QVERIFY(viewer.greet(master.server.port(), {"leases", "events"}));
     const QString longText(EventLog::LongestText, 'x');
     qint64 most = 0;
-    QElapsedTimer clock;
-    clock.start();
-    while (most < 64 * 1024 && clock.elapsed() < 30000) {
+    for (int round = 0; most < 64 * 1024 && round < 1000; ++round) {
         for (int i = 0; i < 500; ++i)
             master.happens(longText);
-        QTest::qWait(5);
+        pass(5ms);
         most = std::max(most, master.waiting());
     }
     QVERIFY2(most >= 64 * 1024, "the kernel took everything: nothing is shown");
@@ -110,7 +102,7 @@ void tst_ViewerPushes::stoppedViewerCostsNoMemoryAndSeesTheGap()
         for (int j = 0; j < 100; ++j)
             master.happens(longText);
         master.pushes.leasesChanged();
-        QTest::qWait(10);
+        pass(10ms);
         most = std::max(most, master.waiting());
     }
     QVERIFY2(most < 256 * 1024, qPrintable(QString::number(most)));
@@ -145,10 +137,10 @@ void tst_ViewerPushes::viewerWithoutTheFeatureGetsNoPushes()
     master.happens("something");
     master.pushes.leasesChanged();
     QVERIFY(waitUntil([&] { return leasesOnly.next().kind() == QPlcMessage::LeasesChanged; }, 5000));
-    QTest::qWait(50);
+    pass(50ms);
     QCOMPARE(leasesOnly.next().kind(), QPlcMessage::Invalid);
     QCOMPARE(plain.next().kind(), QPlcMessage::Invalid);
 }
 
-QTEST_GUILESS_MAIN(tst_ViewerPushes)
+QTPLC_VIRTUAL_TIME_MAIN(tst_ViewerPushes)
 #include "tst_ViewerPushes.moc"

@@ -188,7 +188,7 @@ REMOVALS = [
             "tst_Quality", "aWriterThatIsKilledIsHeldAndThenSafe"),
     Removal("writer is gone while cycles are left out", "src/node/cycle/NodeExchange.cpp",
             "if (hasSkipped && !m_isSafe)", "if (hasSkipped && m_isSafe)",
-            "tst_Quality", "skippedCyclesCountAsHoldTime"),
+            "tst_HeldValues", "skippedCyclesCountAsHoldTime"),
     Removal("master killed: nodes go to their safe state", "src/node/api/SlavePhases.cpp",
             "    makeSafe(reason);\n    runtime.stopped();", "    Q_UNUSED(reason)\n    runtime.stopped();",
             "tst_SafeProcesses", "aKilledMasterLeavesItsNodesSafe"),
