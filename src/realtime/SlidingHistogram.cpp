@@ -83,7 +83,7 @@ bool SlidingHistogram::sumUp(std::int64_t second, Sum *sum) const noexcept
             continue;
         const int last = Bins::binOf(std::uint64_t(slice.maximum.load(std::memory_order_acquire)));
         const int first = Bins::binOf(std::uint64_t(slice.minimum.load(std::memory_order_acquire)));
-        // Bins before the extremes that count: who sees a value counted sees it in the extremes, too.
+        // Bins before the extremes: who sees a value counted sees it in the extremes, too.
         for (auto bin = std::size_t(first); bin <= std::size_t(last); ++bin)
             sum->bins[bin] += slice.bins[bin].load(std::memory_order_acquire);
         sum->exact.add({slice.minimum.load(std::memory_order_acquire), slice.maximum.load(std::memory_order_acquire),
