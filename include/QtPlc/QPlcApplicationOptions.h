@@ -142,6 +142,13 @@ public:
     ///     QCoreApplication::quit()
     void quitOnSignals(std::function<void()> onSignal = {});
 
+protected:
+    /// From here on, a thread of its own writes the messages of Qt (qWarning(), qCInfo()) to the
+    /// standard error output, so that a reader that stands still does not stop the program. Up to
+    /// 1 MiB of lines wait for their reader; a line in the place of dropped ones tells how many.
+    /// A message handler of the program stays. Both application classes call this.
+    void writeMessagesAside();
+
 private:
     struct Q_DECL_HIDDEN Private;
     std::unique_ptr<Private> d;

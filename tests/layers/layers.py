@@ -99,11 +99,11 @@ PANEL_ROOMS = ("charts", "gauges", "setters", "tables")
 OF_KERNEL = (r"\b(clock_gettime|clock_nanosleep|timerfd_\w+|timer_create|pthread_\w+|QRandomGenerator|createUuid|"
              r"QDeadlineTimer|QElapsedTimer|mt19937(?:_64)?|random_device|condition_variable|QThread|sleep_for|sleep_until|std::thread|QUdpSocket|QTcpServer)\b|\beventfd\([^)]|(?<!\w)::p?poll\(|new Q(Tcp|Ssl)Socket")
 HOSTED = ("signals", "realtime", "protocol", "transport", "node")
-# The machine as a Host, what measures or sets up the machine itself, and transports of the kernel. The last ones belong
+# The machine as a Host, what measures or sets up the machine itself, what writes its log, and transports of the kernel. The last ones belong
 # to a Host one day: the beacon, names of a machine. A list that only shrinks.
 OF_MACHINE = {
     "realtime/Machine.cpp", "realtime/CycleThread.cpp", "realtime/CycleThread.h", "realtime/AlarmTime.cpp",
-    "realtime/InterruptibleWaits.cpp", "realtime/InterruptibleWaits.h", "realtime/RealTimeSetup.cpp",
+    "realtime/InterruptibleWaits.cpp", "realtime/InterruptibleWaits.h", "realtime/LogWriter.cpp", "realtime/RealTimeSetup.cpp",
     "realtime/StackPrefault.cpp", "realtime/WakeUpProbe.cpp", "transport/ControlNetwork.cpp", "transport/CyclicHub.cpp",
     "transport/LoopbackProbe.cpp", "transport/UdpTransport.cpp", "transport/OpenSslTls.cpp",
     "node/session/MasterBeacon.cpp", "node/session/MasterFinder.cpp", "node/session/MasterFinder.h",

@@ -6,7 +6,9 @@
 #include <QtNetwork/QUdpSocket>
 
 #include <csignal>
+#include <poll.h>
 #include <random>
+#include <unistd.h>
 
 // Programs of a plant that are killed, stopped and shouted at while cycles run.
 class tst_PlantFaults : public QObject
@@ -23,6 +25,7 @@ private Q_SLOTS:
     void killedNodeIsReportedAndReplaced();
     void garbageOnEveryPortChangesNothing();
     void injectedFaultsAreReportedByAllPrograms();
+    void masterWhoseLogNobodyReadsAnswersAndEnds();
 
 private:
     bool start(const QStringList &autopilotOptions = {}, const QStringList &masterOptions = {})
@@ -184,6 +187,31 @@ void tst_PlantFaults::injectedFaultsAreReportedByAllPrograms()
              qPrintable(shown));
     QCOMPARE(m_plant->qtplc(QStringLiteral("start")).exitCode, 0);
     QTRY_VERIFY_WITH_TIMEOUT(node("Autopilot").value("duplicates").toDouble() > 5, Program::patience);
+}
+
+void tst_PlantFaults::masterWhoseLogNobodyReadsAnswersAndEnds()
+{
+    int ends[2];
+    QCOMPARE(::pipe(ends), 0);
+    Program master(QStringLiteral("/usr/bin/env"),
+                   {QStringLiteral("QT_LOGGING_RULES=qtplc.control.debug=true"), programPath("awe_master"),
+                    QStringLiteral("--port=0")},
+                   ends[1]);
+    QVERIFY(master.waitForOutput(QStringLiteral("\n")));
+    m_plant->port = master.output().section(QLatin1Char('\n'), 0, 0).section(QLatin1Char(' '), 1);
+    const auto isFull = [&] {
+        pollfd pipe = {ends[1], POLLOUT, 0};
+        return ::poll(&pipe, 1, 0) == 0;
+    };
+    for (int i = 0; i < 100 && !isFull(); ++i)
+        QCOMPARE(m_plant->qtplc(QStringLiteral("list")).exitCode, 0);
+    QVERIFY(isFull());
+    for (int i = 0; i < 5; ++i)
+        QCOMPARE(m_plant->qtplc(QStringLiteral("list")).exitCode, 0);
+    master.sendSignal(SIGTERM);
+    QCOMPARE(master.waitForEnd(), 0);
+    ::close(ends[0]);
+    ::close(ends[1]);
 }
 
 QTEST_GUILESS_MAIN(tst_PlantFaults)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "QPlcApplicationOptions.h"
 
+#include "realtime/LogWriter.h"
 #include "signals/MessageText.h"
 #include "transport/FaultPlan.h"
 
@@ -28,11 +29,11 @@ void handleSignal(int)
     Q_UNUSED(written)
 }
 
-void printLines(std::FILE *file, const QString &text)
+void printLines(const QString &text)
 {
     const QByteArray bytes = text.toUtf8();
-    std::fwrite(bytes.constData(), 1, std::size_t(bytes.size()), file);
-    std::fflush(file);
+    std::fwrite(bytes.constData(), 1, std::size_t(bytes.size()), stdout);
+    std::fflush(stdout);
 }
 
 QString helpText(const QCommandLineParser &parser, const QStringList &examples)
@@ -120,6 +121,7 @@ QPlcApplicationOptions::QPlcApplicationOptions()
 
 QPlcApplicationOptions::~QPlcApplicationOptions()
 {
+    qplc::LogWriter::releaseMessages();
     d->notifier.reset();
     if (d->sockets[0] < 0)
         return;
@@ -165,12 +167,11 @@ bool QPlcApplicationOptions::parseOptions()
         return false;
     }
     if (d->parser.isSet(QStringLiteral("help"))) {
-        printLines(stdout, d->helpText ? d->helpText() : helpText(d->parser, d->examples));
+        printLines(d->helpText ? d->helpText() : helpText(d->parser, d->examples));
         return false;
     }
     if (d->parser.isSet(QStringLiteral("version"))) {
-        printLines(stdout,
-                   QStringLiteral("%1 %2\n").arg(QCoreApplication::applicationName(), QStringLiteral(QTPLC_VERSION)));
+        printLines(QStringLiteral("%1 %2\n").arg(QCoreApplication::applicationName(), QStringLiteral(QTPLC_VERSION)));
         return false;
     }
     if (!d->takesArguments && !positionalArguments().isEmpty()) {
@@ -332,7 +333,15 @@ bool QPlcApplicationOptions::readFaultPlan(QString *plan)
 
 void QPlcApplicationOptions::printError(const QString &text)
 {
-    printLines(stderr, QStringLiteral("%1: %2\n").arg(QCoreApplication::applicationName(), text));
+    const QString line = QStringLiteral("%1: %2\n").arg(QCoreApplication::applicationName(), text);
+    qplc::LogWriter &output = qplc::LogWriter::ofStandardError();
+    output.write(line.toUtf8());
+    output.flush(qplc::LogWriter::patience);
+}
+
+void QPlcApplicationOptions::writeMessagesAside()
+{
+    qplc::LogWriter::takeMessages();
 }
 
 int QPlcApplicationOptions::usageError(const QString &text)

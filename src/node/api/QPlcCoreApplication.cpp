@@ -4,6 +4,7 @@
 QPlcCoreApplication::QPlcCoreApplication(int &argc, char **argv)
     : QCoreApplication(argc, argv)
 {
+    writeMessagesAside();
 }
 
 QPlcCoreApplication::~QPlcCoreApplication() = default;

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "LogWriter.h"
+
+#include <QtCore/QLoggingCategory>
+#include <QtCore/QString>
+
+#include <cerrno>
+#include <chrono>
+#include <condition_variable>
+#include <csignal>
+#include <cstdio>
+#include <deque>
+#include <mutex>
+#include <poll.h>
+#include <pthread.h>
+#include <sched.h>
+#include <sys/stat.h>
+#include <thread>
+#include <unistd.h>
+
+namespace qplc {
+
+struct LogWriter::State
+{
+    explicit State(int output)
+        : descriptor(output)
+    {
+    }
+    void push(const QByteArray &line);
+    void tellDropped();
+    void run();
+
+    const int descriptor;
+    mutable std::mutex mutex;
+    std::condition_variable changed;
+    std::deque<QByteArray> lines;
+    int bytes = 0;       // of lines, and of what is being written
+    quint64 untold = 0;  // dropped lines that no line has told yet
+    quint64 dropped = 0;
+    bool isEnding = false;
+};
+
+namespace {
+
+/// Writes all of \a bytes, however long that takes. A descriptor that cannot be written to loses
+/// them.
+void writeAll(int descriptor, const QByteArray &bytes)
+{
+    for (int done = 0; done < bytes.size();) {
+        const ssize_t written = ::write(descriptor, bytes.constData() + done, std::size_t(bytes.size() - done));
+        if (written >= 0) {
+            done += int(written);
+        } else if (errno == EAGAIN || errno == EWOULDBLOCK) {
+            pollfd ready = {descriptor, POLLOUT, 0};
+            ::poll(&ready, 1, -1);
+        } else if (errno != EINTR) {
+            return;
+        }
+    }
+}
+
+void leaveRealTime()
+{
+    const sched_param ordinary = {};
+    pthread_setschedparam(pthread_self(), SCHED_OTHER, &ordinary);
+    pthread_setname_np(pthread_self(), "qplc-log");
+}
+
+}  // namespace
+
+void LogWriter::State::push(const QByteArray &line)
+{
+    bytes += line.size();
+    lines.push_back(line);
+}
+
+void LogWriter::State::tellDropped()
+{
+    push("... " + QByteArray::number(untold) + " lines are missing here: nobody has read them in time\n");
+    untold = 0;
+}
+
+void LogWriter::State::run()
+{
+    leaveRealTime();
+    std::unique_lock<std::mutex> lock(mutex);
+    while (true) {
+        changed.wait(lock, [this] { return !lines.empty() || untold > 0 || isEnding; });
+        if (lines.empty() && untold > 0)
+            tellDropped();
+        if (lines.empty())
+            return;
+        const QByteArray line = lines.front();
+        lines.pop_front();
+        lock.unlock();
+        writeAll(descriptor, line);
+        lock.lock();
+        bytes -= line.size();
+        changed.notify_all();
+    }
+}
+
+LogWriter::LogWriter(int descriptor)
+    : d(std::make_shared<State>(descriptor))
+{
+    // Signals that a process may be sent go to the main thread.
+    sigset_t all;
+    sigset_t before;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    std::thread([state = d] { state->run(); }).detach();
+    pthread_sigmask(SIG_SETMASK, &before, nullptr);
+}
+
+LogWriter::~LogWriter()
+{
+    flush(patience);
+    const std::lock_guard<std::mutex> lock(d->mutex);
+    d->isEnding = true;
+    d->changed.notify_all();
+}
+
+void LogWriter::write(const QByteArray &line)
+{
+    const std::lock_guard<std::mutex> lock(d->mutex);
+    if (d->bytes > 0 && d->bytes + line.size() > mostBytes) {
+        ++d->untold;
+        ++d->dropped;
+        return;
+    }
+    if (d->untold > 0)
+        d->tellDropped();
+    d->push(line);
+    d->changed.notify_all();
+}
+
+bool LogWriter::flush(int milliseconds)
+{
+    std::unique_lock<std::mutex> lock(d->mutex);
+    return d->changed.wait_for(lock, std::chrono::milliseconds(milliseconds),
+                               [this] { return d->bytes == 0 && d->untold == 0; });
+}
+
+quint64 LogWriter::dropped() const
+{
+    const std::lock_guard<std::mutex> lock(d->mutex);
+    return d->dropped;
+}
+
+LogWriter &LogWriter::ofStandardError()
+{
+    static auto *const writer = new LogWriter(STDERR_FILENO);  // other threads may log until the very end
+    return *writer;
+}
+
+namespace {
+
+/// Whether the standard error output is the journal of systemd: systemd.exec(5), $JOURNAL_STREAM.
+bool isJournal()
+{
+    struct stat status = {};
+    if (::fstat(STDERR_FILENO, &status) != 0)
+        return false;
+    return qgetenv("JOURNAL_STREAM")
+        == QByteArray::number(quint64(status.st_dev)) + ':' + QByteArray::number(quint64(status.st_ino));
+}
+
+/// The severities of syslog, as sd-daemon(3) writes them before a line.
+const char *severityOf(QtMsgType type)
+{
+    switch (type) {
+    case QtDebugMsg:
+        return "<7>";
+    case QtInfoMsg:
+        return "<6>";
+    case QtWarningMsg:
+        return "<4>";
+    case QtCriticalMsg:
+        return "<2>";
+    case QtFatalMsg:
+        return "<1>";
+    }
+    return "";
+}
+
+void writeMessage(QtMsgType type, const QMessageLogContext &context, const QString &text)
+{
+    static const bool toJournal = isJournal();
+    const QString line = qFormatLogMessage(type, context, text);
+    if (!line.isNull())
+        LogWriter::ofStandardError().write((toJournal ? severityOf(type) : "") + line.toLocal8Bit() + '\n');
+    if (type == QtFatalMsg)
+        LogWriter::ofStandardError().flush(LogWriter::patience);  // the program ends behind this
+}
+
+}  // namespace
+
+void LogWriter::takeMessages()
+{
+    const QtMessageHandler present = qInstallMessageHandler(nullptr);
+    const QtMessageHandler ofQt = qInstallMessageHandler(nullptr);
+    qInstallMessageHandler(present == ofQt ? writeMessage : present);
+}
+
+void LogWriter::releaseMessages()
+{
+    const QtMessageHandler present = qInstallMessageHandler(nullptr);
+    if (present == writeMessage)
+        LogWriter::ofStandardError().flush(patience);
+    else
+        qInstallMessageHandler(present);
+}
+
+}  // namespace qplc

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QtCore/QByteArray>
+#include <QtCore/QtGlobal>
+
+#include <memory>
+
+class QMessageLogContext;
+class QString;
+
+namespace qplc {
+
+/// Writes lines to a descriptor on a thread of its own, so that nobody waits for their reader: a
+/// terminal that was stopped with Ctrl-S, a journal that stands still, a pipe that is full.
+///
+/// What the reader does not take waits here, up to mostBytes; further lines are dropped, and a line
+/// in their place tells how many. The thread has ordinary scheduling even in a program that was
+/// started by `chrt`.
+/// \threadsafe yes
+class LogWriter
+{
+public:
+    static constexpr int mostBytes = 1 << 20;
+    static constexpr int patience = 1000;  // [ms] for what has not been written when a program ends
+
+    /// \param descriptor  stays open; the writer does not own it
+    explicit LogWriter(int descriptor);
+    /// Waits for a reader that reads, but not longer than patience.
+    ~LogWriter();
+    LogWriter(const LogWriter &) = delete;
+    LogWriter &operator=(const LogWriter &) = delete;
+
+    /// Takes a line with its end. Never waits for the reader.
+    void write(const QByteArray &line);
+    /// Waits until all has been written. \return false: it took longer than \a milliseconds
+    bool flush(int milliseconds);
+    /// Lines that were dropped since the beginning.
+    quint64 dropped() const;
+
+    /// The writer of the process for its standard error output: it lives as long as the process.
+    static LogWriter &ofStandardError();
+    /// From here on, ofStandardError() writes the messages of Qt (qWarning(), qCInfo()). A message
+    /// handler that somebody else has installed stays. The journal of systemd gets the severity of
+    /// each line.
+    static void takeMessages();
+    /// Waits for what has not been written, and lets Qt write messages itself again.
+    static void releaseMessages();
+
+private:
+    struct State;
+    std::shared_ptr<State> d;  // the thread has its own share: it may never return from write()
+};
+
+}  // namespace qplc
