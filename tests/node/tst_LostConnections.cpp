@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ScriptedMaster.h"
 #include "SecurityFixtures.h"
-#include "Winch.h"
 #include "transport/LossWatch.h"
 
 #include <QtTest/QtTest>
@@ -9,8 +7,6 @@
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <sys/socket.h>
-
-using namespace std::chrono_literals;
 
 // The other end is gone without a word, as when its board has no power. That it is noticed on a
 // real wire is shown by tests/netns.
@@ -22,8 +18,6 @@ private Q_SLOTS:
     void bothEndsOfAControlConnectionDetectItsLoss_data();
     void bothEndsOfAControlConnectionDetectItsLoss();
     void aCyclicStreamMayStayUnread();
-    void nodeIsSafeAfterMasterLossAndReconnects_data();
-    void nodeIsSafeAfterMasterLossAndReconnects();
 
 private:
     static quint16 port(const sockaddr_in &address) { return ntohs(address.sin_port); }
@@ -94,41 +88,6 @@ void tst_LostConnections::aCyclicStreamMayStayUnread()
     const auto isPatient = [](int end) { return optionOf(end, IPPROTO_TCP, TCP_USER_TIMEOUT) == 0; };
     QCOMPARE(std::count_if(ends.begin(), ends.end(), isWatched), 2);
     QCOMPARE(std::count_if(ends.begin(), ends.end(), isPatient), 2);
-}
-
-void tst_LostConnections::nodeIsSafeAfterMasterLossAndReconnects_data()
-{
-    QTest::addColumn<QString>("kind");
-    QTest::newRow("tcp") << "tcp";
-    QTest::newRow("udp") << "udp";
-}
-
-void tst_LostConnections::nodeIsSafeAfterMasterLossAndReconnects()
-{
-    QFETCH(QString, kind);
-    Winch winch;
-    quint16 port = 0;
-    {
-        ScriptedMaster master(winchTable());
-        const QPlcUnderlyingProtocol address = kind == "tcp" ? master.tcp() : master.udp();
-        port = address.port();
-        QVERIFY(master.admit(winch, address));
-        QVERIFY(master.start());
-        master.request(0);
-        QVERIFY(master.waitForAnswers(1));
-        master.control->abort();
-        QTRY_COMPARE(winch.state(), QPlcSlaveNode::SafeStop);
-        QCOMPARE(winch.story(), (QStringList{"step", "safe MasterLost", "stopped"}));
-    }
-    TestMaster successor(QPlcClock::realTime(), winchTable());
-    QVERIFY(waitUntil([&] { return successor.startServer(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, port)); },
-                      10s));
-    QTRY_COMPARE_WITH_TIMEOUT(winch.state(), QPlcSlaveNode::Registered, 15000);
-    QCOMPARE(winch.error(), QPlcSlaveNode::NoError);
-    QCOMPARE(successor.state(), QPlcMasterNode::Off);  // and nothing moves
-    pass(50ms);
-    QCOMPARE(winch.story().size(), 3);
-    winch.disconnectFromMaster();
 }
 
 QTEST_GUILESS_MAIN(tst_LostConnections)

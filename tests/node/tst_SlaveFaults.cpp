@@ -2,6 +2,7 @@
 #include "../common/Waiting.h"
 #include "ScriptedMaster.h"
 #include "ScriptedNode.h"
+#include "Winch.h"
 #include "node/api/QPlcSlaveNodePrivate.h"
 #include "node/cycle/SlaveCycle.h"
 #include "realtime/TimeSource.h"
@@ -38,6 +39,8 @@ private Q_SLOTS:
     void wrongOutputListIsAFault();
     void exceptionInStoppedIsTolerated();
     void aTornCyclicStreamEndsTheNode();
+    void nodeIsSafeAfterMasterLossAndReconnects_data();
+    void nodeIsSafeAfterMasterLossAndReconnects();
 };
 
 void tst_SlaveFaults::corruptedFramesDoNotResetTheWatchdog()
@@ -544,6 +547,41 @@ void tst_SlaveFaults::aTornCyclicStreamEndsTheNode()
     QTRY_COMPARE(node.stream.state(), QAbstractSocket::UnconnectedState);
     QCOMPARE(master.state(), QPlcMasterNode::RealTime);
     master.stop();
+}
+
+void tst_SlaveFaults::nodeIsSafeAfterMasterLossAndReconnects_data()
+{
+    QTest::addColumn<QString>("kind");
+    QTest::newRow("tcp") << "tcp";
+    QTest::newRow("udp") << "udp";
+}
+
+void tst_SlaveFaults::nodeIsSafeAfterMasterLossAndReconnects()
+{
+    QFETCH(QString, kind);
+    Winch winch;
+    quint16 port = 0;
+    {
+        ScriptedMaster master(winchTable());
+        const QPlcUnderlyingProtocol address = kind == "tcp" ? master.tcp() : master.udp();
+        port = address.port();
+        QVERIFY(master.admit(winch, address));
+        QVERIFY(master.start());
+        master.request(0);
+        QVERIFY(master.waitForAnswers(1));
+        master.control->abort();
+        QTRY_COMPARE(winch.state(), QPlcSlaveNode::SafeStop);
+        QCOMPARE(winch.story(), (QStringList{"step", "safe MasterLost", "stopped"}));
+    }
+    TestMaster successor(QPlcClock::realTime(), winchTable());
+    QVERIFY(waitUntil([&] { return successor.startServer(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, port)); },
+                      10s));
+    QTRY_COMPARE_WITH_TIMEOUT(winch.state(), QPlcSlaveNode::Registered, 15000);
+    QCOMPARE(winch.error(), QPlcSlaveNode::NoError);
+    QCOMPARE(successor.state(), QPlcMasterNode::Off);  // and nothing moves
+    pass(50ms);
+    QCOMPARE(winch.story().size(), 3);
+    winch.disconnectFromMaster();
 }
 
 QTEST_GUILESS_MAIN(tst_SlaveFaults)
