@@ -20,6 +20,7 @@ private Q_SLOTS:
     void strangersAreToldTogether();
     void eachReportOfOverrunsHasItsOwnNumbers();
     void alarmsAreToldOnceAndCleared();
+    void alarmsThatNobodyClearsHaveABound();
 
 private:
     static QStringList texts(const Journal &journal)
@@ -108,6 +109,24 @@ void tst_Journal::alarmsAreToldOnceAndCleared()
     QCOMPARE(all.front().alarm, QString("node Winch"));
     QVERIFY(all.front().isActive && !all.back().isActive);
     QCOMPARE(all.back().text, QString("node Winch is back, after 1.5 s"));
+}
+
+void tst_Journal::alarmsThatNobodyClearsHaveABound()
+{
+    Journal journal;
+    for (int i = 0; i < Journal::mostAlarms; ++i)
+        journal.raise(QStringLiteral("node %1").arg(i), JournalEvent::Warning, JournalEvent::Node, QString::number(i),
+                      "node is lost");
+    journal.raise("node of a stranger", JournalEvent::Warning, JournalEvent::Node, "stranger", "node is lost");
+    const std::vector<JournalEvent> last = journal.events().after(journal.events().newest() - 2, 2);
+    QCOMPARE(last[0].alarm, QString("node 0"));
+    QVERIFY(!last[0].isActive);
+    QVERIFY2(last[0].text.startsWith("node 0: forgotten, because "), qPrintable(last[0].text));
+    QCOMPARE(last[1].alarm, QString("node of a stranger"));
+    QVERIFY(last[1].isActive);
+    journal.raise("node 1", JournalEvent::Warning, JournalEvent::Node, "1", "node is lost again");  // it is one of them
+    QCOMPARE(journal.events().after(journal.events().newest() - 1, 1)[0].text, QString("node is lost again"));
+    QCOMPARE(journal.events().after(journal.events().newest() - 2, 1)[0].alarm, QString("node of a stranger"));
 }
 
 QTPLC_VIRTUAL_TIME_MAIN(tst_Journal)

@@ -63,8 +63,19 @@ void Journal::raise(const QString &alarm, JournalEvent::Severity severity, Journ
                     const QString &source, const QString &text)
 {
     const JournalEvent event{severity, kind, source, text, alarm, true};
+    if (m_alarms.count(alarm) == 0 && m_alarms.size() >= mostAlarms)
+        forgetOldest();
     m_alarms.try_emplace(alarm, Alarm{event, monotonicNow()});
     append(event);
+}
+
+void Journal::forgetOldest()
+{
+    const auto oldest = std::min_element(m_alarms.begin(), m_alarms.end(), [](const auto &one, const auto &other) {
+        return one.second.since < other.second.since;
+    });
+    const QString alarm = oldest->first;
+    clear(alarm, QStringLiteral("%1: forgotten, because more than %2 conditions last").arg(alarm).arg(mostAlarms));
 }
 
 void Journal::clear(const QString &alarm, const QString &text)

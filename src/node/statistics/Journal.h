@@ -22,6 +22,8 @@ class Journal : public QObject
 {
     Q_OBJECT
 public:
+    static constexpr int mostAlarms = 1000;  // that last
+
     Journal();
 
     const EventLog &events() const { return m_events; }
@@ -29,7 +31,8 @@ public:
     /// \param source  name of a node, or of the master
     void tell(JournalEvent::Severity severity, JournalEvent::Kind kind, const QString &source, const QString &text);
     /// Tells that something abnormal begins, and lasts until it is cleared; its duration counts
-    /// from the first time on.
+    /// from the first time on. If mostAlarms last already, the one that began first is over:
+    /// strangers may bring names without an end.
     /// \param alarm  what: "node Winch"
     void raise(const QString &alarm, JournalEvent::Severity severity, JournalEvent::Kind kind, const QString &source,
                const QString &text);
@@ -71,6 +74,7 @@ private:
     };
 
     void append(const JournalEvent &event);
+    void forgetOldest();
     void tellLimited(const QString &thing, const QString &begin, const JournalEvent &event);
     void tellDue();
     void waitForNext();
