@@ -5,15 +5,30 @@
 #include <QtCore/qendian.h>
 #include <cerrno>
 #include <cstring>
+#include <net/if.h>
 #include <netinet/in.h>
 
 namespace qplc {
 
 namespace {
 
+constexpr quint64 ofIpv6 = quint64(1) << 48;  // an IPv4 address and its port have 48 bits
+
 constexpr quint64 keyOfIpv4(quint32 address, quint16 port)
 {
     return (quint64(address) << 16) | port;
+}
+
+const sockaddr_in6 &ipv6Of(const SocketAddress &address)
+{
+    return *reinterpret_cast<const sockaddr_in6 *>(&address.storage);
+}
+
+/// "eth0" or "2", as behind the % of fe80::1%eth0; 0: none.
+quint32 scopeOf(const QString &scope)
+{
+    const quint32 index = ::if_nametoindex(scope.toLocal8Bit().constData());
+    return index != 0 ? index : scope.toUInt();
 }
 
 }  // namespace
@@ -36,7 +51,7 @@ SocketAddress::SocketAddress(const QHostAddress &address, quint16 port)
     target->sin6_family = AF_INET6;
     target->sin6_port = qToBigEndian(port);
     std::memcpy(&target->sin6_addr, &ipv6, sizeof ipv6);
-    target->sin6_scope_id = address.scopeId().toUInt();
+    target->sin6_scope_id = scopeOf(address.scopeId());
     length = sizeof(sockaddr_in6);
 }
 
@@ -61,13 +76,23 @@ quint64 SocketAddress::key() const
 {
     if (family() == AF_INET)
         return keyOfIpv4(reinterpret_cast<const sockaddr_in *>(&storage)->sin_addr.s_addr, port());
-    const in6_addr &address = reinterpret_cast<const sockaddr_in6 *>(&storage)->sin6_addr;
+    const in6_addr &address = ipv6Of(*this).sin6_addr;
     if (IN6_IS_ADDR_V4MAPPED(&address)) {
         quint32 ipv4 = 0;
         std::memcpy(&ipv4, &address.s6_addr[12], 4);
         return keyOfIpv4(ipv4, port());
     }
-    return qHashBits(&address, sizeof address) ^ (quint64(port()) << 48) ^ (quint64(1) << 47);
+    return ofIpv6 | (quint64(qHashBits(&address, sizeof address)) << 16) | port();
+}
+
+bool operator==(const SocketAddress &one, const SocketAddress &other)
+{
+    const quint64 key = one.key();
+    if (key != other.key())
+        return false;
+    return (key & ofIpv6) == 0
+        || (IN6_ARE_ADDR_EQUAL(&ipv6Of(one).sin6_addr, &ipv6Of(other).sin6_addr)
+            && ipv6Of(one).sin6_scope_id == ipv6Of(other).sin6_scope_id);
 }
 
 QString SocketAddress::toString() const

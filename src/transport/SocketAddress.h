@@ -22,10 +22,13 @@ struct SocketAddress
     sockaddr *data() { return reinterpret_cast<sockaddr *>(&storage); }
     int family() const { return storage.ss_family; }
     quint16 port() const;
-    /// Equal for equal addresses; what peers are looked up by. An IPv4 address mapped into IPv6
-    /// counts as the IPv4 address.
+    /// A number to look peers up by: equal for equal addresses. Two IPv6 addresses that are not
+    /// equal may have the same number, so compare them, too.
     quint64 key() const;
     QString toString() const;
+    /// Whether address, port and, of IPv6, the scope are the same. An IPv4 address mapped into IPv6
+    /// is the same as the IPv4 address.
+    friend bool operator==(const SocketAddress &one, const SocketAddress &other);
 };
 
 /// "Address already in use": text of the current errno.

@@ -172,9 +172,8 @@ void UdpTransport::rebuild() noexcept
 
 UdpTransport::Peer *UdpTransport::find(const SocketAddress &address) noexcept
 {
-    const std::uint64_t key = address.key();
-    std::size_t place = placeOf(key);
-    while (m_table[place] && m_table[place]->address.key() != key)
+    std::size_t place = placeOf(address.key());
+    while (m_table[place] && !(m_table[place]->address == address))
         place = (place + 1) % TableSize;
     return m_table[place];
 }

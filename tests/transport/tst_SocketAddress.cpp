@@ -4,6 +4,9 @@
 #include <QtCore/QSet>
 #include <QtTest/QtTest>
 
+#include <net/if.h>
+#include <random>
+
 using qplc::SocketAddress;
 
 class tst_SocketAddress : public QObject
@@ -14,6 +17,8 @@ private Q_SLOTS:
     void addressHasTheLayoutOfTheKernel();
     void mappedIpv4CountsAsIpv4();
     void differentPeersHaveDifferentKeys();
+    void ipv6PeersWithOneKeyAreDifferent();
+    void sameAddressOnAnotherInterfaceIsAnotherPeer();
     void systemErrorIsDescribed();
 };
 
@@ -64,6 +69,36 @@ void tst_SocketAddress::differentPeersHaveDifferentKeys()
         }
     }
     QCOMPARE(keys.size(), count);
+}
+
+void tst_SocketAddress::ipv6PeersWithOneKeyAreDifferent()
+{
+    QHash<quint64, SocketAddress> byKey;
+    std::mt19937_64 random(1);
+    for (int i = 0; i < 1'000'000; ++i) {
+        SocketAddress address(QHostAddress("2001:db8::"), 50000);
+        const std::uint64_t host = random();
+        std::memcpy(&reinterpret_cast<sockaddr_in6 *>(address.data())->sin6_addr.s6_addr[8], &host, sizeof host);
+        QVERIFY(address == address);
+        const auto known = byKey.constFind(address.key());
+        if (known != byKey.constEnd()) {
+            QVERIFY(!(*known == address));
+            return;
+        }
+        byKey.insert(address.key(), address);
+    }
+    QFAIL("no two of these addresses have one key: look for others");
+}
+
+void tst_SocketAddress::sameAddressOnAnotherInterfaceIsAnotherPeer()
+{
+    const SocketAddress none(QHostAddress("fe80::1"), 50000);
+    const SocketAddress loopback(QHostAddress("fe80::1%lo"), 50000);
+    QCOMPARE(reinterpret_cast<const sockaddr_in6 *>(loopback.data())->sin6_scope_id, ::if_nametoindex("lo"));
+    QCOMPARE(reinterpret_cast<const sockaddr_in6 *>(SocketAddress(QHostAddress("fe80::1%7"), 1).data())->sin6_scope_id,
+             quint32(7));
+    QVERIFY(!(none == loopback));
+    QVERIFY(loopback == SocketAddress(QHostAddress("fe80::1%lo"), 50000));
 }
 
 void tst_SocketAddress::systemErrorIsDescribed()
