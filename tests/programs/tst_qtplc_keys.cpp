@@ -12,6 +12,7 @@ class tst_qtplc_keys : public QObject
 private Q_SLOTS:
     void init() { m_folder.reset(new QTemporaryDir); }
     void keysAreMadeShownAndRevoked();
+    void keysSurviveALossOfPower();
     void otherLinesOfTheFileStay();
     void mistakesAreReportedInOneSentence_data();
     void mistakesAreReportedInOneSentence();
@@ -63,6 +64,24 @@ void tst_qtplc_keys::keysAreMadeShownAndRevoked()
     QVERIFY(!content("keys.ini").contains("Model") && content("keys.ini").contains("anna"));
     QCOMPARE(keys({"revoke", "anna"}).exitCode, 0);
     QCOMPARE(keys({"list"}).exitCode, 0);
+}
+
+void tst_qtplc_keys::keysSurviveALossOfPower()
+{
+    const QString trace = path("trace");
+    const QStringList options{"-f", "-qq", "-y", "-e", "trace=fsync,fdatasync,linkat,rename,renameat,renameat2",
+                              "-o", trace};
+    if (runProgram("strace", options + QStringList{"true"}).exitCode != 0)
+        QSKIP("strace is not there, or may not trace");
+    const Outcome made = runProgram(
+        "strace", options + QStringList{programPath("qtplc"), "keys", "new", "Model", "--keys", path("keys.ini")});
+    QCOMPARE(made.errors, QString());
+    const QStringList calls = QString::fromUtf8(content("trace")).split('\n').filter(m_folder->path());
+    const int named = calls.indexOf(QRegularExpression(".*(link|rename).*keys\\.ini.*"));
+    QVERIFY2(named > 0, qPrintable(calls.join('\n')));
+    QVERIFY2(calls.at(named - 1).contains("sync("), qPrintable(calls.join('\n')));  // the keys
+    QVERIFY2(calls.value(named + 1).contains(QRegularExpression("fsync\\(\\d+<" + m_folder->path() + ">")),
+             qPrintable(calls.join('\n')));  // their name
 }
 
 void tst_qtplc_keys::otherLinesOfTheFileStay()

@@ -4,8 +4,10 @@
 #include "transport/SocketAddress.h"
 
 #include <QtCore/QFile>
+#include <QtCore/QFileInfo>
 #include <QtCore/QSaveFile>
 
+#include <cerrno>
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -36,6 +38,20 @@ QString weakness(const QString &fileName, SecretFile::Need need, const struct st
     return {};
 }
 
+/// So that a new name in the folder of a file survives a loss of power.
+bool syncFolderOf(const QString &fileName)
+{
+    const QByteArray folder = QFile::encodeName(QFileInfo(fileName).absolutePath());
+    const int descriptor = ::open(folder.constData(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0)
+        return false;
+    const bool isDone = ::fsync(descriptor) == 0 || errno == EINVAL || errno == EROFS;  // a file system that cannot
+    const int error = errno;
+    ::close(descriptor);
+    errno = error;
+    return isDone;
+}
+
 }  // namespace
 
 bool SecretFile::read(const QString &fileName, Need need, QByteArray *content, QString *error)
@@ -60,11 +76,18 @@ bool SecretFile::write(const QString &fileName, const QByteArray &content, QStri
 {
     QSaveFile file(fileName);
     file.setDirectWriteFallback(false);
-    if (file.open(QIODevice::WriteOnly) && file.setPermissions(QFileDevice::ReadOwner | QFileDevice::WriteOwner)
-        && file.write(content) == content.size() && file.commit())
-        return true;
-    *error = QStringLiteral("cannot write %1: %2").arg(fileName, file.errorString());
-    return false;
+    if (!file.open(QIODevice::WriteOnly) || !file.setPermissions(QFileDevice::ReadOwner | QFileDevice::WriteOwner)
+        || file.write(content) != content.size() || !file.flush() || ::fsync(file.handle()) != 0 || !file.commit()) {
+        const QString reason = file.error() == QFileDevice::NoError ? systemErrorText() : file.errorString();
+        *error = QStringLiteral("cannot write %1: %2").arg(fileName, reason);
+        return false;
+    }
+    if (!syncFolderOf(fileName)) {
+        *error
+            = QStringLiteral("%1 is written, but may not survive a loss of power: %2").arg(fileName, systemErrorText());
+        return false;
+    }
+    return true;
 }
 
 }  // namespace qplc
