@@ -1,13 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "DriverCatalog.h"
 
-#include "can/CanDriver.h"
-#include "gpio/GpioDriver.h"
-#include "i2c/I2cRegistersDriver.h"
-#include "i2c/Mpu6050Driver.h"
-#include "modbus/ModbusDriver.h"
-#include "serial/NmeaWindDriver.h"
-#include "spi/Mcp3208Driver.h"
+#include "Drivers.h"
 
 namespace qplc {
 
@@ -22,21 +16,17 @@ DriverCatalog::DriverCatalog()
 {
     add(QStringLiteral("can"),
         {QStringLiteral("messages of a CAN bus: SocketCAN, Qt Serial Bus, or a fake bus of this computer"),
-         [] { return std::make_unique<CanDriver>(); }});
-    add(QStringLiteral("gpio"), {QStringLiteral("switches and lamps at the lines of a GPIO chip"), [] {
-                                     return std::make_unique<GpioDriver>();
-                                 }});
+         createCanDriver});
+    add(QStringLiteral("gpio"), {QStringLiteral("switches and lamps at the lines of a GPIO chip"), createGpioDriver});
     add(QStringLiteral("i2c-registers"),
-        {QStringLiteral("any I2C device, its registers named by the configuration"),
-         [] { return std::make_unique<I2cRegistersDriver>(); }});
-    add(QStringLiteral("mcp3208"),
-        {QStringLiteral("converter MCP3208 on SPI: 8 voltages"), [] { return std::make_unique<Mcp3208Driver>(); }});
-    add(QStringLiteral("modbus"), {ModbusDriver::description(), [] { return std::make_unique<ModbusDriver>(); }});
-    add(QStringLiteral("mpu6050"),
-        {QStringLiteral("inertial sensor MPU-6050 on I2C"), [] { return std::make_unique<Mpu6050Driver>(); }});
-    add(QStringLiteral("nmea-wind"), {QStringLiteral("wind sensor on a serial line that speaks NMEA 0183"), [] {
-                                          return std::make_unique<NmeaWindDriver>();
-                                      }});
+        {QStringLiteral("any I2C device, its registers named by the configuration"), createI2cRegistersDriver});
+    add(QStringLiteral("mcp3208"), {QStringLiteral("converter MCP3208 on SPI: 8 voltages"), createMcp3208Driver});
+    add(QStringLiteral("modbus"),
+        {QStringLiteral("registers and coils of a Modbus device, over TCP or a serial line (RTU)"),
+         createModbusDriver});
+    add(QStringLiteral("mpu6050"), {QStringLiteral("inertial sensor MPU-6050 on I2C"), createMpu6050Driver});
+    add(QStringLiteral("nmea-wind"),
+        {QStringLiteral("wind sensor on a serial line that speaks NMEA 0183"), createNmeaWindDriver});
 }
 
 }  // namespace qplc

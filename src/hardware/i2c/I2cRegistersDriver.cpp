@@ -1,129 +1,175 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "I2cRegistersDriver.h"
-
+#include "I2cBus.h"
+#include "I2cRegister.h"
 #include "QPlcDriverSettings.h"
+#include "QPlcReadChannel.h"
+#include "QPlcWriteChannel.h"
+#include "hardware/Drivers.h"
 #include "signals/MessageText.h"
 
 #include <cerrno>
+#include <vector>
 
 namespace qplc {
 
-I2cRegistersDriver::I2cRegistersDriver()
-    : QPlcDriver(OwnPace)
-{
-}
+namespace {
 
-void I2cRegistersDriver::configure(QPlcDriverSettings &settings)
+/// Kind `i2c-registers`: any I2C device, its registers named by the configuration. See
+/// docs/hardware/i2c.md.
+class I2cRegistersDriver final : public QPlcDriver
 {
-    m_device = settings.requiredText(QStringLiteral("device"), QStringLiteral("/dev/i2c-1"));
-    settings.requiredText(QStringLiteral("address"), QStringLiteral("0x68"));
-    m_address = int(
-        settings.integer(QStringLiteral("address"), I2cBus::FirstAddress, I2cBus::FirstAddress, I2cBus::LastAddress));
-    configureBytes(settings, QStringLiteral("identity"), &m_identity);
-    configureBytes(settings, QStringLiteral("setup"), &m_setUp);
-    const QString prefix = QStringLiteral("register.");
-    for (const QString &name : settings.namesBehind(prefix)) {
-        I2cRegister reg;
-        const QString error = I2cRegister::read(settings.list(prefix + name), &reg);
+public:
+    I2cRegistersDriver()
+        : QPlcDriver(OwnPace)
+    {
+    }
+
+protected:
+    void configure(QPlcDriverSettings &settings) override
+    {
+        m_device = settings.requiredText(QStringLiteral("device"), QStringLiteral("/dev/i2c-1"));
+        settings.requiredText(QStringLiteral("address"), QStringLiteral("0x68"));
+        m_address = int(settings.integer(QStringLiteral("address"), I2cBus::FirstAddress, I2cBus::FirstAddress,
+                                         I2cBus::LastAddress));
+        configureBytes(settings, QStringLiteral("identity"), &m_identity);
+        configureBytes(settings, QStringLiteral("setup"), &m_setUp);
+        const QString prefix = QStringLiteral("register.");
+        for (const QString &name : settings.namesBehind(prefix)) {
+            I2cRegister reg;
+            const QString error = I2cRegister::read(settings.list(prefix + name), &reg);
+            if (!error.isEmpty())
+                settings.addError(prefix + name, error);
+            else if (reg.isWritten)
+                m_outputs.push_back(std::make_unique<Item<QPlcWriteChannel>>(this, name, reg));
+            else
+                m_inputs.push_back(std::make_unique<Item<QPlcReadChannel>>(this, name, reg));
+        }
+        if (m_inputs.empty() && m_outputs.empty())
+            settings.addError(QString(),
+                              QStringLiteral("no register of the device is used; say 'register.NAME = 0x3b, int16'"));
+    }
+
+    bool open() override
+    {
+        QString error;
+        m_bus = I2cBus::open(m_device, m_address, &error);
+        if (!m_bus)
+            return fail(error);
+        for (const ByteValue &wanted : m_identity) {
+            quint8 found = 0;
+            if (!m_bus->read(wanted.reg, &found, 1))
+                return failAt(wanted.reg, QStringLiteral("read"));
+            if (found != wanted.value)
+                return fail(
+                    QStringLiteral("register %1 of the device at %2 of %3 is %4, and not %5 as 'identity' requires; "
+                                   "this is another device: look at 'address' and 'identity'")
+                        .arg(i2cAddressText(wanted.reg), i2cAddressText(m_address), m_device, i2cAddressText(found),
+                             i2cAddressText(wanted.value)));
+        }
+        for (const ByteValue &order : m_setUp) {
+            if (!m_bus->write(order.reg, &order.value, 1))
+                return failAt(order.reg, QStringLiteral("write"));
+        }
+        return true;
+    }
+
+    void close() override { m_bus.reset(); }
+    bool read() override
+    {
+        for (const auto &input : m_inputs) {
+            quint8 bytes[I2cRegister::MostBytes] = {};
+            if (!input->channel.isWired())
+                continue;
+            if (!m_bus->read(input->reg.first, bytes, input->reg.size))
+                return failAt(input->reg.first, QStringLiteral("read"));
+            input->channel.set(input->reg.valueOf(bytes));
+        }
+        return true;
+    }
+
+    // In each interval, changed or not: a device that was reset has its value back.
+    bool write() override
+    {
+        for (const auto &output : m_outputs) {
+            quint8 bytes[I2cRegister::MostBytes] = {};
+            if (!output->channel.hasValue())
+                continue;
+            output->reg.bytesOf(output->channel.value(), bytes);
+            if (!m_bus->write(output->reg.first, bytes, output->reg.size))
+                return failAt(output->reg.first, QStringLiteral("write"));
+        }
+        return true;
+    }
+
+    QString remedy(int errorNumber) const override
+    {
+        const QString text = i2cRemedy(errorNumber);
+        return text.isEmpty() ? QPlcDriver::remedy(errorNumber) : text;
+    }
+
+private:
+    template<typename Channel>
+    struct Item
+    {
+        Item(QPlcDriver *driver, const QString &name, const I2cRegister &what)
+            : reg(what)
+            , channel(driver, name)
+        {
+        }
+        const I2cRegister reg;
+        Channel channel;
+    };
+    struct ByteValue
+    {
+        quint8 reg = 0;
+        quint8 value = 0;
+    };
+    static QString readBytes(const QStringList &words, std::vector<ByteValue> *result)
+    {
+        for (const QString &word : words) {
+            const QStringList parts = word.simplified().split(QLatin1Char(' '));
+            bool isRegister = false;
+            bool isValue = false;
+            const uint reg = parts.value(0).toUInt(&isRegister, 0);
+            const uint value = parts.value(1).toUInt(&isValue, 0);
+            if (parts.size() != 2 || !isRegister || !isValue || reg > 0xff || value > 0xff)
+                return QStringLiteral(
+                           "%1 is not a register with its value; write '0x6b 0x00', with commas between several")
+                    .arg(quoted(word));
+            result->push_back({quint8(reg), quint8(value)});
+        }
+        return QString();
+    }
+
+    void configureBytes(QPlcDriverSettings &settings, const QString &key, std::vector<ByteValue> *result)
+    {
+        const QString error = readBytes(settings.list(key), result);
         if (!error.isEmpty())
-            settings.addError(prefix + name, error);
-        else if (reg.isWritten)
-            m_outputs.push_back(std::make_unique<Item<QPlcWriteChannel>>(this, name, reg));
-        else
-            m_inputs.push_back(std::make_unique<Item<QPlcReadChannel>>(this, name, reg));
+            settings.addError(key, error);
     }
-    if (m_inputs.empty() && m_outputs.empty())
-        settings.addError(QString(),
-                          QStringLiteral("no register of the device is used; say 'register.NAME = 0x3b, int16'"));
-}
 
-void I2cRegistersDriver::configureBytes(QPlcDriverSettings &settings, const QString &key,
-                                        std::vector<ByteValue> *result)
-{
-    const QString error = readBytes(settings.list(key), result);
-    if (!error.isEmpty())
-        settings.addError(key, error);
-}
-
-QString I2cRegistersDriver::readBytes(const QStringList &words, std::vector<ByteValue> *result)
-{
-    for (const QString &word : words) {
-        const QStringList parts = word.simplified().split(QLatin1Char(' '));
-        bool isRegister = false;
-        bool isValue = false;
-        const uint reg = parts.value(0).toUInt(&isRegister, 0);
-        const uint value = parts.value(1).toUInt(&isValue, 0);
-        if (parts.size() != 2 || !isRegister || !isValue || reg > 0xff || value > 0xff)
-            return QStringLiteral("%1 is not a register with its value; write '0x6b 0x00', with commas between several")
-                .arg(quoted(word));
-        result->push_back({quint8(reg), quint8(value)});
+    bool failAt(quint8 reg, const QString &what)
+    {
+        const int errorNumber = errno;
+        return fail(QStringLiteral("cannot %1 register %2 of the device at %3 of %4: %5; %6")
+                        .arg(what, i2cAddressText(reg), i2cAddressText(m_address), m_device,
+                             qt_error_string(errorNumber), remedy(errorNumber)));
     }
-    return QString();
-}
 
-bool I2cRegistersDriver::failAt(quint8 reg, const QString &what)
-{
-    const int errorNumber = errno;
-    return fail(QStringLiteral("cannot %1 register %2 of the device at %3 of %4: %5; %6")
-                    .arg(what, i2cAddressText(reg), i2cAddressText(m_address), m_device, qt_error_string(errorNumber),
-                         remedy(errorNumber)));
-}
+    QString m_device;
+    int m_address = 0;
+    std::vector<ByteValue> m_identity;  // what the device must say of itself
+    std::vector<ByteValue> m_setUp;     // what it is told first
+    std::vector<std::unique_ptr<Item<QPlcReadChannel>>> m_inputs;
+    std::vector<std::unique_ptr<Item<QPlcWriteChannel>>> m_outputs;
+    std::unique_ptr<I2cBus> m_bus;
+};
 
-bool I2cRegistersDriver::open()
-{
-    QString error;
-    m_bus = I2cBus::open(m_device, m_address, &error);
-    if (!m_bus)
-        return fail(error);
-    for (const ByteValue &wanted : m_identity) {
-        quint8 found = 0;
-        if (!m_bus->read(wanted.reg, &found, 1))
-            return failAt(wanted.reg, QStringLiteral("read"));
-        if (found != wanted.value)
-            return fail(
-                QStringLiteral("register %1 of the device at %2 of %3 is %4, and not %5 as 'identity' requires; "
-                               "this is another device: look at 'address' and 'identity'")
-                    .arg(i2cAddressText(wanted.reg), i2cAddressText(m_address), m_device, i2cAddressText(found),
-                         i2cAddressText(wanted.value)));
-    }
-    for (const ByteValue &order : m_setUp) {
-        if (!m_bus->write(order.reg, &order.value, 1))
-            return failAt(order.reg, QStringLiteral("write"));
-    }
-    return true;
-}
+}  // namespace
 
-bool I2cRegistersDriver::read()
+std::unique_ptr<QPlcDriver> createI2cRegistersDriver()
 {
-    for (const auto &input : m_inputs) {
-        quint8 bytes[I2cRegister::MostBytes] = {};
-        if (!input->channel.isWired())
-            continue;
-        if (!m_bus->read(input->reg.first, bytes, input->reg.size))
-            return failAt(input->reg.first, QStringLiteral("read"));
-        input->channel.set(input->reg.valueOf(bytes));
-    }
-    return true;
-}
-
-// In each interval, changed or not: a device that was reset has its value back.
-bool I2cRegistersDriver::write()
-{
-    for (const auto &output : m_outputs) {
-        quint8 bytes[I2cRegister::MostBytes] = {};
-        if (!output->channel.hasValue())
-            continue;
-        output->reg.bytesOf(output->channel.value(), bytes);
-        if (!m_bus->write(output->reg.first, bytes, output->reg.size))
-            return failAt(output->reg.first, QStringLiteral("write"));
-    }
-    return true;
-}
-
-QString I2cRegistersDriver::remedy(int errorNumber) const
-{
-    const QString text = i2cRemedy(errorNumber);
-    return text.isEmpty() ? QPlcDriver::remedy(errorNumber) : text;
+    return std::make_unique<I2cRegistersDriver>();
 }
 
 }  // namespace qplc

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "Mpu6050Driver.h"
-
+#include "I2cBus.h"
 #include "QPlcDriverSettings.h"
+#include "QPlcReadChannel.h"
+#include "hardware/Drivers.h"
 
 #include <cerrno>
 #include <chrono>
@@ -48,130 +49,169 @@ bool isKnownIdentity(quint8 identity)
     return false;
 }
 
+/// Kind `mpu6050`: the inertial sensor MPU-6050 and its like: MPU-9150, which has one inside,
+/// MPU-6500, and MPU-9250 and 9255, which have that one. See docs/hardware/i2c.md.
+///
+/// Axes are those that are printed on the chip.
+class Mpu6050Driver final : public QPlcDriver
+{
+public:
+    Mpu6050Driver()
+        : QPlcDriver(OwnPace)
+    {
+    }
+
+protected:
+    void configure(QPlcDriverSettings &settings) override
+    {
+        m_device = settings.requiredText(QStringLiteral("device"), QStringLiteral("/dev/i2c-1"));
+        m_address = int(settings.integer(QStringLiteral("address"), 0x68, I2cBus::FirstAddress, I2cBus::LastAddress));
+        m_accelerationRange = quint8(settings.choice(
+            QStringLiteral("accelerationRange"),
+            {QStringLiteral("2 g"), QStringLiteral("4 g"), QStringLiteral("8 g"), QStringLiteral("16 g")}, 1));
+        m_rateRange = quint8(settings.choice(QStringLiteral("rateRange"),
+                                             {QStringLiteral("250 deg/s"), QStringLiteral("500 deg/s"),
+                                              QStringLiteral("1000 deg/s"), QStringLiteral("2000 deg/s")},
+                                             1));
+        setUpRates(settings);
+    }
+
+    bool open() override
+    {
+        QString error;
+        m_bus = I2cBus::open(m_device, m_address, &error);
+        if (!m_bus)
+            return fail(error);
+        return checkIdentity() && wakeUp();
+    }
+
+    void close() override { m_bus.reset(); }
+    bool read() override
+    {
+        quint8 bytes[SampleBytes] = {};
+        if (m_lastSample == 0)
+            m_lastSample = now();
+        if (!m_bus->read(InterruptStatus, bytes, SampleBytes))
+            return failToTalk();
+        if (!(bytes[0] & DataReady)) {
+            const bool isLate = now() - m_lastSample > std::chrono::nanoseconds(1s + timeout()).count();
+            return !isLate
+                || fail(QStringLiteral("the MPU-6050 at %1 of %2 gives no samples any more: it has lost its settings, "
+                                       "probably its power; look at its supply")
+                            .arg(i2cAddressText(m_address), m_device));
+        }
+        m_lastSample = now();
+        const double acceleration = AccelerationPerRange * double(1 << m_accelerationRange);
+        const double rate = RatePerRange * double(1 << m_rateRange);
+        for (int axis = 0; axis < 3; ++axis) {
+            m_acceleration[axis].set(acceleration * countsAt(bytes + 1 + 2 * axis));
+            m_rate[axis].set(rate * countsAt(bytes + 9 + 2 * axis));
+        }
+        const double counts = countsAt(bytes + 7);
+        m_temperature.set(m_isMpu6500 ? counts / 333.87 + 21.0 : counts / 340.0 + 36.53);
+        return true;
+    }
+
+    QString remedy(int errorNumber) const override
+    {
+        const QString text = i2cRemedy(errorNumber);
+        return text.isEmpty() ? QPlcDriver::remedy(errorNumber) : text;
+    }
+
+private:
+    bool checkIdentity()
+    {
+        quint8 identity = 0;
+        if (!m_bus->read(WhoAmI, &identity, 1))
+            return failToTalk();
+        m_isMpu6500 = identity != 0x68;
+        return isKnownIdentity(identity)
+            || fail(QStringLiteral(
+                        "the device at %1 of %2 is not an MPU-6050: its register WHO_AM_I (0x75) is %3, and not 0x68; "
+                        "the sensor answers at 0x68, or at 0x69 when its pin AD0 is high: look at 'address'")
+                        .arg(i2cAddressText(m_address), m_device, i2cAddressText(identity)));
+    }
+
+    bool wakeUp()
+    {
+        struct Order
+        {
+            quint8 reg;
+            quint8 value;
+        };
+        const Order orders[] = {
+            {PowerManagement, ClockOfGyro},
+            {AxesManagement, 0},  // none is asleep
+            {UserControl, 0},     // no queue: newest sample only
+            {SampleRateDivider, m_divider},
+            {Configuration, m_filter},
+            {RateConfiguration, quint8(m_rateRange << 3)},
+            {AccelerationConfiguration, quint8(m_accelerationRange << 3)},
+            {AccelerationFilter, m_filter},
+            {InterruptEnable, DataReady},
+        };
+        for (const Order &order : orders) {
+            if ((m_isMpu6500 || order.reg != AccelerationFilter) && !m_bus->write(order.reg, &order.value, 1))
+                return failToTalk();
+        }
+        m_lastSample = 0;
+        return true;
+    }
+
+    void setUpRates(QPlcDriverSettings &settings)
+    {
+        // The index is that of the register, where 0 switches the filter off; its clock is 1 kHz
+        // with a filter.
+        const QStringList bandwidths{QStringLiteral("188 Hz"), QStringLiteral("98 Hz"), QStringLiteral("42 Hz"),
+                                     QStringLiteral("20 Hz"),  QStringLiteral("10 Hz"), QStringLiteral("5 Hz")};
+        m_filter = quint8(1 + settings.choice(QStringLiteral("bandwidth"), bandwidths, 2));
+        const QString key = QStringLiteral("sampleRate");
+        const double rate = settings.number(key, 200.0, 4.0, 1000.0);
+        const double divider = 1000.0 / rate;
+        if (std::abs(divider - std::round(divider)) > 1e-6 * divider)
+            settings.addError(
+                key,
+                QStringLiteral("the device takes 1000 Hz divided by a whole number; near are %1 Hz and %2 Hz")
+                    .arg(1000.0 / std::ceil(divider))
+                    .arg(1000.0 / std::floor(divider)));
+        m_divider = quint8(std::lround(divider) - 1);
+    }
+
+    bool failToTalk()
+    {
+        const int errorNumber = errno;
+        return fail(QStringLiteral("cannot talk to the MPU-6050 at %1 of %2: %3; %4")
+                        .arg(i2cAddressText(m_address), m_device, qt_error_string(errorNumber), remedy(errorNumber)));
+    }
+
+    QString m_device;
+    int m_address = 0;
+    bool m_isMpu6500 = false;  // or one that has it inside
+    quint8 m_filter = 0;       // register CONFIG
+    quint8 m_divider = 0;      // register SMPLRT_DIV
+    quint8 m_rateRange = 0;
+    quint8 m_accelerationRange = 0;
+    std::unique_ptr<I2cBus> m_bus;
+    qint64 m_lastSample = 0;  // when it came [ns]; 0: the device has just been opened
+
+    QPlcReadChannel m_acceleration[3] = {
+        {this, QStringLiteral("accelerationX")},
+        {this, QStringLiteral("accelerationY")},
+        {this, QStringLiteral("accelerationZ")},
+    };  // [m/s^2]
+    QPlcReadChannel m_rate[3] = {
+        {this, QStringLiteral("rateX")},
+        {this, QStringLiteral("rateY")},
+        {this, QStringLiteral("rateZ")},
+    };                                                                   // [rad/s]
+    QPlcReadChannel m_temperature{this, QStringLiteral("temperature")};  // of the chip [degC]
+};
+
 }  // namespace
 
-Mpu6050Driver::Mpu6050Driver()
-    : QPlcDriver(OwnPace)
+std::unique_ptr<QPlcDriver> createMpu6050Driver()
 {
-}
-
-void Mpu6050Driver::configure(QPlcDriverSettings &settings)
-{
-    m_device = settings.requiredText(QStringLiteral("device"), QStringLiteral("/dev/i2c-1"));
-    m_address = int(settings.integer(QStringLiteral("address"), 0x68, I2cBus::FirstAddress, I2cBus::LastAddress));
-    m_accelerationRange = quint8(settings.choice(
-        QStringLiteral("accelerationRange"),
-        {QStringLiteral("2 g"), QStringLiteral("4 g"), QStringLiteral("8 g"), QStringLiteral("16 g")}, 1));
-    m_rateRange = quint8(settings.choice(QStringLiteral("rateRange"),
-                                         {QStringLiteral("250 deg/s"), QStringLiteral("500 deg/s"),
-                                          QStringLiteral("1000 deg/s"), QStringLiteral("2000 deg/s")},
-                                         1));
-    setUpRates(settings);
-}
-
-void Mpu6050Driver::setUpRates(QPlcDriverSettings &settings)
-{
-    // The index is that of the register, where 0 switches the filter off; its clock is 1 kHz with a
-    // filter.
-    const QStringList bandwidths{QStringLiteral("188 Hz"), QStringLiteral("98 Hz"), QStringLiteral("42 Hz"),
-                                 QStringLiteral("20 Hz"),  QStringLiteral("10 Hz"), QStringLiteral("5 Hz")};
-    m_filter = quint8(1 + settings.choice(QStringLiteral("bandwidth"), bandwidths, 2));
-    const QString key = QStringLiteral("sampleRate");
-    const double rate = settings.number(key, 200.0, 4.0, 1000.0);
-    const double divider = 1000.0 / rate;
-    if (std::abs(divider - std::round(divider)) > 1e-6 * divider)
-        settings.addError(key,
-                          QStringLiteral("the device takes 1000 Hz divided by a whole number; near are %1 Hz and %2 Hz")
-                              .arg(1000.0 / std::ceil(divider))
-                              .arg(1000.0 / std::floor(divider)));
-    m_divider = quint8(std::lround(divider) - 1);
-}
-
-bool Mpu6050Driver::failToTalk()
-{
-    const int errorNumber = errno;
-    return fail(QStringLiteral("cannot talk to the MPU-6050 at %1 of %2: %3; %4")
-                    .arg(i2cAddressText(m_address), m_device, qt_error_string(errorNumber), remedy(errorNumber)));
-}
-
-bool Mpu6050Driver::open()
-{
-    QString error;
-    m_bus = I2cBus::open(m_device, m_address, &error);
-    if (!m_bus)
-        return fail(error);
-    return checkIdentity() && wakeUp();
-}
-
-bool Mpu6050Driver::checkIdentity()
-{
-    quint8 identity = 0;
-    if (!m_bus->read(WhoAmI, &identity, 1))
-        return failToTalk();
-    m_isMpu6500 = identity != 0x68;
-    return isKnownIdentity(identity)
-        || fail(QStringLiteral(
-                    "the device at %1 of %2 is not an MPU-6050: its register WHO_AM_I (0x75) is %3, and not 0x68; "
-                    "the sensor answers at 0x68, or at 0x69 when its pin AD0 is high: look at 'address'")
-                    .arg(i2cAddressText(m_address), m_device, i2cAddressText(identity)));
-}
-
-bool Mpu6050Driver::wakeUp()
-{
-    struct Order
-    {
-        quint8 reg;
-        quint8 value;
-    };
-    const Order orders[] = {
-        {PowerManagement, ClockOfGyro},
-        {AxesManagement, 0},  // none is asleep
-        {UserControl, 0},     // no queue: newest sample only
-        {SampleRateDivider, m_divider},
-        {Configuration, m_filter},
-        {RateConfiguration, quint8(m_rateRange << 3)},
-        {AccelerationConfiguration, quint8(m_accelerationRange << 3)},
-        {AccelerationFilter, m_filter},
-        {InterruptEnable, DataReady},
-    };
-    for (const Order &order : orders) {
-        if ((m_isMpu6500 || order.reg != AccelerationFilter) && !m_bus->write(order.reg, &order.value, 1))
-            return failToTalk();
-    }
-    m_lastSample = 0;
-    return true;
-}
-
-bool Mpu6050Driver::read()
-{
-    quint8 bytes[SampleBytes] = {};
-    if (m_lastSample == 0)
-        m_lastSample = now();
-    if (!m_bus->read(InterruptStatus, bytes, SampleBytes))
-        return failToTalk();
-    if (!(bytes[0] & DataReady)) {
-        const bool isLate = now() - m_lastSample > std::chrono::nanoseconds(1s + timeout()).count();
-        return !isLate
-            || fail(QStringLiteral("the MPU-6050 at %1 of %2 gives no samples any more: it has lost its settings, "
-                                   "probably its power; look at its supply")
-                        .arg(i2cAddressText(m_address), m_device));
-    }
-    m_lastSample = now();
-    const double acceleration = AccelerationPerRange * double(1 << m_accelerationRange);
-    const double rate = RatePerRange * double(1 << m_rateRange);
-    for (int axis = 0; axis < 3; ++axis) {
-        m_acceleration[axis].set(acceleration * countsAt(bytes + 1 + 2 * axis));
-        m_rate[axis].set(rate * countsAt(bytes + 9 + 2 * axis));
-    }
-    const double counts = countsAt(bytes + 7);
-    m_temperature.set(m_isMpu6500 ? counts / 333.87 + 21.0 : counts / 340.0 + 36.53);
-    return true;
-}
-
-QString Mpu6050Driver::remedy(int errorNumber) const
-{
-    const QString text = i2cRemedy(errorNumber);
-    return text.isEmpty() ? QPlcDriver::remedy(errorNumber) : text;
+    return std::make_unique<Mpu6050Driver>();
 }
 
 }  // namespace qplc
