@@ -16,19 +16,12 @@
 
 using namespace qplc;
 
-namespace {
-
-constexpr int digitsOfActual = 5;
-
-}  // namespace
-
 struct QPlcSetter::Private
 {
     explicit Private(QPlcSetter *setter);
     void makeView();
     void renewView();
     void apply(const SetterSettings &wanted);
-    void takeViewSettings();
     void showState();
     void showActual();
     void showTheme();
@@ -96,8 +89,8 @@ void QPlcSetter::Private::makeView()
         message->showText(sentence);
         message->setVisible(!sentence.isEmpty());
     });
-    connect(view, &SetterView::settingsEdited, q, [this] {
-        takeViewSettings();
+    connect(view, &SetterView::generatorEdited, q, [this](const QJsonObject &generator) {
+        settings.generator = generator;
         Q_EMIT q->settingsEdited();
     });
     message->showText({});
@@ -113,14 +106,6 @@ void QPlcSetter::Private::renewView()
     view->applySettings(settings.toJson());
     if (hadFocus)
         q->setFocus(Qt::OtherFocusReason);
-}
-
-/// What the view itself has for settings.
-void QPlcSetter::Private::takeViewSettings()
-{
-    const QJsonObject of = view->settings();
-    if (settings.style == QLatin1String("generator"))
-        settings.generator = of.value(QStringLiteral("generator")).toObject();
 }
 
 void QPlcSetter::Private::apply(const SetterSettings &wanted)
@@ -153,13 +138,8 @@ QString QPlcSetter::Private::actualText() const
 {
     if (!target.signal())
         return {};
-    const double number = target.actualNumber();
-    const auto whole = [this] {
-        const QString value = valueText(target.actual(), target.signal().definition);
-        return QStringLiteral("%1 %2").arg(value, target.unit()).trimmed();
-    };
     const QPlcPanelContext::Plant plant = target.plant();
-    const QString text = target.isNumber() ? target.reading(number, digitsOfActual) : whole();
+    const QString text = view->actualText();
     return plant.isStale ? tr("%1, %2 old").arg(text, ageText(plant.age)) : text;
 }
 

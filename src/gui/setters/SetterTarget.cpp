@@ -55,7 +55,7 @@ QString SetterTarget::reading(double number, int digits) const
         return numberText(number, digits);
     const QPlcSignalDefinition &definition = m_signal.definition;
     SiPrefix prefix(definition.unit);
-    if (minimum() && maximum())
+    if (hasRange())
         prefix = SiPrefix::fitting(definition.unit, std::max(std::abs(*minimum()), std::abs(*maximum())));
     else if (m_prefix.current().tableUnit() == definition.unit)
         prefix = m_prefix.current();
@@ -94,7 +94,7 @@ std::optional<double> SetterTarget::maximum() const
 
 double SetterTarget::smallStep(double value) const
 {
-    const double size = minimum() && maximum() ? *maximum() - *minimum() : std::max(std::abs(value), 1.0);
+    const double size = hasRange() ? *maximum() - *minimum() : std::max(std::abs(value), 1.0);
     const double step = size / 100.0;
     return m_signal && m_signal.definition.type.isReal() ? step : std::max(1.0, std::round(step));
 }

@@ -39,6 +39,7 @@ public:
     void renewPrefix();
     std::optional<double> minimum() const;
     std::optional<double> maximum() const;
+    bool hasRange() const { return minimum() && maximum(); }
     /// Of the range 1 %; without one of the size of \a value, at least of 1.
     double smallStep(double value) const;
     /// As near to \a value as the limits allow. \param message what was wrong with it, else

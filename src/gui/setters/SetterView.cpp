@@ -1,15 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SetterView.h"
 
-#include "ChoiceView.h"
-#include "GeneratorView.h"
-#include "KnobView.h"
-#include "MomentaryView.h"
-#include "NumberView.h"
-#include "SliderView.h"
-#include "ToggleView.h"
+#include "gui/models/ValueFormat.h"
+
+#include <algorithm>
 
 namespace qplc {
+
+namespace {
+
+constexpr struct
+{
+    const char *name;
+    SetterView *(*create)(SetterTarget *target, QWidget *parent);
+} styleRows[] = {{"number", createNumberView},       {"slider", createSliderView},       {"toggle", createToggleView},
+                 {"momentary", createMomentaryView}, {"generator", createGeneratorView}, {"knob", createKnobView},
+                 {"list", createChoiceView}};
+
+}  // namespace
 
 SetterView::SetterView(SetterTarget *target, QWidget *parent)
     : QWidget(parent)
@@ -19,29 +27,24 @@ SetterView::SetterView(SetterTarget *target, QWidget *parent)
 
 SetterView *SetterView::create(const QString &style, SetterTarget *target, QWidget *parent)
 {
-    switch (styles().indexOf(style)) {
-    case 1:
-        return new SliderView(target, parent);
-    case 2:
-        return new ToggleView(target, parent);
-    case 3:
-        return new MomentaryView(target, parent);
-    case 4:
-        return new GeneratorView(target, parent);
-    case 5:
-        return new KnobView(target, parent);
-    case 6:
-        return new ChoiceView(target, parent);
-    default:
-        return new NumberView(target, parent);
-    }
+    return styleRows[std::max(0, styles().indexOf(style))].create(target, parent);
 }
 
 QStringList SetterView::styles()
 {
-    return {QStringLiteral("number"),    QStringLiteral("slider"),    QStringLiteral("toggle"),
-            QStringLiteral("momentary"), QStringLiteral("generator"), QStringLiteral("knob"),
-            QStringLiteral("list")};
+    QStringList names;
+    for (const auto &row : styleRows)
+        names << QLatin1String(row.name);
+    return names;
+}
+
+QString SetterView::actualText() const
+{
+    constexpr int digits = 5;
+    if (target().isNumber())
+        return target().reading(target().actualNumber(), digits);
+    const QString value = valueText(target().actual(), target().signal().definition);
+    return QStringLiteral("%1 %2").arg(value, target().unit()).trimmed();
 }
 
 }  // namespace qplc

@@ -6,11 +6,7 @@
 #include <QtCore/QJsonObject>
 #include <QtWidgets/QWidget>
 
-#include <memory>
-
 namespace qplc {
-
-struct Theme;
 
 /// The part of a setter that is moved by hand: one class for each style.
 class SetterView : public QWidget
@@ -28,14 +24,15 @@ public:
     virtual void refresh() = 0;
     /// There may be a new actual value; at most 10 times a second.
     virtual void showActual() {}
-    /// Settings of this style beyond signal, style and limits; the defaults are left out.
-    virtual QJsonObject settings() const { return {}; }
+    /// The actual value for people. \pre there is a signal
+    virtual QString actualText() const;
     virtual void applySettings(const QJsonObject & /*settings*/) {}
 
 Q_SIGNALS:
     /// Something that a person should know about what was done last; empty: all is well.
     void said(const QString &sentence);
-    void settingsEdited();
+    /// Settings of the generator were edited here: their JSON, without what is default.
+    void generatorEdited(const QJsonObject &generator);
 
 protected:
     SetterTarget &target() { return *m_target; }
@@ -44,5 +41,14 @@ protected:
 private:
     SetterTarget *m_target;
 };
+
+// The view of each style, in a file of its own.
+SetterView *createNumberView(SetterTarget *target, QWidget *parent);
+SetterView *createSliderView(SetterTarget *target, QWidget *parent);
+SetterView *createToggleView(SetterTarget *target, QWidget *parent);
+SetterView *createMomentaryView(SetterTarget *target, QWidget *parent);
+SetterView *createGeneratorView(SetterTarget *target, QWidget *parent);
+SetterView *createKnobView(SetterTarget *target, QWidget *parent);
+SetterView *createChoiceView(SetterTarget *target, QWidget *parent);
 
 }  // namespace qplc

@@ -36,6 +36,7 @@ private Q_SLOTS:
     void sliderLimitsItsRateAndAlwaysSendsTheEndValue();
     void sliderReportsMissingLimits();
     void aSwitchSendsOnceForEachClick();
+    void aSwitchNamesTheValueOfABoolean();
     void buttonSetsItsValueWhileHeld_data();
     void buttonSetsItsValueWhileHeld();
     void aHeldButtonIsNeutralWhenTheWindowIsLost();
@@ -236,6 +237,20 @@ void tst_QPlcSetter::aSwitchSendsOnceForEachClick()
     QTRY_COMPARE(window.done.size(), 2);
     QVERIFY(master.setSignalValue(QStringLiteral("free"), 3.0F));
     QTRY_VERIFY(button->isChecked());  // by somebody else
+}
+
+void tst_QPlcSetter::aSwitchNamesTheValueOfABoolean()
+{
+    RunningMaster master(QPlcSignalTable::fromIni("[time]\ntype = DateTime\n[brake]\ntype = Bool\n"));
+    TestWindow window(master.address());
+    QPlcSetter setter;
+    QVERIFY(showPanel(&setter, &window.context, settingsOf(QStringLiteral("brake"), QStringLiteral("toggle"))));
+    const auto texts = [&setter] { return labelsOf(&setter).split(QLatin1Char('\n')); };
+    QTRY_VERIFY2(texts().contains(QStringLiteral("off")), qPrintable(labelsOf(&setter)));
+    QVERIFY(!texts().contains(QStringLiteral("0")));
+    QVERIFY(master.setSignalValue(QStringLiteral("brake"), true));
+    QTRY_VERIFY2(texts().contains(QStringLiteral("on")), qPrintable(labelsOf(&setter)));
+    QVERIFY(!texts().contains(QStringLiteral("1")));
 }
 
 void tst_QPlcSetter::buttonSetsItsValueWhileHeld_data()
