@@ -52,7 +52,7 @@ void PanelTable::setColumns(const QVector<Column> &columns)
     const QFontMetrics metrics(figureFont(font()));
     for (int column = 0; column < columns.size(); ++column) {
         setColumnWidth(column, metrics.horizontalAdvance(QLatin1Char('0')) * columns.at(column).characters + 12);
-        setColumnHidden(column, !columns.at(column).isShown);
+        choose(column, columns.at(column).isShown);
     }
 }
 
@@ -70,7 +70,7 @@ QVector<int> PanelTable::shownColumns() const
     QVector<int> shown;
     for (int visual = 0; visual < m_columns.size(); ++visual) {
         const int column = header()->logicalIndex(visual);
-        if (!isColumnHidden(column))
+        if (m_chosen.contains(column))
             shown << column;
     }
     return shown;
@@ -82,7 +82,7 @@ void PanelTable::applySettings(const PanelSettings &settings)
     for (int column = 0; column < m_columns.size(); ++column) {
         const bool isShown = wanted.isArray() ? wanted.toArray().contains(QLatin1String(m_columns.at(column).key))
                                               : m_columns.at(column).isShown;
-        setColumnHidden(column, !isShown && column != m_stretched);
+        choose(column, isShown || column == m_stretched);
     }
     placeColumns(wanted.toArray());
     grow();
@@ -93,6 +93,15 @@ void PanelTable::applySettings(const PanelSettings &settings)
     header()->setSortIndicator(m_sortColumn, m_order);
     if (m_sorting == Sorting::ByHeader)
         model()->sort(m_sortColumn, m_order);
+}
+
+void PanelTable::choose(int column, bool isShown)
+{
+    if (isShown)
+        m_chosen.insert(column);
+    else
+        m_chosen.remove(column);
+    setColumnHidden(column, !isShown);
 }
 
 /// The named ones first, in this order.
@@ -150,7 +159,7 @@ void PanelTable::grow()
 {
     for (auto widest = m_widest.begin(); widest != m_widest.end(); ++widest) {
         const int column = widest.key();
-        const int wanted = isColumnHidden(column) ? 0 : wantedWidth(column);
+        const int wanted = m_chosen.contains(column) ? wantedWidth(column) : 0;
         if (wanted <= *widest)
             continue;
         *widest = wanted;
@@ -166,10 +175,19 @@ void PanelTable::stretch()
 {
     if (m_stretched < 0)
         return;
+    for (const int column : qAsConst(m_dispensable))
+        setColumnHidden(column, !m_chosen.contains(column));
     int others = 0;
     for (int column = 0; column < m_columns.size(); ++column)
         others += column == m_stretched ? 0 : columnWidth(column);  // 0 when hidden
-    setColumnWidth(m_stretched, std::max(m_leastWidth, viewport()->width() - others));
+    for (const int column : qAsConst(m_dispensable)) {
+        if (others + m_leastWidth <= viewport()->width())
+            break;
+        others -= columnWidth(column);
+        setColumnHidden(column, true);
+    }
+    const int least = m_dispensable.isEmpty() ? m_leastWidth : header()->minimumSectionSize();
+    setColumnWidth(m_stretched, std::max(least, viewport()->width() - others));
 }
 
 void PanelTable::resizeEvent(QResizeEvent *event)
@@ -198,7 +216,7 @@ void PanelTable::writeSettings(PanelSettings *settings) const
 
 void PanelTable::showColumn(int column, bool isShown)
 {
-    setColumnHidden(column, !isShown);
+    choose(column, isShown);
     grow();
     stretch();
     Q_EMIT settingsEdited();
@@ -231,8 +249,8 @@ QMenu *PanelTable::createColumnMenu(QWidget *parent)
         QAction *action = menu->addAction(model()->headerData(column, Qt::Horizontal).toString());
         action->setCheckable(true);
         connect(menu, &QMenu::aboutToShow, action,
-                [this, action, column] { action->setChecked(!isColumnHidden(column)); });
-        action->setChecked(!isColumnHidden(column));
+                [this, action, column] { action->setChecked(m_chosen.contains(column)); });
+        action->setChecked(m_chosen.contains(column));
         connect(action, &QAction::triggered, this, [this, column](bool isOn) { showColumn(column, isOn); });
     }
     return menu;

@@ -5,6 +5,7 @@
 
 #include <QtCore/QHash>
 #include <QtCore/QJsonArray>
+#include <QtCore/QSet>
 #include <QtWidgets/QTreeView>
 
 class QAction;
@@ -38,6 +39,9 @@ public:
     /// This column takes the space that the others leave, and is always there. \param characters at
     /// least so much
     void setStretchedColumn(int column, int characters);
+    /// A panel that is too narrow for all chosen columns leaves these out, the first one first.
+    /// Without them the stretched column has what is left.
+    void setDispensable(const QVector<int> &columns) { m_dispensable = columns; }
     /// Names that are too long lose their middle: many differ at their ends.
     void setNameColumn(int column);
     /// These columns get wider when a text or the title is wider than all before; for tables of few
@@ -63,6 +67,7 @@ Q_SIGNALS:
 private:
     void openColumnMenu(const QPoint &place);
     void showColumn(int column, bool isShown);
+    void choose(int column, bool isShown);
     void placeColumns(const QJsonArray &keys);
     void stretch();
     void grow();
@@ -74,6 +79,8 @@ private:
     TableDelegate *m_delegate;
     Sorting m_sorting;
     QVector<Column> m_columns;
+    QSet<int> m_chosen;  // columns that are shown if there is room
+    QVector<int> m_dispensable;
     QHash<int, int> m_widest;  // [px], of all texts so far, of each column that grows
     int m_stretched = -1;
     int m_leastWidth = 0;  // [px], of the stretched column

@@ -222,6 +222,7 @@ void QPlcEventLog::contextChanged()
     d->table->setContext(context());
     d->table->setColumns(eventColumns);
     d->table->setStretchedColumn(EventLogModel::Text, 30);
+    d->table->setDispensable({EventLogModel::Source, EventLogModel::State, EventLogModel::Time});
     d->table->applySettings(d->settings);
     connect(d->table, &PanelTable::settingsEdited, this, [this] {
         d->table->writeSettings(&d->settings);

@@ -297,6 +297,8 @@ void QPlcValueTable::contextChanged()
     d->table->setColumns(valueColumns);
     d->table->setNameColumn(ValueTableModel::Name);
     d->table->setStretchedColumn(ValueTableModel::Name, 16);
+    d->table->setDispensable({ValueTableModel::Rate, ValueTableModel::Age, ValueTableModel::Minimum,
+                              ValueTableModel::Maximum, ValueTableModel::QualityColumn, ValueTableModel::Unit});
     d->showSignals();
     d->table->applySettings(d->settings);
     connect(d->model, &QAbstractItemModel::rowsInserted, this, &QPlcValueTable::takeSignals);

@@ -4,6 +4,7 @@
 #include "QPlcEventLog.h"
 #include "QPlcNodeTable.h"
 #include "QPlcValueTable.h"
+#include "gui/models/EventLogModel.h"
 #include "gui/models/NodeTableModel.h"
 #include "gui/panel/WindowContext.h"
 #include "gui/tables/TableDelegate.h"
@@ -112,6 +113,7 @@ private Q_SLOTS:
     void selectedRowsAreCopiedWithTabs();
     void pastValuesShowTheirTime();
     void columnsAreChosenInAMenu();
+    void narrowTablesLeaveOutTheLessImportantColumns();
     void nodeTableShowsTheHealthOfEachNode();
     void columnsOfNodesGrowWithTheirTexts();
     void aLongNameGetsItsSpace();
@@ -264,6 +266,30 @@ void tst_Tables::columnsAreChosenInAMenu()
     QMenu *popup = qobject_cast<QMenu *>(QApplication::activePopupWidget());
     QVERIFY(popup);
     popup->close();
+}
+
+void tst_Tables::narrowTablesLeaveOutTheLessImportantColumns()
+{
+    Bench<QPlcEventLog> log;
+    log.context.events()->append(eventOf(PlantEvent::Error, QStringLiteral("Node 'Winch' did not answer in time")));
+    Bench<QPlcValueTable> values;
+    QVERIFY(values.panel.addSignals({"count"}));
+    for (const int width : {700, 420, 300}) {
+        log.panel.resize(width, 200);
+        values.panel.resize(width, 200);
+        QTRY_COMPARE(log.view->horizontalScrollBar()->maximum(), 0);
+        QTRY_COMPARE(values.view->horizontalScrollBar()->maximum(), 0);
+    }
+    QVERIFY(!log.view->isColumnHidden(EventLogModel::Severity));
+    QVERIFY(!log.view->isColumnHidden(EventLogModel::Text));
+    QVERIFY(log.view->isColumnHidden(EventLogModel::Source));
+    QVERIFY(!values.view->isColumnHidden(ValueTableModel::Value));
+    QVERIFY(values.view->isColumnHidden(ValueTableModel::Minimum));
+    QCOMPARE(log.panel.settings(), QJsonObject());  // the columns are chosen as before
+    log.panel.resize(1400, 200);
+    values.panel.resize(1400, 200);
+    QVERIFY(!log.view->isColumnHidden(EventLogModel::Source));
+    QVERIFY(!values.view->isColumnHidden(ValueTableModel::Minimum));
 }
 
 void tst_Tables::nodeTableShowsTheHealthOfEachNode()
