@@ -26,18 +26,10 @@ constexpr qint64 wholeSeconds = 1'000'000'000;  // [ns]
 
 }  // namespace
 
-QPlcTimePlot::Private::Time QPlcTimePlot::Private::newest()
+void QPlcTimePlot::Private::takeValues()
 {
-    const Time own = curves.newestTime();
-    return own == 0 ? shared()->newest() : own;
-}
-
-TimeColumns QPlcTimePlot::Private::columns()
-{
-    const QPlcTimeAxis *time = view();
-    const int width = canvas->deviceWidth();
-    return time->isLive() ? TimeColumns::upTo(newest(), time->span(), width)
-                          : TimeColumns(time->begin(), time->end(), width);
+    time.own()->setNewest(time.newest());
+    schedule();
 }
 
 bool QPlcTimePlot::Private::isPictureDue(const TimeColumns &columns)
@@ -56,22 +48,20 @@ bool QPlcTimePlot::Private::isPictureDue(const TimeColumns &columns)
 
 void QPlcTimePlot::Private::draw()
 {
-    const TimeColumns shown = columns();
+    const TimeColumns shown = time.columns();
     if (shownEvent() != drawnEvent)
         ++version;
     drawnEvent = shownEvent();
     if (isPictureDue(shown)) {
-        if (view()->isLive())
+        if (time.view()->isLive())
             reference = shown.beginOf(shown.end());
         canvas->setTime(shown, settings.labels, reference, drawnEvent);
         curves.setOrigin(canvas->origin());
-        for (Axis axis = 0; axis < curves.axes().count(); ++axis) {
-            fitRange(axis);
-            showRange(axis);
-        }
+        ranges.fit();
+        ranges.show(settings);
         canvas->replot();
         ++drawnPictures;
-        if (!view()->isLive())
+        if (!time.view()->isLive())
             pointAtMouse();
     }
     showOverlay();
@@ -81,38 +71,8 @@ void QPlcTimePlot::Private::draw()
 /// A mouse that rests points at another time when the view moves below it.
 void QPlcTimePlot::Private::pointAtMouse()
 {
-    if (interaction->mouse())
-        shared()->setPointer(canvas->timeAt(interaction->mouse()->x()));
-}
-
-bool QPlcTimePlot::Private::fitRange(Axis axis)
-{
-    const double begin = double(canvas->begin() - canvas->origin()) * 1e-9;
-    const double end = double(canvas->end() - canvas->origin()) * 1e-9;
-    const QPlcPast::Range seen = curves.range(axis, begin, end);
-    return axes[std::size_t(axis)].automatic.fit(seen.minimum, seen.maximum, clock.elapsed());
-}
-
-void QPlcTimePlot::Private::showRange(Axis axis)
-{
-    const ValueAxis &values = axes[std::size_t(axis)];
-    const PlotRangeSettings wanted = std::as_const(settings).range(axis, curves.axes().at(axis).unit);
-    double minimum = wanted.minimum.value_or(values.automatic.minimum());
-    double maximum = wanted.maximum.value_or(values.automatic.maximum());
-    if (!(minimum < maximum)) {  // one end is given, and all that is seen is beyond it
-        minimum = wanted.minimum ? *wanted.minimum : maximum - 1.0;
-        maximum = wanted.minimum ? minimum + 1.0 : maximum;
-    }
-    if (values.isHeld) {
-        minimum = values.minimum;
-        maximum = values.maximum;
-    } else if (curves.isWhole(axis) && !wanted.isFixed() && std::floor(maximum) - std::ceil(minimum) < 1.0) {
-        minimum = std::floor(minimum);  // a constant has its neighbours
-        maximum = std::ceil(maximum);
-    }
-    // What a person has chosen is that of the whole canvas.
-    canvas->setRange(axis, minimum, maximum, curves.isWhole(axis) ? PlotCanvas::WholeTicks : PlotCanvas::AnyTicks,
-                     values.isHeld ? 0.0 : curves.laneHeight());
+    if (const std::optional<Time> moment = time.atMouse())
+        time.shared()->setPointer(moment);
 }
 
 void QPlcTimePlot::Private::showOverlay()
@@ -120,19 +80,19 @@ void QPlcTimePlot::Private::showOverlay()
     PlotOverlay::Picture picture;
     picture.box = box;
     picture.hint = hint();
-    const QPlcTimeAxis *time = shared();
+    const QPlcTimeAxis *shared = time.shared();
     const auto place = [&](std::optional<Time> moment) -> std::optional<int> {
         if (!moment || *moment < canvas->begin() || *moment > canvas->end())
             return std::nullopt;
         return int(std::lround(canvas->xOf(*moment)));
     };
     if (!curves.isEmpty()) {
-        picture.cursorA = place(time->cursor(QPlcTimeAxis::A));
-        picture.cursorB = place(time->cursor(QPlcTimeAxis::B));
-        picture.pointer = place(time->pointer());
+        picture.cursorA = place(shared->cursor(QPlcTimeAxis::A));
+        picture.cursorB = place(shared->cursor(QPlcTimeAxis::B));
+        picture.pointer = place(shared->pointer());
     }
     if (picture.pointer) {
-        const Time moment = *time->pointer();
+        const Time moment = *shared->pointer();
         const bool isCoarse = (canvas->end() - canvas->begin()) / std::max(canvas->canvas()->width(), 1) >= 1'000'000;
         if (!canvas->isCompact())
             picture.pointerText = TimeTicks::clockText(moment, isCoarse ? 1'000'000 : 1'000);
@@ -150,7 +110,7 @@ void QPlcTimePlot::Private::showOverlay()
 std::optional<QPlcTimePlot::Private::Time> QPlcTimePlot::Private::shownEvent()
 {
     const Trigger &trigger = triggerBar->trigger();
-    return settings.hasTrigger() && !view()->isLive() && trigger.view() ? trigger.shownEvent() : std::nullopt;
+    return settings.hasTrigger() && !time.view()->isLive() && trigger.view() ? trigger.shownEvent() : std::nullopt;
 }
 
 void QPlcTimePlot::Private::placeTrigger(PlotOverlay::Picture *picture)
@@ -196,7 +156,7 @@ QString QPlcTimePlot::Private::hintOfTime() const
     Time last = 0;
     if (!curves.timeRange(&first, &last) || (canvas->begin() <= last && first <= canvas->end()))
         return {};
-    const auto text = [](Time time) { return TimeTicks::clockText(time, wholeSeconds); };
+    const auto text = [](Time moment) { return TimeTicks::clockText(moment, wholeSeconds); };
     return QPlcTimePlot::tr("No values at this time: they are from %1 to %2.\nA shows them all, L the newest.")
         .arg(text(first), text(last));
 }
@@ -205,41 +165,42 @@ void QPlcTimePlot::Private::showNumbers()
 {
     if (!q->isVisible())
         return;
-    const QPlcTimeAxis *time = shared();
-    if (view()->isLive())
+    const QPlcTimeAxis *shared = time.shared();
+    if (time.view()->isLive())
         pointAtMouse();
-    std::optional<Time> moment = time->pointer();
+    std::optional<Time> moment = shared->pointer();
     const bool isElsewhere = moment && (*moment < canvas->begin() || *moment > canvas->end());
-    if (isElsewhere && view()->isLive())
+    if (isElsewhere && time.view()->isLive())
         moment.reset();  // of a plot whose time is another one
-    if (!moment && !view()->isLive())
-        moment = std::clamp(newest(), view()->begin(), view()->end());  // around an event, the rest is still to come
+    if (!moment && !time.view()->isLive())
+        moment = std::clamp(time.newest(), time.view()->begin(),
+                            time.view()->end());  // around an event, the rest is still to come
     legend->show(curves, moment);
     arrangeLegend();  // wider values leave room for fewer columns
-    const bool hasCursors = (time->cursor(QPlcTimeAxis::A) || time->cursor(QPlcTimeAxis::B)) && !curves.isEmpty();
+    const bool hasCursors = (shared->cursor(QPlcTimeAxis::A) || shared->cursor(QPlcTimeAxis::B)) && !curves.isEmpty();
     if (hasCursors != !statistics->isHidden()) {
         statistics->setVisible(hasCursors);
         arrange();
     }
     if (hasCursors)
-        statistics->show(curves, time->cursor(QPlcTimeAxis::A), time->cursor(QPlcTimeAxis::B));
-    for (Axis axis = 0; axis < curves.axes().count(); ++axis)
-        version += fitRange(axis) ? 1 : 0;
+        statistics->show(curves, shared->cursor(QPlcTimeAxis::A), shared->cursor(QPlcTimeAxis::B));
+    if (ranges.fit())
+        ++version;
     schedule();
 }
 
 void QPlcTimePlot::Private::showLiveButton()
 {
-    const bool isFrozen = !view()->isLive() && !(settings.hasTrigger() && triggerBar->showsEvent());
+    const bool isFrozen = !time.view()->isLive() && !(settings.hasTrigger() && triggerBar->showsEvent());
     liveButton->setVisible(isFrozen && !curves.isEmpty());
     if (!isFrozen)
         return;
-    const double behind = std::round(double(newest() - view()->end()) * 1e-9);
-    const QString time = behind < 120.0 ? QPlcTimePlot::tr("%1 s").arg(behind)
-                                        : QPlcTimePlot::tr("%1 min").arg(std::floor(behind / 60.0));
+    const double behind = std::round(double(time.newest() - time.view()->end()) * 1e-9);
+    const QString ago = behind < 120.0 ? QPlcTimePlot::tr("%1 s").arg(behind)
+                                       : QPlcTimePlot::tr("%1 min").arg(std::floor(behind / 60.0));
     const QString text = canvas->isCompact() ? QStringLiteral("L")
         : behind < 1.0                       ? QPlcTimePlot::tr("frozen – L")
-                                             : QPlcTimePlot::tr("%1 behind – L").arg(time);
+                                             : QPlcTimePlot::tr("%1 behind – L").arg(ago);
     if (text != liveButton->text())
         liveButton->setText(text);
     liveButton->adjustSize();

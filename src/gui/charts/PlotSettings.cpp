@@ -156,6 +156,30 @@ int PlotSettings::indexOf(const QString &signal) const
     return found != curves.end() ? int(found - curves.begin()) : -1;
 }
 
+int PlotSettings::add(const QString &signal)
+{
+    if (const int place = indexOf(signal); place >= 0)
+        return place;
+    PlotCurveSettings curve;
+    curve.signal = signal;
+    curves.append(curve);
+    return curves.size() - 1;
+}
+
+bool PlotSettings::hasLines() const
+{
+    const auto hasSome = [](const PlotRangeSettings &range) { return !range.lines.isEmpty(); };
+    return hasSome(left) || hasSome(right) || std::any_of(axes.begin(), axes.end(), hasSome);
+}
+
+void PlotSettings::removeLines()
+{
+    left.lines.clear();
+    right.lines.clear();
+    for (PlotRangeSettings &range : axes)
+        range.lines.clear();
+}
+
 PlotSettings PlotSettings::fromJson(const QJsonObject &json)
 {
     PlotSettings settings;

@@ -91,6 +91,11 @@ struct PlotSettings
     QString contentText() const;
     /// The place of a curve of this signal; -1: there is none.
     int indexOf(const QString &signal) const;
+    /// Adds a curve of this signal unless there is one. \return its place
+    int add(const QString &signal);
+    /// Whether an axis has lines for reference.
+    bool hasLines() const;
+    void removeLines();
 
     static PlotSettings fromJson(const QJsonObject &json);
     QJsonObject toJson() const;

@@ -32,6 +32,8 @@ QPlcTimePlot::Private::Private(QPlcTimePlot *plot)
     , statistics(new StatisticsView(plot))
     , eventFiles(new EventFiles(this))
     , curves(canvas)
+    , ranges(canvas, &curves)
+    , time(context(), &settings, triggerBar, canvas, &curves, interaction)
 {
     legendArea->setWidget(legend);
     legendArea->setWidgetResizable(true);
@@ -40,7 +42,7 @@ QPlcTimePlot::Private::Private(QPlcTimePlot *plot)
     legendArea->setFocusPolicy(Qt::NoFocus);
     statistics->hide();
     triggerBar->hide();
-    triggerBar->setOwnTime(&ownTime);
+    triggerBar->setOwnTime(time.own());
     auto *column = new QVBoxLayout(plot);
     column->setContentsMargins(2, 4, 2, 2);
     column->setSpacing(0);
@@ -50,23 +52,14 @@ QPlcTimePlot::Private::Private(QPlcTimePlot *plot)
     column->addWidget(statistics);
     canvas->setAccessibleName(QPlcTimePlot::tr("Curves over time"));
     setTickPeriod(numberPeriod);
-    clock.start();
-    connect(&ownTime, &QPlcTimeAxis::viewChanged, this, [this] { schedule(); });
-    connect(triggerBar, &TriggerBar::triggered, this, [this] { schedule(); });
-    connect(triggerBar, &TriggerBar::settingsEdited, this, [this] {
-        takeTrigger();
-        Q_EMIT q->settingsEdited();
-    });
-    connect(canvas, &PlotCanvas::resized, this, [this] {
-        ++version;
-        schedule();
-    });
+    connect(time.own(), &QPlcTimeAxis::viewChanged, this, [this] { schedule(); });
+    connect(canvas, &PlotCanvas::resized, this, &Private::change);
     makeActions();
     new SignalDropArea(
         QPlcTimePlot::tr("Right axis"), [this] { return rightAxisArea(); },
         [this](const QStringList &references) { return addToRightAxis(references); }, plot);
     connectInteraction();
-    connectEventFiles();
+    connectTrigger();
 }
 
 QPlcTimePlot::QPlcTimePlot(QWidget *parent)
@@ -108,27 +101,12 @@ QWidget *QPlcTimePlot::createSettingsEditor()
 
 bool QPlcTimePlot::addSignals(const QStringList &references)
 {
-    QStringList names;
-    for (const QString &reference : references)
-        names << d->elementsOf(reference);
-    return d->addCurves(names);
+    return d->addCurves(d->elementsOf(references));
 }
 
 int QPlcTimePlot::drawnPictures() const
 {
     return d->drawnPictures;
-}
-
-void QPlcTimePlot::Private::takeValues()
-{
-    ownTime.setNewest(newest());
-    schedule();
-}
-
-void QPlcTimePlot::Private::takePast()
-{
-    ++version;
-    schedule();
 }
 
 void QPlcTimePlot::Private::bind()
@@ -139,7 +117,7 @@ void QPlcTimePlot::Private::bind()
     redraw.assign(std::max<std::size_t>(1, curves.pasts().size()), RedrawRule());
     canvas->setGridVisible(settings.hasGrid && !curves.isEmpty());
     canvas->enableAxis(QwtPlot::xBottom, !curves.isEmpty());
-    keepRanges();
+    ranges.bind();
     const int seenAxes = curves.seenAxes();
     for (Axis axis = 0; axis < canvas->axisCount(); ++axis) {
         const bool isDefault = axis == 0 && seenAxes == 0;
@@ -153,22 +131,8 @@ void QPlcTimePlot::Private::bind()
     removeAction->setEnabled(!curves.isEmpty());
     toggleAction->setEnabled(!curves.isEmpty());
     showChecks();
-    ++version;
     arrange();
-    schedule();
-}
-
-/// An axis that is another one than before has another range.
-void QPlcTimePlot::Private::keepRanges()
-{
-    axes.resize(std::size_t(curves.axes().count()));
-    for (Axis axis = 0; axis < curves.axes().count(); ++axis) {
-        ValueAxis &values = axes[std::size_t(axis)];
-        if (values.of == curves.axes().at(axis))
-            continue;
-        values = ValueAxis();
-        values.of = curves.axes().at(axis);
-    }
+    change();
 }
 
 QStringList QPlcTimePlot::Private::furtherUnits() const
@@ -184,10 +148,9 @@ void QPlcTimePlot::Private::applySettings(const PlotSettings &wanted)
 {
     if (wanted.span != settings.span || wanted.hasOwnTime != settings.hasOwnTime
         || wanted.hasTrigger() != settings.hasTrigger())
-        ownTime.setSpan(Time(wanted.span * 1e9));
+        time.own()->setSpan(Time(wanted.span * 1e9));
     settings = wanted;
-    for (ValueAxis &axis : axes)
-        axis.automatic.reset();
+    ranges.reset();
     statistics->setUnfolded(settings.hasStatistics);
     showTrigger();
     bind();
@@ -199,21 +162,20 @@ void QPlcTimePlot::Private::edit(const PlotSettings &wanted)
     Q_EMIT q->settingsEdited();
 }
 
-/// The signal itself; of an array all elements; of what cannot be drawn nothing. What is not there
-/// now may be something later.
-QStringList QPlcTimePlot::Private::elementsOf(const QString &name) const
+/// The signals themselves; of an array all elements; of what cannot be drawn nothing. What is not
+/// there now may be something later.
+QStringList QPlcTimePlot::Private::elementsOf(const QStringList &references) const
 {
-    const QPlcPanelContext::Signal signal = context()->signal(name);
-    const QPlcSignalType type = signal.definition.type;
-    if (!signal)
-        return {name};
-    if (!type.isNumeric())
-        return {};
-    if (!type.isArray() || signal.element >= 0)
-        return {name};
     QStringList elements;
-    for (int i = 0; i < std::min(type.count(), mostElements); ++i)
-        elements << QStringLiteral("%1[%2]").arg(name).arg(i);
+    for (const QString &name : references) {
+        const QPlcPanelContext::Signal signal = context()->signal(name);
+        const QPlcSignalType type = signal.definition.type;
+        const bool isNumber = type.isNumeric() && (!type.isArray() || signal.element >= 0);
+        if (!signal || isNumber)
+            elements << name;
+        for (int i = 0; signal && type.isNumeric() && !isNumber && i < std::min(type.count(), mostElements); ++i)
+            elements << QStringLiteral("%1[%2]").arg(name).arg(i);
+    }
     return elements;
 }
 
@@ -221,20 +183,10 @@ bool QPlcTimePlot::Private::addCurves(const QStringList &signalNames)
 {
     PlotSettings wanted = settings;
     int last = -1;
-    for (const QString &name : signalNames) {
-        if (name.trimmed().isEmpty())
-            continue;
-        last = wanted.indexOf(name);
-        if (last >= 0)
-            continue;
-        PlotCurveSettings curve;
-        curve.signal = name;
-        wanted.curves.append(curve);
-        last = wanted.curves.size() - 1;
-    }
+    for (const QString &name : signalNames)
+        last = name.trimmed().isEmpty() ? last : wanted.add(name);
     if (wanted.curves.size() > settings.curves.size()) {
-        for (ValueAxis &axis : axes)  // what is added is to be seen
-            axis.isHeld = false;
+        ranges.release();  // what is added is to be seen
         edit(wanted);
     }
     if (last >= 0)
@@ -264,8 +216,13 @@ void QPlcTimePlot::Private::toggleCurve(int place)
 void QPlcTimePlot::Private::select(int place)
 {
     curves.select(place, context()->theme());
-    ++version;
     showChecks();
-    schedule();
+    change();
     showNumbers();
+}
+
+void QPlcTimePlot::Private::change()
+{
+    ++version;
+    schedule();
 }
