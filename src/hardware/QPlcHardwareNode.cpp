@@ -41,22 +41,199 @@ struct QPlcHardwareNode::Private
     {
     }
 
-    void build(HardwareConfiguration *configuration);
-    void buildDriver(HardwareConfiguration *configuration, const HardwareConfiguration::Driver &driver);
-    void buildWire(HardwareConfiguration *configuration, DriverRunner *runner, const HardwareConfiguration::Wire &wire);
+    void build(HardwareConfiguration *configuration)
+    {
+        for (const HardwareConfiguration::Driver &driver : configuration->drivers())
+            buildDriver(configuration, driver);
+        for (const HardwareConfiguration::Watched &watched : configuration->safeStops())
+            buildSafeStop(configuration, watched);
+        for (const std::unique_ptr<ChannelPort> &port : ports) {
+            const QString missing = port->isInput() ? QString() : port->missingElements();
+            if (!missing.isEmpty())
+                configuration->addError(
+                    {}, QStringLiteral("no channel gives a value to %1; add it to a section 'read'").arg(missing));
+        }
+    }
+
+    void buildDriver(HardwareConfiguration *configuration, const HardwareConfiguration::Driver &driver)
+    {
+        const QMap<QString, DriverCatalog::Kind> &kinds = DriverCatalog::instance().kinds();
+        const auto kind = kinds.find(driver.kind);
+        if (kind == kinds.end()) {
+            if (!driver.kind.isEmpty())
+                configuration->addError(driver.entry,
+                                        QStringLiteral("there is no driver %1%2%3")
+                                            .arg(qplc::quoted(driver.kind),
+                                                 qplc::didYouMean(qplc::closeNames(driver.kind, kinds.keys())),
+                                                 qplc::knownAre(kinds.keys())));
+            return;
+        }
+        runners.push_back(std::make_unique<DriverRunner>(driver.name, driver.kind, kind->make()));
+        DriverRunner *runner = runners.back().get();
+        const std::unique_ptr<QPlcDriverSettings> settings = configuration->settings(driver);
+        const int former = configuration->errors().size();
+        runner->configure(*settings);
+        configuration->checkUse(*settings);
+        if (configuration->errors().size() > former)
+            return;  // what its channels are is not known: their errors would be echoes
+        for (const HardwareConfiguration::SafeValue &safe : driver.safeValues)
+            buildSafeValue(configuration, runner, safe);
+        for (const HardwareConfiguration::Wire &wire : driver.wires)
+            buildWire(configuration, runner, wire);
+    }
+
+    void buildWire(HardwareConfiguration *configuration, DriverRunner *runner, const HardwareConfiguration::Wire &wire)
+    {
+        const bool isRead = wire.direction == QPlcChannel::Read;
+        const qplc::ConfigurationTerm &signal = isRead ? wire.target : wire.source;
+        const QString channel = (isRead ? wire.source : wire.target).name;
+        QString error;
+        const int number = runner->wire(channel, wire.direction, &error);
+        if (number < 0) {
+            configuration->addError(wire.entry, error);
+            return;
+        }
+        bool isConstant = false;
+        const double constant = isRead ? 0.0 : signal.name.toDouble(&isConstant);
+        if (isConstant) {
+            addConstant(configuration, {runner, number, constant * signal.factor + signal.offset}, wire.entry);
+            return;
+        }
+        ChannelPort *port = this->port(signal.name, isRead ? QPlcPort::Output : QPlcPort::Input);
+        if (!port->add(signal.element, {runner, number, wire.source.factor, wire.source.offset}))
+            configuration->addError(
+                wire.entry,
+                QStringLiteral("%1 is wired twice, or with brackets and without; wire each element once")
+                    .arg(qplc::quoted(signal.name)));
+    }
+
     void buildSafeValue(HardwareConfiguration *configuration, DriverRunner *runner,
-                        const HardwareConfiguration::SafeValue &safe);
-    void buildSafeStop(HardwareConfiguration *configuration, const HardwareConfiguration::Watched &watched);
+                        const HardwareConfiguration::SafeValue &safe)
+    {
+        QString error;
+        const int number = runner->wire(safe.channel, QPlcChannel::Write, &error);
+        if (number < 0)
+            configuration->addError(safe.entry, error);
+        else
+            safeValues.push_back({runner, number, safe.value});
+    }
+
+    void buildSafeStop(HardwareConfiguration *configuration, const HardwareConfiguration::Watched &watched)
+    {
+        QStringList names;
+        for (const std::unique_ptr<DriverRunner> &runner : runners) {
+            names << runner->name();
+            if (runner->name() != watched.driver)
+                continue;
+            QString error;
+            const int number = runner->wire(watched.channel, QPlcChannel::Read, &error);
+            if (number < 0)
+                configuration->addError(watched.entry, error);
+            else
+                safeStops.push_back({runner.get(), number});
+            return;
+        }
+        configuration->addError(
+            watched.entry,
+            QStringLiteral("there is no device %1%2")
+                .arg(qplc::quoted(watched.driver), qplc::didYouMean(qplc::closeNames(watched.driver, names))));
+    }
+
+    /// A number in place of a signal: while the node computes, the channel has it.
     void addConstant(HardwareConfiguration *configuration, const GivenValue &constant,
-                     const qplc::ConfigurationEntry &entry);
-    ChannelPort *port(const QString &signal, QPlcPort::Direction direction);
-    void clear();
-    void writeAll() noexcept;
-    void leaveAll() noexcept;
-    void readAll(qint64 now) noexcept;
-    void setSafeValues(bool knowTable);
-    static void give(const std::vector<GivenValue> &values, bool isSafe) noexcept;
-    void awaitSafeStops();
+                     const qplc::ConfigurationEntry &entry)
+    {
+        const auto isSame = [&](const GivenValue &safe) {
+            return safe.runner == constant.runner && safe.channel == constant.channel;
+        };
+        if (std::any_of(safeValues.begin(), safeValues.end(), isSame))
+            constants.push_back(constant);
+        else
+            configuration->addError(entry,
+                                    QStringLiteral("no signal gives %1 a safe value; add '%2 = ...' to the "
+                                                   "section 'safe' of the device")
+                                        .arg(qplc::quoted(entry.key), entry.key));
+    }
+
+    ChannelPort *port(const QString &signal, QPlcPort::Direction direction)
+    {
+        const auto found = std::find_if(ports.begin(), ports.end(), [&](const std::unique_ptr<ChannelPort> &port) {
+            return port->name() == signal && port->direction() == direction;
+        });
+        if (found != ports.end())
+            return found->get();
+        ports.push_back(std::make_unique<ChannelPort>(q, signal, direction));
+        return ports.back().get();
+    }
+
+    void clear()
+    {
+        ports.clear();
+        runners.clear();
+        safeStops.clear();
+        safeValues.clear();
+        constants.clear();
+    }
+
+    void writeAll() noexcept
+    {
+        const qint64 now = qplc::monotonicNow();
+        for (const std::unique_ptr<DriverRunner> &runner : runners)
+            runner->write(now);
+    }
+
+    /// Likewise, at once; then the devices belong to the threads of their drivers until the next
+    /// writeAll().
+    void leaveAll() noexcept
+    {
+        const qint64 now = qplc::monotonicNow();
+        for (const std::unique_ptr<DriverRunner> &runner : runners)
+            runner->leave(now);
+    }
+
+    void readAll(qint64 now) noexcept
+    {
+        for (const std::unique_ptr<DriverRunner> &runner : runners)
+            runner->read(now);
+        for (const std::unique_ptr<ChannelPort> &port : ports) {
+            if (!port->isInput())
+                port->refresh(now);
+        }
+    }
+
+    /// What the configuration says wins over the signal table. \param knowTable that the ports are
+    /// bound to
+    void setSafeValues(bool knowTable)
+    {
+        const QPlcSignalTable table = knowTable ? q->signalTable() : QPlcSignalTable();
+        for (const std::unique_ptr<ChannelPort> &port : ports) {
+            const QPlcSignalIndex index = table.indexOf(port->name());
+            if (port->isInput() && index != QPlcInvalidSignalIndex)
+                port->setSafe(table.at(index).safeValue());
+        }
+        give(safeValues, true);
+    }
+
+    static void give(const std::vector<GivenValue> &values, bool isSafe) noexcept
+    {
+        for (const GivenValue &given : values)
+            given.runner->setValue(given.channel, given.value, isSafe);
+    }
+
+    /// A device that has just been asked for, or has nothing to say yet, would be an emergency stop
+    /// in the first cycle.
+    void awaitSafeStops()
+    {
+        constexpr qint64 patience = 500'000'000;  // [ns]
+        const qint64 end = qplc::monotonicNow() + patience;
+        const auto isMissing = [](const SafeStop &stop) {
+            const qint64 now = qplc::monotonicNow();
+            stop.runner->read(now);
+            return !stop.runner->sample(stop.channel, now).isFresh;
+        };
+        while (std::any_of(safeStops.begin(), safeStops.end(), isMissing) && qplc::monotonicNow() < end)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
 
     QPlcHardwareNode *q;
     QVector<QPlcParseError> errors;
@@ -71,142 +248,6 @@ struct QPlcHardwareNode::Private
 };
 
 // ---- configuration ----
-
-void QPlcHardwareNode::Private::build(HardwareConfiguration *configuration)
-{
-    for (const HardwareConfiguration::Driver &driver : configuration->drivers())
-        buildDriver(configuration, driver);
-    for (const HardwareConfiguration::Watched &watched : configuration->safeStops())
-        buildSafeStop(configuration, watched);
-    for (const std::unique_ptr<ChannelPort> &port : ports) {
-        const QString missing = port->isInput() ? QString() : port->missingElements();
-        if (!missing.isEmpty())
-            configuration->addError(
-                {}, QStringLiteral("no channel gives a value to %1; add it to a section 'read'").arg(missing));
-    }
-}
-
-void QPlcHardwareNode::Private::buildDriver(HardwareConfiguration *configuration,
-                                            const HardwareConfiguration::Driver &driver)
-{
-    const QMap<QString, DriverCatalog::Kind> &kinds = DriverCatalog::instance().kinds();
-    const auto kind = kinds.find(driver.kind);
-    if (kind == kinds.end()) {
-        if (!driver.kind.isEmpty())
-            configuration->addError(driver.entry,
-                                    QStringLiteral("there is no driver %1%2%3")
-                                        .arg(qplc::quoted(driver.kind),
-                                             qplc::didYouMean(qplc::closeNames(driver.kind, kinds.keys())),
-                                             qplc::knownAre(kinds.keys())));
-        return;
-    }
-    runners.push_back(std::make_unique<DriverRunner>(driver.name, driver.kind, kind->make()));
-    DriverRunner *runner = runners.back().get();
-    const std::unique_ptr<QPlcDriverSettings> settings = configuration->settings(driver);
-    const int former = configuration->errors().size();
-    runner->configure(*settings);
-    configuration->checkUse(*settings);
-    if (configuration->errors().size() > former)
-        return;  // what its channels are is not known: their errors would be echoes
-    for (const HardwareConfiguration::SafeValue &safe : driver.safeValues)
-        buildSafeValue(configuration, runner, safe);
-    for (const HardwareConfiguration::Wire &wire : driver.wires)
-        buildWire(configuration, runner, wire);
-}
-
-void QPlcHardwareNode::Private::buildWire(HardwareConfiguration *configuration, DriverRunner *runner,
-                                          const HardwareConfiguration::Wire &wire)
-{
-    const bool isRead = wire.direction == QPlcChannel::Read;
-    const qplc::ConfigurationTerm &signal = isRead ? wire.target : wire.source;
-    const QString channel = (isRead ? wire.source : wire.target).name;
-    QString error;
-    const int number = runner->wire(channel, wire.direction, &error);
-    if (number < 0) {
-        configuration->addError(wire.entry, error);
-        return;
-    }
-    bool isConstant = false;
-    const double constant = isRead ? 0.0 : signal.name.toDouble(&isConstant);
-    if (isConstant) {
-        addConstant(configuration, {runner, number, constant * signal.factor + signal.offset}, wire.entry);
-        return;
-    }
-    ChannelPort *port = this->port(signal.name, isRead ? QPlcPort::Output : QPlcPort::Input);
-    if (!port->add(signal.element, {runner, number, wire.source.factor, wire.source.offset}))
-        configuration->addError(
-            wire.entry,
-            QStringLiteral("%1 is wired twice, or with brackets and without; wire each element once")
-                .arg(qplc::quoted(signal.name)));
-}
-
-/// A number in place of a signal: while the node computes, the channel has it.
-void QPlcHardwareNode::Private::addConstant(HardwareConfiguration *configuration, const GivenValue &constant,
-                                            const qplc::ConfigurationEntry &entry)
-{
-    const auto isSame
-        = [&](const GivenValue &safe) { return safe.runner == constant.runner && safe.channel == constant.channel; };
-    if (std::any_of(safeValues.begin(), safeValues.end(), isSame))
-        constants.push_back(constant);
-    else
-        configuration->addError(entry,
-                                QStringLiteral("no signal gives %1 a safe value; add '%2 = ...' to the "
-                                               "section 'safe' of the device")
-                                    .arg(qplc::quoted(entry.key), entry.key));
-}
-
-void QPlcHardwareNode::Private::buildSafeValue(HardwareConfiguration *configuration, DriverRunner *runner,
-                                               const HardwareConfiguration::SafeValue &safe)
-{
-    QString error;
-    const int number = runner->wire(safe.channel, QPlcChannel::Write, &error);
-    if (number < 0)
-        configuration->addError(safe.entry, error);
-    else
-        safeValues.push_back({runner, number, safe.value});
-}
-
-void QPlcHardwareNode::Private::buildSafeStop(HardwareConfiguration *configuration,
-                                              const HardwareConfiguration::Watched &watched)
-{
-    QStringList names;
-    for (const std::unique_ptr<DriverRunner> &runner : runners) {
-        names << runner->name();
-        if (runner->name() != watched.driver)
-            continue;
-        QString error;
-        const int number = runner->wire(watched.channel, QPlcChannel::Read, &error);
-        if (number < 0)
-            configuration->addError(watched.entry, error);
-        else
-            safeStops.push_back({runner.get(), number});
-        return;
-    }
-    configuration->addError(
-        watched.entry,
-        QStringLiteral("there is no device %1%2")
-            .arg(qplc::quoted(watched.driver), qplc::didYouMean(qplc::closeNames(watched.driver, names))));
-}
-
-ChannelPort *QPlcHardwareNode::Private::port(const QString &signal, QPlcPort::Direction direction)
-{
-    const auto found = std::find_if(ports.begin(), ports.end(), [&](const std::unique_ptr<ChannelPort> &port) {
-        return port->name() == signal && port->direction() == direction;
-    });
-    if (found != ports.end())
-        return found->get();
-    ports.push_back(std::make_unique<ChannelPort>(q, signal, direction));
-    return ports.back().get();
-}
-
-void QPlcHardwareNode::Private::clear()
-{
-    ports.clear();
-    runners.clear();
-    safeStops.clear();
-    safeValues.clear();
-    constants.clear();
-}
 
 QPlcHardwareNode::QPlcHardwareNode(const QString &name, QObject *parent)
     : QPlcCompactSlaveNode(name, ErrorZeroOrderHold, parent)
@@ -351,66 +392,6 @@ QVector<QPlcHardwareNode::Wire> QPlcHardwareNode::wires() const
 void QPlcHardwareNode::readDevices()
 {
     m_hardware->readAll(qplc::monotonicNow());
-}
-
-void QPlcHardwareNode::Private::readAll(qint64 now) noexcept
-{
-    for (const std::unique_ptr<DriverRunner> &runner : runners)
-        runner->read(now);
-    for (const std::unique_ptr<ChannelPort> &port : ports) {
-        if (!port->isInput())
-            port->refresh(now);
-    }
-}
-
-void QPlcHardwareNode::Private::writeAll() noexcept
-{
-    const qint64 now = qplc::monotonicNow();
-    for (const std::unique_ptr<DriverRunner> &runner : runners)
-        runner->write(now);
-}
-
-/// Likewise, at once; then the devices belong to the threads of their drivers until the next
-/// writeAll().
-void QPlcHardwareNode::Private::leaveAll() noexcept
-{
-    const qint64 now = qplc::monotonicNow();
-    for (const std::unique_ptr<DriverRunner> &runner : runners)
-        runner->leave(now);
-}
-
-/// A device that has just been asked for, or has nothing to say yet, would be an emergency stop in
-/// the first cycle.
-void QPlcHardwareNode::Private::awaitSafeStops()
-{
-    constexpr qint64 patience = 500'000'000;  // [ns]
-    const qint64 end = qplc::monotonicNow() + patience;
-    const auto isMissing = [](const SafeStop &stop) {
-        const qint64 now = qplc::monotonicNow();
-        stop.runner->read(now);
-        return !stop.runner->sample(stop.channel, now).isFresh;
-    };
-    while (std::any_of(safeStops.begin(), safeStops.end(), isMissing) && qplc::monotonicNow() < end)
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-}
-
-/// What the configuration says wins over the signal table. \param knowTable that the ports are
-/// bound to
-void QPlcHardwareNode::Private::setSafeValues(bool knowTable)
-{
-    const QPlcSignalTable table = knowTable ? q->signalTable() : QPlcSignalTable();
-    for (const std::unique_ptr<ChannelPort> &port : ports) {
-        const QPlcSignalIndex index = table.indexOf(port->name());
-        if (port->isInput() && index != QPlcInvalidSignalIndex)
-            port->setSafe(table.at(index).safeValue());
-    }
-    give(safeValues, true);
-}
-
-void QPlcHardwareNode::Private::give(const std::vector<GivenValue> &values, bool isSafe) noexcept
-{
-    for (const GivenValue &given : values)
-        given.runner->setValue(given.channel, given.value, isSafe);
 }
 
 // ---- cycles ----

@@ -5,6 +5,7 @@
 #include "gui/WindowText.h"
 
 #include <QtCore/QFile>
+#include <QtCore/QJsonArray>
 #include <QtCore/QJsonDocument>
 #include <QtCore/QSaveFile>
 
@@ -14,98 +15,91 @@ namespace qplc {
 class LayoutWriter
 {
 public:
-    static QJsonObject root(const Layout &layout);
-
-private:
-    static QJsonObject tab(const LayoutTab &tab);
-    static QJsonObject window(const LayoutWindow &window);
-    static QJsonObject page(const LayoutPage &page);
-    static QJsonObject node(const LayoutNode &node);
-    static QJsonObject home(const LayoutHome &home);
-    static double share(int share) { return share / double(LayoutNode::WholeShare); }
-};
-
-QJsonObject LayoutWriter::root(const Layout &layout)
-{
-    QJsonArray tabs;
-    for (const LayoutTab &each : layout.tabs())
-        tabs.append(tab(each));
-    QJsonArray windows;
-    for (const LayoutWindow &each : layout.windows())
-        windows.append(window(each));
-    QJsonObject json = layout.m_otherKeys;
-    json.insert(QStringLiteral("format"), QStringLiteral("QtPLC layout"));
-    json.insert(QStringLiteral("version"), LayoutVersion);
-    json.insert(QStringLiteral("currentTab"), layout.m_currentTab);
-    json.insert(QStringLiteral("tabs"), tabs);
-    json.insert(QStringLiteral("windows"), windows);
-    return json;
-}
-
-QJsonObject LayoutWriter::page(const LayoutPage &page)
-{
-    QJsonObject json = page.otherKeys;
-    json.insert(QStringLiteral("id"), page.id);
-    if (page.tree)
-        json.insert(QStringLiteral("tree"), node(*page.tree));
-    if (!page.maximized.isEmpty())
-        json.insert(QStringLiteral("maximized"), page.maximized);
-    return json;
-}
-
-QJsonObject LayoutWriter::tab(const LayoutTab &tab)
-{
-    QJsonObject json = page(tab);
-    json.insert(QStringLiteral("name"), tab.name);
-    return json;
-}
-
-QJsonObject LayoutWriter::window(const LayoutWindow &window)
-{
-    QJsonObject json = page(window);
-    QJsonObject geometry = window.otherGeometryKeys;
-    geometry.insert(QStringLiteral("x"), window.geometry.x());
-    geometry.insert(QStringLiteral("y"), window.geometry.y());
-    geometry.insert(QStringLiteral("width"), window.geometry.width());
-    geometry.insert(QStringLiteral("height"), window.geometry.height());
-    json.insert(QStringLiteral("geometry"), geometry);
-    if (window.home)
-        json.insert(QStringLiteral("home"), home(*window.home));
-    return json;
-}
-
-QJsonObject LayoutWriter::node(const LayoutNode &node)
-{
-    QJsonObject json = node.isPanel() ? node.panel.otherKeys : node.otherKeys;
-    if (node.isPanel()) {
-        json.insert(QStringLiteral("id"), node.panel.id);
-        json.insert(QStringLiteral("type"), node.panel.type);
-        json.insert(QStringLiteral("settings"), node.panel.settings);
+    static QJsonObject root(const Layout &layout)
+    {
+        QJsonArray tabs;
+        for (const LayoutTab &each : layout.tabs())
+            tabs.append(tab(each));
+        QJsonArray windows;
+        for (const LayoutWindow &each : layout.windows())
+            windows.append(window(each));
+        QJsonObject json = layout.m_otherKeys;
+        json.insert(QStringLiteral("format"), QStringLiteral("QtPLC layout"));
+        json.insert(QStringLiteral("version"), LayoutVersion);
+        json.insert(QStringLiteral("currentTab"), layout.m_currentTab);
+        json.insert(QStringLiteral("tabs"), tabs);
+        json.insert(QStringLiteral("windows"), windows);
         return json;
     }
-    json.insert(QStringLiteral("split"), layoutOrientationWords().at(node.orientation == Qt::Horizontal ? 0 : 1));
-    QJsonArray children;
-    for (const LayoutNode &child : node.children) {
-        QJsonObject entry = LayoutWriter::node(child);
-        entry.insert(QStringLiteral("share"), share(child.share));
-        children.append(entry);
-    }
-    json.insert(QStringLiteral("children"), children);
-    return json;
-}
 
-QJsonObject LayoutWriter::home(const LayoutHome &home)
-{
-    QJsonObject json = home.otherKeys;
-    json.insert(QStringLiteral("tab"), home.tab);
-    json.insert(QStringLiteral("side"), layoutSideWords().at(int(home.side)));
-    json.insert(QStringLiteral("share"), share(home.share));
-    if (!home.beside.first.isEmpty()) {
-        json.insert(QStringLiteral("first"), home.beside.first);
-        json.insert(QStringLiteral("last"), home.beside.last);
+private:
+    static QJsonObject tab(const LayoutTab &tab)
+    {
+        QJsonObject json = page(tab);
+        json.insert(QStringLiteral("name"), tab.name);
+        return json;
     }
-    return json;
-}
+
+    static QJsonObject window(const LayoutWindow &window)
+    {
+        QJsonObject json = page(window);
+        QJsonObject geometry = window.otherGeometryKeys;
+        geometry.insert(QStringLiteral("x"), window.geometry.x());
+        geometry.insert(QStringLiteral("y"), window.geometry.y());
+        geometry.insert(QStringLiteral("width"), window.geometry.width());
+        geometry.insert(QStringLiteral("height"), window.geometry.height());
+        json.insert(QStringLiteral("geometry"), geometry);
+        if (window.home)
+            json.insert(QStringLiteral("home"), home(*window.home));
+        return json;
+    }
+
+    static QJsonObject page(const LayoutPage &page)
+    {
+        QJsonObject json = page.otherKeys;
+        json.insert(QStringLiteral("id"), page.id);
+        if (page.tree)
+            json.insert(QStringLiteral("tree"), node(*page.tree));
+        if (!page.maximized.isEmpty())
+            json.insert(QStringLiteral("maximized"), page.maximized);
+        return json;
+    }
+
+    static QJsonObject node(const LayoutNode &node)
+    {
+        QJsonObject json = node.isPanel() ? node.panel.otherKeys : node.otherKeys;
+        if (node.isPanel()) {
+            json.insert(QStringLiteral("id"), node.panel.id);
+            json.insert(QStringLiteral("type"), node.panel.type);
+            json.insert(QStringLiteral("settings"), node.panel.settings);
+            return json;
+        }
+        json.insert(QStringLiteral("split"), layoutOrientationWords().at(node.orientation == Qt::Horizontal ? 0 : 1));
+        QJsonArray children;
+        for (const LayoutNode &child : node.children) {
+            QJsonObject entry = LayoutWriter::node(child);
+            entry.insert(QStringLiteral("share"), share(child.share));
+            children.append(entry);
+        }
+        json.insert(QStringLiteral("children"), children);
+        return json;
+    }
+
+    static QJsonObject home(const LayoutHome &home)
+    {
+        QJsonObject json = home.otherKeys;
+        json.insert(QStringLiteral("tab"), home.tab);
+        json.insert(QStringLiteral("side"), layoutSideWords().at(int(home.side)));
+        json.insert(QStringLiteral("share"), share(home.share));
+        if (!home.beside.first.isEmpty()) {
+            json.insert(QStringLiteral("first"), home.beside.first);
+            json.insert(QStringLiteral("last"), home.beside.last);
+        }
+        return json;
+    }
+
+    static double share(int share) { return share / double(LayoutNode::WholeShare); }
+};
 
 namespace {
 
@@ -141,14 +135,13 @@ std::optional<Layout> layoutFromJson(const QByteArray &text, QPlcParseError *err
         setError(error, syntaxError(text, json));
         return {};
     }
-    const LayoutReader reader(document.object());
-    if (reader.hasError()) {
-        QPlcParseError structure;
-        structure.message = WindowText::tr("%1; correct it, or choose another layout").arg(reader.error());
-        setError(error, structure);
-        return {};
-    }
-    return reader.layout();
+    QPlcParseError structure;
+    const std::optional<Layout> layout = readLayout(document.object(), &structure.message);
+    if (layout)
+        return layout;
+    structure.message = WindowText::tr("%1; correct it, or choose another layout").arg(structure.message);
+    setError(error, structure);
+    return {};
 }
 
 std::optional<Layout> readLayoutFile(const QString &fileName, QPlcParseError *error)

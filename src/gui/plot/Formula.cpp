@@ -46,19 +46,18 @@ Formula Formula::read(const QString &text, const QStringList &plants, QString *e
         error->clear();
     if (text.size() > longestText)
         return refuse(longestText, QStringLiteral("a formula has at most %1 characters").arg(longestText));
-    FormulaReader reader(text, plants);
     try {
-        reader.read();
-    } catch (const FormulaReader::Error &found) {
+        const FormulaText read = readFormula(text, plants);
+        formula.m_operands = read.operands;
+        formula.m_parts = read.parts;
+    } catch (const FormulaError &found) {
         return refuse(found.place, found.what);
     }
-    if (const auto found = FormulaCalculator::check(reader.operands(), reader.parts())) {
-        const Part &part = reader.parts()[std::size_t(found->part)];
+    if (const auto found = FormulaCalculator::check(formula.m_operands, formula.m_parts)) {
+        const Part &part = formula.m_parts[std::size_t(found->part)];
         const auto character = std::size_t(found->character);
         return refuse(character < part.places.size() ? part.places[character] : part.end, found->what);
     }
-    formula.m_operands = reader.operands();
-    formula.m_parts = reader.parts();
     return formula;
 }
 

@@ -8,10 +8,11 @@ namespace qplc {
 class SignalStore;
 struct CurveSource;
 
-/// The rows of a past for what draws them. They live as long as the past.
+/// The store and the channel behind a past. They live as long as the past.
 ///
-/// QPlcPast reads the same rows, for panels of users. What draws curves here is older than it, and
-/// works on any SignalStore, also one without a window: benchmarks and tests fill their own.
+/// Curves, statistics and triggers read a SignalStore, not a QPlcPast: they need what panels of
+/// users do without (values as their writer gave them, the next interruption, a guess where to
+/// search), and tests and benchmarks fill stores of their own.
 struct PastRows
 {
     const SignalStore *store = nullptr;  // null: there are none

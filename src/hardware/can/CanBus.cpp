@@ -2,7 +2,6 @@
 #include "CanBus.h"
 
 #include "FakeCanBus.h"
-#include "SocketCanBus.h"
 #if defined(QTPLC_HAS_QT_SERIAL_BUS)
 #include "QtCanBus.h"
 #endif
@@ -68,8 +67,8 @@ std::unique_ptr<CanBus> CanBus::make(const QString &device, QString *error)
                      .arg(device);
         return nullptr;
     }
-    if (SocketCanBus::isName(device))
-        return std::make_unique<SocketCanBus>(device);
+    if (auto bus = createSocketCanBus(device))
+        return bus;
     *error = QStringLiteral(
                  "'%1' does not name a CAN bus; write an interface like can0, qtcan:PLUGIN:INTERFACE, or fake:NAME")
                  .arg(device);

@@ -105,4 +105,7 @@ private:
     int m_errorNumber = 0;
 };
 
+/// \return null: no interface of the kernel can have this name
+std::unique_ptr<CanBus> createSocketCanBus(const QString &interface);
+
 }  // namespace qplc

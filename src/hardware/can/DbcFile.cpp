@@ -2,6 +2,7 @@
 #include "DbcFile.h"
 
 #include "DbcParser.h"
+#include "DbcReader.h"
 
 #include <QtCore/QFile>
 #include <QtCore/QTextCodec>
@@ -57,9 +58,7 @@ DbcFile DbcFile::fromText(const QByteArray &text, const QString &fileName, QVect
             = dbcError(fileName, QStringLiteral("byte 0x00: this is not a text; give a DBC file in UTF-8 or Latin-1"));
         return file;
     }
-    DbcParser parser(textOfDbc(text), fileName);
-    file.m_messages = parser.parse();
-    *errors = parser.errors();
+    file.m_messages = parseDbc(textOfDbc(text), fileName, errors);
     if (errors->isEmpty() && file.isEmpty())
         *errors = dbcError(fileName, QStringLiteral("there is no message (BO_) in the file; give a DBC file"));
     return file;

@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "SocketCanBus.h"
-
+#include "CanBus.h"
+#include "WallTimeConverter.h"
 #include "realtime/TimeSource.h"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
+#include <ctime>
 #include <limits>
+#include <linux/can.h>
 #include <linux/can/error.h>
 #include <linux/can/raw.h>
 #include <net/if.h>
 #include <net/if_arp.h>
 #include <sys/ioctl.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 namespace qplc {
@@ -82,236 +86,264 @@ bool isCanQueueFull(int error)
     return error == ENOBUFS || error == EAGAIN || error == EWOULDBLOCK || error == ENOMEM;
 }
 
+/// A CAN interface of the kernel, by a raw socket.
+class SocketCanBus final : public CanBus
+{
+public:
+    explicit SocketCanBus(const QString &interface)
+        : m_interface(interface)
+    {
+    }
+
+    ~SocketCanBus() override { SocketCanBus::close(); }
+
+    void close() override
+    {
+        if (m_socket >= 0)
+            ::close(m_socket);
+        m_socket = -1;
+    }
+
+    int descriptor() const override { return m_socket; }
+
+protected:
+    bool join(const Options &options) override
+    {
+        close();
+        m_dropped = 0;
+        if (makeSocket() && findInterface(options.needsFd) && setOptions() && setFilters(options) && bindSocket()) {
+            lookAtClocks();
+            m_clock.drained(monotonicNow());
+            return true;
+        }
+        close();
+        return false;
+    }
+
+    int readFrames(CanFrame *frames, int capacity) noexcept override
+    {
+        const qint64 begin = monotonicNow();
+        int count = 0;
+        while (count < capacity) {
+            const int wanted = std::min(capacity - count, BatchSize);
+            for (int i = 0; i < wanted; ++i) {
+                m_parts[i] = {&m_frames[i], sizeof m_frames[i]};
+                m_messages[i].msg_hdr = {nullptr, 0, &m_parts[i], 1, &m_control[i], sizeof m_control[i], 0};
+            }
+            const int received = recvmmsg(m_socket, m_messages.data(), unsigned(wanted), MSG_DONTWAIT, nullptr);
+            if (received < 0 && errno == EINTR)
+                continue;
+            if (received < 0 && errno != EAGAIN && errno != EWOULDBLOCK)
+                return count > 0 ? count : lose(errno);  // told again at the next call
+            if (received > 0)
+                lookAtClocks();
+            count += convert(std::max(received, 0), frames + count);
+            if (received < wanted) {
+                m_clock.drained(begin);
+                break;
+            }
+        }
+        return count;
+    }
+
+    int writeFrames(const CanFrame *frames, int count) noexcept override
+    {
+        int sent = 0;
+        while (sent < count) {
+            const int wanted = std::min(count - sent, BatchSize);
+            for (int i = 0; i < wanted; ++i) {
+                const CanFrame &frame = frames[sent + i];
+                m_frames[i] = kernelFrame(frame);
+                m_parts[i] = {&m_frames[i], size_t(frame.has(CanFrame::Fd) ? CANFD_MTU : CAN_MTU)};
+                m_messages[i].msg_hdr = {nullptr, 0, &m_parts[i], 1, nullptr, 0, 0};
+            }
+            const int given = sendmmsg(m_socket, m_messages.data(), unsigned(wanted), MSG_DONTWAIT);
+            if (given < 0 && errno == EINTR)
+                continue;
+            if (given < 0)
+                return isCanQueueFull(errno) || sent > 0 ? sent : lose(errno);
+            sent += given;
+            // A short count says that the next frame met an error; the next call of sendmmsg()
+            // tells which.
+        }
+        return sent;
+    }
+
+private:
+    static constexpr int BatchSize = 64;
+
+    bool makeSocket()
+    {
+        m_socket = socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW);
+        return m_socket >= 0
+            || failWith(QStringLiteral("the kernel does not support CAN"),
+                        QStringLiteral("load its modules as root: modprobe can_raw, and that of the adapter"));
+    }
+
+    bool findInterface(bool needsFd)
+    {
+        ifreq request = requestFor(m_interface);
+        if (ioctl(m_socket, SIOCGIFINDEX, &request) < 0)
+            return failWith(QStringLiteral("there is no such interface"),
+                            QStringLiteral("plug in the adapter and load its module; 'ip link' lists what there is"));
+        m_index = request.ifr_ifindex;
+        if (ioctl(m_socket, SIOCGIFHWADDR, &request) < 0 || request.ifr_hwaddr.sa_family != ARPHRD_CAN)
+            return fail(
+                QStringLiteral("%1 is not a CAN interface; give one of those that 'ip link show type can' lists")
+                    .arg(m_interface));
+        m_isFd = ioctl(m_socket, SIOCGIFMTU, &request) == 0 && request.ifr_mtu >= int(CANFD_MTU);
+        if (needsFd && !m_isFd)
+            return fail(
+                QStringLiteral("%1 is not set up for CAN FD, which messages of the configuration use; as root: ip "
+                               "link set %1 down, ip link set %1 up type can bitrate 500000 dbitrate 2000000 fd on")
+                    .arg(m_interface));
+        if (ioctl(m_socket, SIOCGIFFLAGS, &request) < 0 || !(request.ifr_flags & IFF_UP))
+            return fail(QStringLiteral("%1 is down; as root: ip link set %1 up type can bitrate 500000 restart-ms 100 "
+                                       "(with the bit rate of the bus)")
+                            .arg(m_interface));
+        return (request.ifr_flags & IFF_RUNNING)
+            || fail(QStringLiteral("%1 is bus-off; check wires, terminators and bit rate, then as root: ip link set %1 "
+                                   "type can restart (with restart-ms 100 the kernel does it by itself)")
+                        .arg(m_interface));
+    }
+
+    bool setOptions()
+    {
+        const int on = 1;
+        // The larger queue is a wish: only root gets more than net.core.rmem_max.
+        if (setsockopt(m_socket, SOL_SOCKET, SO_RCVBUFFORCE, &canQueueSize, sizeof canQueueSize) != 0)
+            setsockopt(m_socket, SOL_SOCKET, SO_RCVBUF, &canQueueSize, sizeof canQueueSize);
+        return (!m_isFd || setOption(SOL_CAN_RAW, CAN_RAW_FD_FRAMES, &on, sizeof on, "CAN FD"))
+            && setOption(SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on, "time stamps")
+            && setOption(SOL_SOCKET, SO_RXQ_OVFL, &on, sizeof on, "the counter of lost frames")
+            && setOption(SOL_CAN_RAW, CAN_RAW_ERR_FILTER, &canErrorKinds, sizeof canErrorKinds, "error frames");
+    }
+
+    bool setFilters(const Options &options)
+    {
+        std::vector<can_filter> filters;
+        for (const quint32 key : options.keys)
+            filters.push_back(filterFor(key));
+        if (options.receivesAll || filters.size() > CAN_RAW_FILTER_MAX) {
+            const can_filter all{0, 0};
+            return setOption(SOL_CAN_RAW, CAN_RAW_FILTER, &all, sizeof all, "filters");
+        }
+        return setOption(SOL_CAN_RAW, CAN_RAW_FILTER, filters.data(), socklen_t(filters.size() * sizeof(can_filter)),
+                         "filters");
+    }
+
+    bool bindSocket()
+    {
+        sockaddr_can address;
+        std::memset(&address, 0, sizeof address);
+        address.can_family = AF_CAN;
+        address.can_ifindex = m_index;
+        return bind(m_socket, reinterpret_cast<const sockaddr *>(&address), sizeof address) == 0
+            || failWith(QStringLiteral("cannot be used"),
+                        QStringLiteral("'ip link' lists the interfaces that there are"));
+    }
+
+    bool setOption(int level, int name, const void *value, socklen_t size, const char *what)
+    {
+        return setsockopt(m_socket, level, name, value, size) == 0
+            || failWith(QStringLiteral("cannot set %1").arg(QLatin1String(what)),
+                        QStringLiteral("the kernel is too old; use 5.4 or newer"));
+    }
+
+    bool failWith(const QString &what, const QString &remedy)
+    {
+        const int number = errno;
+        return fail(QStringLiteral("%1: %2 (%3); %4")
+                        .arg(m_interface, what, QString::fromLocal8Bit(std::strerror(number)), remedy));
+    }
+
+    /// Who is not run between two clocks takes their difference for that of the clocks: the closest
+    /// of a few looks counts.
+    void lookAtClocks() noexcept
+    {
+        constexpr int most = 4;
+        constexpr qint64 close = 5'000;  // [ns]
+        qint64 now = 0;
+        qint64 wall = 0;
+        qint64 closest = std::numeric_limits<qint64>::max();
+        for (int i = 0; i < most && closest > close; ++i) {
+            const qint64 before = monotonicNow();
+            const qint64 between = wallClockNow();
+            const qint64 distance = monotonicNow() - before;
+            if (distance < closest) {
+                closest = distance;
+                now = before + distance / 2;
+                wall = between;
+            }
+        }
+        m_clock.look(now, wall);
+    }
+
+    // Frames that came in, without those whose size is none of a frame. Returns how many.
+    int convert(int received, CanFrame *frames) noexcept
+    {
+        int count = 0;
+        for (int i = 0; i < received; ++i) {
+            const qint64 time = readControl(&m_messages[i].msg_hdr);
+            const unsigned size = m_messages[i].msg_len;
+            if (size != CAN_MTU && size != CANFD_MTU)
+                continue;
+            frames[count] = frameOfKernel(m_frames[i], size == CANFD_MTU);
+            frames[count].time = time;
+            ++count;
+        }
+        return count;
+    }
+
+    // Returns when the frame came in [ns].
+    qint64 readControl(msghdr *message) noexcept
+    {
+        qint64 time = 0;
+        for (cmsghdr *part = CMSG_FIRSTHDR(message); part; part = CMSG_NXTHDR(message, part)) {
+            if (part->cmsg_level != SOL_SOCKET)
+                continue;
+            if (part->cmsg_type == SO_TIMESTAMPNS) {
+                timespec stamp;
+                std::memcpy(&stamp, CMSG_DATA(part), sizeof stamp);
+                time = qint64(stamp.tv_sec) * NanosecondsPerSecond + stamp.tv_nsec;
+            } else if (part->cmsg_type == SO_RXQ_OVFL) {
+                quint32 dropped = 0;
+                std::memcpy(&dropped, CMSG_DATA(part), sizeof dropped);
+                countLost(quint32(dropped - m_dropped));
+                m_dropped = dropped;
+            }
+        }
+        return m_clock.toMonotonic(time);
+    }
+
+    const QString m_interface;
+    int m_socket = -1;
+    int m_index = 0;        // of the interface
+    bool m_isFd = false;    // the interface can do CAN FD
+    quint32 m_dropped = 0;  // frames that found no room in the queue of the socket, as the kernel counts them
+    WallTimeConverter m_clock;
+
+    std::array<canfd_frame, BatchSize> m_frames{};
+    std::array<iovec, BatchSize> m_parts{};
+    std::array<mmsghdr, BatchSize> m_messages{};
+    struct Control
+    {
+        alignas(cmsghdr) char bytes[CMSG_SPACE(sizeof(timespec)) + CMSG_SPACE(sizeof(quint32))];
+    };
+    std::array<Control, BatchSize> m_control{};
+};
+
 }  // namespace
 
-SocketCanBus::SocketCanBus(const QString &interface)
-    : m_interface(interface)
-{
-}
-
-SocketCanBus::~SocketCanBus()
-{
-    SocketCanBus::close();
-}
-
-bool SocketCanBus::isName(const QString &interface)
+std::unique_ptr<CanBus> createSocketCanBus(const QString &interface)
 {
     const auto isAllowed = [](QChar character) {
         return character > QLatin1Char(' ') && character < QChar(0x7F) && character != QLatin1Char('/')
             && character != QLatin1Char(':');
     };
-    return !interface.isEmpty() && interface.size() < IFNAMSIZ
+    const bool isName = !interface.isEmpty() && interface.size() < IFNAMSIZ
         && std::all_of(interface.cbegin(), interface.cend(), isAllowed);
-}
-
-void SocketCanBus::close()
-{
-    if (m_socket >= 0)
-        ::close(m_socket);
-    m_socket = -1;
-}
-
-bool SocketCanBus::join(const Options &options)
-{
-    close();
-    m_dropped = 0;
-    if (makeSocket() && findInterface(options.needsFd) && setOptions() && setFilters(options) && bindSocket()) {
-        lookAtClocks();
-        m_clock.drained(monotonicNow());
-        return true;
-    }
-    close();
-    return false;
-}
-
-bool SocketCanBus::failWith(const QString &what, const QString &remedy)
-{
-    const int number = errno;
-    return fail(QStringLiteral("%1: %2 (%3); %4")
-                    .arg(m_interface, what, QString::fromLocal8Bit(std::strerror(number)), remedy));
-}
-
-bool SocketCanBus::makeSocket()
-{
-    m_socket = socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW);
-    return m_socket >= 0
-        || failWith(QStringLiteral("the kernel does not support CAN"),
-                    QStringLiteral("load its modules as root: modprobe can_raw, and that of the adapter"));
-}
-
-bool SocketCanBus::findInterface(bool needsFd)
-{
-    ifreq request = requestFor(m_interface);
-    if (ioctl(m_socket, SIOCGIFINDEX, &request) < 0)
-        return failWith(QStringLiteral("there is no such interface"),
-                        QStringLiteral("plug in the adapter and load its module; 'ip link' lists what there is"));
-    m_index = request.ifr_ifindex;
-    if (ioctl(m_socket, SIOCGIFHWADDR, &request) < 0 || request.ifr_hwaddr.sa_family != ARPHRD_CAN)
-        return fail(QStringLiteral("%1 is not a CAN interface; give one of those that 'ip link show type can' lists")
-                        .arg(m_interface));
-    m_isFd = ioctl(m_socket, SIOCGIFMTU, &request) == 0 && request.ifr_mtu >= int(CANFD_MTU);
-    if (needsFd && !m_isFd)
-        return fail(QStringLiteral("%1 is not set up for CAN FD, which messages of the configuration use; as root: ip "
-                                   "link set %1 down, ip link set %1 up type can bitrate 500000 dbitrate 2000000 fd on")
-                        .arg(m_interface));
-    if (ioctl(m_socket, SIOCGIFFLAGS, &request) < 0 || !(request.ifr_flags & IFF_UP))
-        return fail(QStringLiteral("%1 is down; as root: ip link set %1 up type can bitrate 500000 restart-ms 100 "
-                                   "(with the bit rate of the bus)")
-                        .arg(m_interface));
-    return (request.ifr_flags & IFF_RUNNING)
-        || fail(QStringLiteral("%1 is bus-off; check wires, terminators and bit rate, then as root: ip link set %1 "
-                               "type can restart (with restart-ms 100 the kernel does it by itself)")
-                    .arg(m_interface));
-}
-
-bool SocketCanBus::setOption(int level, int name, const void *value, socklen_t size, const char *what)
-{
-    return setsockopt(m_socket, level, name, value, size) == 0
-        || failWith(QStringLiteral("cannot set %1").arg(QLatin1String(what)),
-                    QStringLiteral("the kernel is too old; use 5.4 or newer"));
-}
-
-bool SocketCanBus::setOptions()
-{
-    const int on = 1;
-    // The larger queue is a wish: only root gets more than net.core.rmem_max.
-    if (setsockopt(m_socket, SOL_SOCKET, SO_RCVBUFFORCE, &canQueueSize, sizeof canQueueSize) != 0)
-        setsockopt(m_socket, SOL_SOCKET, SO_RCVBUF, &canQueueSize, sizeof canQueueSize);
-    return (!m_isFd || setOption(SOL_CAN_RAW, CAN_RAW_FD_FRAMES, &on, sizeof on, "CAN FD"))
-        && setOption(SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on, "time stamps")
-        && setOption(SOL_SOCKET, SO_RXQ_OVFL, &on, sizeof on, "the counter of lost frames")
-        && setOption(SOL_CAN_RAW, CAN_RAW_ERR_FILTER, &canErrorKinds, sizeof canErrorKinds, "error frames");
-}
-
-bool SocketCanBus::setFilters(const Options &options)
-{
-    std::vector<can_filter> filters;
-    for (const quint32 key : options.keys)
-        filters.push_back(filterFor(key));
-    if (options.receivesAll || filters.size() > CAN_RAW_FILTER_MAX) {
-        const can_filter all{0, 0};
-        return setOption(SOL_CAN_RAW, CAN_RAW_FILTER, &all, sizeof all, "filters");
-    }
-    return setOption(SOL_CAN_RAW, CAN_RAW_FILTER, filters.data(), socklen_t(filters.size() * sizeof(can_filter)),
-                     "filters");
-}
-
-bool SocketCanBus::bindSocket()
-{
-    sockaddr_can address;
-    std::memset(&address, 0, sizeof address);
-    address.can_family = AF_CAN;
-    address.can_ifindex = m_index;
-    return bind(m_socket, reinterpret_cast<const sockaddr *>(&address), sizeof address) == 0
-        || failWith(QStringLiteral("cannot be used"), QStringLiteral("'ip link' lists the interfaces that there are"));
-}
-
-/// Who is not run between two clocks takes their difference for that of the clocks: the closest of
-/// a few looks counts.
-void SocketCanBus::lookAtClocks() noexcept
-{
-    constexpr int most = 4;
-    constexpr qint64 close = 5'000;  // [ns]
-    qint64 now = 0;
-    qint64 wall = 0;
-    qint64 closest = std::numeric_limits<qint64>::max();
-    for (int i = 0; i < most && closest > close; ++i) {
-        const qint64 before = monotonicNow();
-        const qint64 between = wallClockNow();
-        const qint64 distance = monotonicNow() - before;
-        if (distance < closest) {
-            closest = distance;
-            now = before + distance / 2;
-            wall = between;
-        }
-    }
-    m_clock.look(now, wall);
-}
-
-int SocketCanBus::readFrames(CanFrame *frames, int capacity) noexcept
-{
-    const qint64 begin = monotonicNow();
-    int count = 0;
-    while (count < capacity) {
-        const int wanted = std::min(capacity - count, BatchSize);
-        for (int i = 0; i < wanted; ++i) {
-            m_parts[i] = {&m_frames[i], sizeof m_frames[i]};
-            m_messages[i].msg_hdr = {nullptr, 0, &m_parts[i], 1, &m_control[i], sizeof m_control[i], 0};
-        }
-        const int received = recvmmsg(m_socket, m_messages.data(), unsigned(wanted), MSG_DONTWAIT, nullptr);
-        if (received < 0 && errno == EINTR)
-            continue;
-        if (received < 0 && errno != EAGAIN && errno != EWOULDBLOCK)
-            return count > 0 ? count : lose(errno);  // told again at the next call
-        if (received > 0)
-            lookAtClocks();
-        count += convert(std::max(received, 0), frames + count);
-        if (received < wanted) {
-            m_clock.drained(begin);
-            break;
-        }
-    }
-    return count;
-}
-
-// Frames that came in, without those whose size is none of a frame. Returns how many.
-int SocketCanBus::convert(int received, CanFrame *frames) noexcept
-{
-    int count = 0;
-    for (int i = 0; i < received; ++i) {
-        const qint64 time = readControl(&m_messages[i].msg_hdr);
-        const unsigned size = m_messages[i].msg_len;
-        if (size != CAN_MTU && size != CANFD_MTU)
-            continue;
-        frames[count] = frameOfKernel(m_frames[i], size == CANFD_MTU);
-        frames[count].time = time;
-        ++count;
-    }
-    return count;
-}
-
-// Returns when the frame came in [ns].
-qint64 SocketCanBus::readControl(msghdr *message) noexcept
-{
-    qint64 time = 0;
-    for (cmsghdr *part = CMSG_FIRSTHDR(message); part; part = CMSG_NXTHDR(message, part)) {
-        if (part->cmsg_level != SOL_SOCKET)
-            continue;
-        if (part->cmsg_type == SO_TIMESTAMPNS) {
-            timespec stamp;
-            std::memcpy(&stamp, CMSG_DATA(part), sizeof stamp);
-            time = qint64(stamp.tv_sec) * NanosecondsPerSecond + stamp.tv_nsec;
-        } else if (part->cmsg_type == SO_RXQ_OVFL) {
-            quint32 dropped = 0;
-            std::memcpy(&dropped, CMSG_DATA(part), sizeof dropped);
-            countLost(quint32(dropped - m_dropped));
-            m_dropped = dropped;
-        }
-    }
-    return m_clock.toMonotonic(time);
-}
-
-int SocketCanBus::writeFrames(const CanFrame *frames, int count) noexcept
-{
-    int sent = 0;
-    while (sent < count) {
-        const int wanted = std::min(count - sent, BatchSize);
-        for (int i = 0; i < wanted; ++i) {
-            const CanFrame &frame = frames[sent + i];
-            m_frames[i] = kernelFrame(frame);
-            m_parts[i] = {&m_frames[i], size_t(frame.has(CanFrame::Fd) ? CANFD_MTU : CAN_MTU)};
-            m_messages[i].msg_hdr = {nullptr, 0, &m_parts[i], 1, nullptr, 0, 0};
-        }
-        const int given = sendmmsg(m_socket, m_messages.data(), unsigned(wanted), MSG_DONTWAIT);
-        if (given < 0 && errno == EINTR)
-            continue;
-        if (given < 0)
-            return isCanQueueFull(errno) || sent > 0 ? sent : lose(errno);
-        sent += given;
-        // A short count says that the next frame met an error; the next call of sendmmsg() tells
-        // which.
-    }
-    return sent;
+    return isName ? std::make_unique<SocketCanBus>(interface) : nullptr;
 }
 
 }  // namespace qplc

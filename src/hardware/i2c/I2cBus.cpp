@@ -2,7 +2,6 @@
 #include "I2cBus.h"
 
 #include "FakeI2cBus.h"
-#include "KernelI2cBus.h"
 
 #include <cerrno>
 
@@ -12,7 +11,7 @@ std::unique_ptr<I2cBus> I2cBus::open(const QString &device, int address, QString
 {
     if (FakeMemory::isFake(device))
         return FakeI2cBus::open(device, address, error);
-    return KernelI2cBus::open(device, address, error);
+    return openKernelI2cBus(device, address, error);
 }
 
 QString i2cAddressText(int address)

@@ -32,6 +32,9 @@ public:
     virtual bool write(quint8 first, const quint8 *bytes, int count) noexcept = 0;
 };
 
+/// As I2cBus::open(), for a bus of the kernel.
+std::unique_ptr<I2cBus> openKernelI2cBus(const QString &device, int address, QString *error);
+
 /// "0x68"
 QString i2cAddressText(int address);
 /// What to do when a device on a bus does not answer, for QPlcDriver::remedy(). Empty for errors

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "KernelI2cBus.h"
+#include "I2cBus.h"
 
 #include "hardware/DeviceFiles.h"
 
@@ -36,108 +36,123 @@ QString i2cAddressErrorText(const QString &device, int address, int errorNumber)
               .arg(i2cAddressText(address), device, qt_error_string(errorNumber));
 }
 
+/// A device on a bus of the kernel, by its i2c-dev. All calls are SMBus calls, which every adapter
+/// has, also those without plain I2C transfers.
+class KernelI2cBus final : public I2cBus
+{
+public:
+    static std::unique_ptr<KernelI2cBus> open(const QString &device, int address, QString *error)
+    {
+        auto bus = std::make_unique<KernelI2cBus>();
+        const QString path = DeviceFiles::path(device);
+        bus->m_descriptor = ::open(QFile::encodeName(path).constData(), O_RDWR | O_CLOEXEC);
+        if (bus->m_descriptor < 0) {
+            *error = i2cFiles().errorText(device, errno);
+            return nullptr;
+        }
+        if (::ioctl(bus->m_descriptor, I2C_FUNCS, &bus->m_abilities) < 0
+            || ::ioctl(bus->m_descriptor, I2C_SLAVE, address) < 0) {
+            *error = i2cAddressErrorText(device, address, errno);
+            return nullptr;
+        }
+        constexpr unsigned long needed = I2C_FUNC_SMBUS_BYTE_DATA;
+        if ((bus->m_abilities & needed) != needed) {
+            *error = QStringLiteral("the adapter of %1 cannot read and write single registers; take another adapter")
+                         .arg(device);
+            return nullptr;
+        }
+        return bus;
+    }
+
+    ~KernelI2cBus() override
+    {
+        if (m_descriptor >= 0)
+            ::close(m_descriptor);
+    }
+
+    // Blocks come in one transfer, so that bytes of one measurement stay together; an adapter that
+    // cannot do them gives words, then single bytes.
+    bool read(quint8 first, quint8 *bytes, int count) noexcept override
+    {
+        for (int done = 0; done < count;) {
+            i2c_smbus_data data = {};
+            const auto reg = quint8(first + done);
+            const int left = std::min(count - done, I2C_SMBUS_BLOCK_MAX);
+            int taken = 1;
+            if (left > 1 && (m_abilities & I2C_FUNC_SMBUS_READ_I2C_BLOCK)) {
+                data.block[0] = __u8(left);
+                if (!call(true, reg, I2C_SMBUS_I2C_BLOCK_DATA, &data))
+                    return false;
+                taken = std::min<int>(data.block[0], left);
+                if (taken == 0) {
+                    errno = EIO;
+                    return false;
+                }
+                std::memcpy(bytes + done, data.block + 1, std::size_t(taken));
+            } else if (left > 1 && (m_abilities & I2C_FUNC_SMBUS_READ_WORD_DATA)) {
+                if (!call(true, reg, I2C_SMBUS_WORD_DATA, &data))
+                    return false;
+                taken = 2;
+                bytes[done] = quint8(data.word & 0xff);  // the first byte on the wire is the low one
+                bytes[done + 1] = quint8(data.word >> 8);
+            } else {
+                if (!call(true, reg, I2C_SMBUS_BYTE_DATA, &data))
+                    return false;
+                bytes[done] = data.byte;
+            }
+            done += taken;
+        }
+        return true;
+    }
+
+    bool write(quint8 first, const quint8 *bytes, int count) noexcept override
+    {
+        for (int done = 0; done < count;) {
+            i2c_smbus_data data = {};
+            const auto reg = quint8(first + done);
+            const int left = std::min(count - done, I2C_SMBUS_BLOCK_MAX);
+            int given = 1;
+            bool isRight = false;
+            if (left > 1 && (m_abilities & I2C_FUNC_SMBUS_WRITE_I2C_BLOCK)) {
+                given = left;
+                data.block[0] = __u8(left);
+                std::memcpy(data.block + 1, bytes + done, std::size_t(left));
+                isRight = call(false, reg, I2C_SMBUS_I2C_BLOCK_DATA, &data);
+            } else if (left > 1 && (m_abilities & I2C_FUNC_SMBUS_WRITE_WORD_DATA)) {
+                given = 2;
+                data.word = __u16(bytes[done] | bytes[done + 1] << 8);
+                isRight = call(false, reg, I2C_SMBUS_WORD_DATA, &data);
+            } else {
+                data.byte = bytes[done];
+                isRight = call(false, reg, I2C_SMBUS_BYTE_DATA, &data);
+            }
+            if (!isRight)
+                return false;
+            done += given;
+        }
+        return true;
+    }
+
+private:
+    bool call(bool isRead, quint8 reg, quint32 size, void *data) noexcept
+    {
+        i2c_smbus_ioctl_data arguments = {};
+        arguments.read_write = isRead ? I2C_SMBUS_READ : I2C_SMBUS_WRITE;
+        arguments.command = reg;
+        arguments.size = size;
+        arguments.data = static_cast<i2c_smbus_data *>(data);
+        return ::ioctl(m_descriptor, I2C_SMBUS, &arguments) >= 0;
+    }
+
+    int m_descriptor = -1;
+    unsigned long m_abilities = 0;  // I2C_FUNC_...
+};
+
 }  // namespace
 
-std::unique_ptr<KernelI2cBus> KernelI2cBus::open(const QString &device, int address, QString *error)
+std::unique_ptr<I2cBus> openKernelI2cBus(const QString &device, int address, QString *error)
 {
-    auto bus = std::make_unique<KernelI2cBus>();
-    const QString path = DeviceFiles::path(device);
-    bus->m_descriptor = ::open(QFile::encodeName(path).constData(), O_RDWR | O_CLOEXEC);
-    if (bus->m_descriptor < 0) {
-        *error = i2cFiles().errorText(device, errno);
-        return nullptr;
-    }
-    if (::ioctl(bus->m_descriptor, I2C_FUNCS, &bus->m_abilities) < 0
-        || ::ioctl(bus->m_descriptor, I2C_SLAVE, address) < 0) {
-        *error = i2cAddressErrorText(device, address, errno);
-        return nullptr;
-    }
-    constexpr unsigned long needed = I2C_FUNC_SMBUS_BYTE_DATA;
-    if ((bus->m_abilities & needed) != needed) {
-        *error = QStringLiteral("the adapter of %1 cannot read and write single registers; take another adapter")
-                     .arg(device);
-        return nullptr;
-    }
-    return bus;
-}
-
-KernelI2cBus::~KernelI2cBus()
-{
-    if (m_descriptor >= 0)
-        ::close(m_descriptor);
-}
-
-bool KernelI2cBus::call(bool isRead, quint8 reg, quint32 size, void *data) noexcept
-{
-    i2c_smbus_ioctl_data arguments = {};
-    arguments.read_write = isRead ? I2C_SMBUS_READ : I2C_SMBUS_WRITE;
-    arguments.command = reg;
-    arguments.size = size;
-    arguments.data = static_cast<i2c_smbus_data *>(data);
-    return ::ioctl(m_descriptor, I2C_SMBUS, &arguments) >= 0;
-}
-
-// Blocks come in one transfer, so that bytes of one measurement stay together; an adapter that
-// cannot do them gives words, then single bytes.
-bool KernelI2cBus::read(quint8 first, quint8 *bytes, int count) noexcept
-{
-    for (int done = 0; done < count;) {
-        i2c_smbus_data data = {};
-        const auto reg = quint8(first + done);
-        const int left = std::min(count - done, I2C_SMBUS_BLOCK_MAX);
-        int taken = 1;
-        if (left > 1 && (m_abilities & I2C_FUNC_SMBUS_READ_I2C_BLOCK)) {
-            data.block[0] = __u8(left);
-            if (!call(true, reg, I2C_SMBUS_I2C_BLOCK_DATA, &data))
-                return false;
-            taken = std::min<int>(data.block[0], left);
-            if (taken == 0) {
-                errno = EIO;
-                return false;
-            }
-            std::memcpy(bytes + done, data.block + 1, std::size_t(taken));
-        } else if (left > 1 && (m_abilities & I2C_FUNC_SMBUS_READ_WORD_DATA)) {
-            if (!call(true, reg, I2C_SMBUS_WORD_DATA, &data))
-                return false;
-            taken = 2;
-            bytes[done] = quint8(data.word & 0xff);  // the first byte on the wire is the low one
-            bytes[done + 1] = quint8(data.word >> 8);
-        } else {
-            if (!call(true, reg, I2C_SMBUS_BYTE_DATA, &data))
-                return false;
-            bytes[done] = data.byte;
-        }
-        done += taken;
-    }
-    return true;
-}
-
-bool KernelI2cBus::write(quint8 first, const quint8 *bytes, int count) noexcept
-{
-    for (int done = 0; done < count;) {
-        i2c_smbus_data data = {};
-        const auto reg = quint8(first + done);
-        const int left = std::min(count - done, I2C_SMBUS_BLOCK_MAX);
-        int given = 1;
-        bool isRight = false;
-        if (left > 1 && (m_abilities & I2C_FUNC_SMBUS_WRITE_I2C_BLOCK)) {
-            given = left;
-            data.block[0] = __u8(left);
-            std::memcpy(data.block + 1, bytes + done, std::size_t(left));
-            isRight = call(false, reg, I2C_SMBUS_I2C_BLOCK_DATA, &data);
-        } else if (left > 1 && (m_abilities & I2C_FUNC_SMBUS_WRITE_WORD_DATA)) {
-            given = 2;
-            data.word = __u16(bytes[done] | bytes[done + 1] << 8);
-            isRight = call(false, reg, I2C_SMBUS_WORD_DATA, &data);
-        } else {
-            data.byte = bytes[done];
-            isRight = call(false, reg, I2C_SMBUS_BYTE_DATA, &data);
-        }
-        if (!isRight)
-            return false;
-        done += given;
-    }
-    return true;
+    return KernelI2cBus::open(device, address, error);
 }
 
 }  // namespace qplc
