@@ -79,28 +79,234 @@ struct QPlcSignalControl::Private : public QObject
     {
     }
 
-    void renew();
-    void setPlants(PlantList *list);
-    void setPin(const QString &plant);
-    void listenTo(Plant *plant);
-    bool hasPlainReference() const;
-    void resolve();
-    void judge();
-    bool assess();
-    State stateOf(const PlantList::Signal &signal, QStringList *writers) const;
-    QString firstMissing() const;
-    QHash<Plant *, QStringList> namesByPlant() const;
+    void renew()
+    {
+        setPin(context->pin());
+        PlantList *list = context->window() ? context->window()->plants() : nullptr;
+        if (list != plants)
+            setPlants(list);
+    }
+
+    void setPlants(PlantList *list)
+    {
+        if (plants)
+            plants->disconnect(this);
+        plants = list;
+        if (list) {
+            list->forEach(this, &Private::listenTo);
+            connect(list, &PlantList::signalsChanged, this, &Private::resolve);
+            connect(list, &PlantList::aboutToSelect, this, [this] {
+                if (pin.isEmpty() && hasPlainReference())
+                    leave();
+            });
+        }
+        resolve();
+    }
+
+    void setPin(const QString &plant)
+    {
+        if (plant == pin)
+            return;
+        if (hasPlainReference())
+            leave();
+        pin = plant;
+        resolve();
+    }
+
+    void listenTo(Plant *plant)
+    {
+        for (const auto change : {&Plant::leasesChanged, &Plant::writersChanged, &Plant::stateChanged})
+            connect(plant, change, this, &Private::judge, Qt::UniqueConnection);
+        connect(plant, &Plant::commandFailed, this, [this, plant](int command, const QString &sentence) {
+            if (commands.removeOne({plant, command}))
+                Q_EMIT q->failed(sentence);
+        });
+        connect(plant, &Plant::commandDone, this, [this, plant](int command) { commands.removeOne({plant, command}); });
+    }
+
+    /// Whether the plant of a signal is the one of the pin or of the window.
+    bool hasPlainReference() const
+    {
+        return std::any_of(references.begin(), references.end(),
+                           [](const SignalReference &reference) { return reference.plant.isEmpty(); });
+    }
+
+    void resolve()
+    {
+        resolved.clear();
+        for (const SignalReference &reference : qAsConst(references))
+            resolved.append(plants ? plants->resolve(reference, pin) : PlantList::Signal());
+        for (auto stream = streams.begin(); stream != streams.end();) {  // some of their plants may be gone
+            const bool isUsed = std::any_of(resolved.begin(), resolved.end(), [&](const PlantList::Signal &signal) {
+                return signal.plant == stream->first;
+            });
+            stream = isUsed ? std::next(stream) : streams.erase(stream);
+        }
+        assess();
+        loseHold();
+        Q_EMIT q->changed();
+    }
+
+    void judge()
+    {
+        if (!assess())
+            return;
+        loseHold();
+        Q_EMIT q->changed();
+    }
+
+    /// \return whether state(), who(), text() or mayTake() are other ones
+    bool assess()
+    {
+        const State stateBefore = state;
+        const QStringList whoBefore = who;
+        const QString plantTextBefore = plantText;
+        state = resolved.isEmpty() ? Missing : Mine;
+        who.clear();
+        plantText.clear();
+        for (const PlantList::Signal &signal : qAsConst(resolved)) {
+            QStringList writers;
+            const State each = stateOf(signal, &writers);
+            if (each > state)
+                who.clear();  // what they have is not what counts
+            if (each >= state)
+                who << writers;
+            state = std::max(state, each);
+            if (each == Offline)
+                plantText = signal.plant->stateText();
+        }
+        who.removeAll(QString());
+        who.removeDuplicates();
+        const bool couldTakeBefore = couldTake;
+        couldTake = q->mayTake();  // what a master knows is heard after its state
+        return couldTake != couldTakeBefore || state != stateBefore || who != whoBefore || plantText != plantTextBefore;
+    }
+
+    State stateOf(const PlantList::Signal &signal, QStringList *writers) const
+    {
+        if (!signal)
+            return Missing;
+        if (!signal.plant->isConnected())
+            return Offline;
+        const QString writer = signal.plant->writer(signal.index);
+        const std::optional<LeaseStatus> lease = signal.plant->lease(signal.definition().name);
+        *writers << (lease ? lease->holder : writer);
+        if (lease)
+            return lease->state == LeaseStatus::Lost ? Lost : lease->isMine ? Mine : Other;
+        if (writer.isEmpty())
+            return Free;
+        return writer == QLatin1String("Master") ? Unwritable : Written;
+    }
+
+    QString firstMissing() const
+    {
+        for (int i = 0; i < resolved.size(); ++i) {
+            if (!resolved.at(i))
+                return names.at(i);
+        }
+        return {};
+    }
+
+    QHash<Plant *, QStringList> namesByPlant() const
+    {
+        QHash<Plant *, QStringList> all;
+        for (const PlantList::Signal &signal : resolved) {
+            if (signal && !all.value(signal.plant).contains(signal.definition().name))
+                all[signal.plant] << signal.definition().name;
+        }
+        return all;
+    }
 
     PlantList::Signal find(const QString &reference) const { return resolved.value(names.indexOf(reference)); }
-    bool add(const QString &reference, double number, Values *values) const;
-    ValueStream &streamTo(Plant *plant);
-    void sendNow(const Values &values);
+    /// \return false if the signal is not a number, or another element is not known yet
+    bool add(const QString &reference, double number, Values *values) const
+    {
+        const PlantList::Signal signal = find(reference);
+        if (!isNumber(signal))
+            return false;
+        const QPlcSignalDefinition &definition = signal.definition();
+        ValueStream::Values &ofPlant = (*values)[signal.plant];
+        const QPlcValue others = ofPlant.value(definition.name, signal.plant->value(signal.index));
+        const QPlcValue whole = wholeValue(signal, limited(definition, number), others);
+        if (whole.isValid())
+            ofPlant.insert(definition.name, whole);
+        return whole.isValid();
+    }
+
+    ValueStream &streamTo(Plant *plant)
+    {
+        std::unique_ptr<ValueStream> &stream = streams[plant];
+        if (!stream) {
+            stream = std::make_unique<ValueStream>();
+            stream->setPlant(plant);
+            connect(stream.get(), &ValueStream::failed, q, &QPlcSignalControl::failed);
+        }
+        return *stream;
+    }
+
+    /// Behind what is in progress, without leaving out anything.
+    void sendNow(const Values &values)
+    {
+        for (const auto &[plant, ofPlant] : values) {
+            streamTo(plant).flush();
+            follow(plant, plant->setValues(ofPlant));
+        }
+    }
+
     void follow(Plant *plant, int command) { commands.append({plant, command}); }
-    void endHold();
-    void loseHold();
-    void finish();
-    void leave();
-    void end();
+    void endHold()
+    {
+        const QStringList all = std::exchange(held, {});
+        const QStringList leases = std::exchange(leased, {});
+        Values values;
+        for (const QString &reference : all)
+            add(reference, q->neutral(reference), &values);
+        if (q->mayWrite())
+            sendNow(values);
+        for (const QString &reference : leases) {
+            if (const PlantList::Signal signal = find(reference))
+                signal.plant->releaseLease({signal.definition().name});
+        }
+    }
+
+    /// What is held must not go on for another person.
+    void loseHold()
+    {
+        if (held.isEmpty() || q->mayWrite())
+            return;
+        held.clear();
+        leased.clear();
+        for (const auto &stream : streams)
+            stream.second->clear();
+        Q_EMIT q->holdLost();
+    }
+
+    /// What was set in a plant reaches that plant, and does not go on in another one.
+    void finish()
+    {
+        endHold();
+        for (const auto &stream : streams)
+            stream.second->flush();
+        streams.clear();
+    }
+
+    void leave()
+    {
+        const bool wasHolding = q->isHolding();
+        finish();
+        if (wasHolding)
+            Q_EMIT q->holdLost();
+        Q_EMIT q->leaving();
+    }
+
+    void end()
+    {
+        if (!plants)
+            return;
+        finish();
+        if (state == Mine && !keepsControl)
+            q->giveBack();
+    }
 
     QPlcSignalControl *q;
     QPlcPanelContext *context;
@@ -122,144 +328,6 @@ struct QPlcSignalControl::Private : public QObject
 };
 
 // ---- who has control ----
-
-void QPlcSignalControl::Private::renew()
-{
-    setPin(context->pin());
-    PlantList *list = context->window() ? context->window()->plants() : nullptr;
-    if (list != plants)
-        setPlants(list);
-}
-
-void QPlcSignalControl::Private::setPlants(PlantList *list)
-{
-    if (plants)
-        plants->disconnect(this);
-    plants = list;
-    if (list) {
-        list->forEach(this, &Private::listenTo);
-        connect(list, &PlantList::signalsChanged, this, &Private::resolve);
-        connect(list, &PlantList::aboutToSelect, this, [this] {
-            if (pin.isEmpty() && hasPlainReference())
-                leave();
-        });
-    }
-    resolve();
-}
-
-/// Whether the plant of a signal is the one of the pin or of the window.
-bool QPlcSignalControl::Private::hasPlainReference() const
-{
-    return std::any_of(references.begin(), references.end(),
-                       [](const SignalReference &reference) { return reference.plant.isEmpty(); });
-}
-
-void QPlcSignalControl::Private::setPin(const QString &plant)
-{
-    if (plant == pin)
-        return;
-    if (hasPlainReference())
-        leave();
-    pin = plant;
-    resolve();
-}
-
-void QPlcSignalControl::Private::listenTo(Plant *plant)
-{
-    for (const auto change : {&Plant::leasesChanged, &Plant::writersChanged, &Plant::stateChanged})
-        connect(plant, change, this, &Private::judge, Qt::UniqueConnection);
-    connect(plant, &Plant::commandFailed, this, [this, plant](int command, const QString &sentence) {
-        if (commands.removeOne({plant, command}))
-            Q_EMIT q->failed(sentence);
-    });
-    connect(plant, &Plant::commandDone, this, [this, plant](int command) { commands.removeOne({plant, command}); });
-}
-
-void QPlcSignalControl::Private::resolve()
-{
-    resolved.clear();
-    for (const SignalReference &reference : qAsConst(references))
-        resolved.append(plants ? plants->resolve(reference, pin) : PlantList::Signal());
-    for (auto stream = streams.begin(); stream != streams.end();) {  // some of their plants may be gone
-        const bool isUsed = std::any_of(resolved.begin(), resolved.end(),
-                                        [&](const PlantList::Signal &signal) { return signal.plant == stream->first; });
-        stream = isUsed ? std::next(stream) : streams.erase(stream);
-    }
-    assess();
-    loseHold();
-    Q_EMIT q->changed();
-}
-
-QPlcSignalControl::State QPlcSignalControl::Private::stateOf(const PlantList::Signal &signal,
-                                                             QStringList *writers) const
-{
-    if (!signal)
-        return Missing;
-    if (!signal.plant->isConnected())
-        return Offline;
-    const QString writer = signal.plant->writer(signal.index);
-    const std::optional<LeaseStatus> lease = signal.plant->lease(signal.definition().name);
-    *writers << (lease ? lease->holder : writer);
-    if (lease)
-        return lease->state == LeaseStatus::Lost ? Lost : lease->isMine ? Mine : Other;
-    if (writer.isEmpty())
-        return Free;
-    return writer == QLatin1String("Master") ? Unwritable : Written;
-}
-
-void QPlcSignalControl::Private::judge()
-{
-    if (!assess())
-        return;
-    loseHold();
-    Q_EMIT q->changed();
-}
-
-/// \return whether state(), who(), text() or mayTake() are other ones
-bool QPlcSignalControl::Private::assess()
-{
-    const State stateBefore = state;
-    const QStringList whoBefore = who;
-    const QString plantTextBefore = plantText;
-    state = resolved.isEmpty() ? Missing : Mine;
-    who.clear();
-    plantText.clear();
-    for (const PlantList::Signal &signal : qAsConst(resolved)) {
-        QStringList writers;
-        const State each = stateOf(signal, &writers);
-        if (each > state)
-            who.clear();  // what they have is not what counts
-        if (each >= state)
-            who << writers;
-        state = std::max(state, each);
-        if (each == Offline)
-            plantText = signal.plant->stateText();
-    }
-    who.removeAll(QString());
-    who.removeDuplicates();
-    const bool couldTakeBefore = couldTake;
-    couldTake = q->mayTake();  // what a master knows is heard after its state
-    return couldTake != couldTakeBefore || state != stateBefore || who != whoBefore || plantText != plantTextBefore;
-}
-
-QString QPlcSignalControl::Private::firstMissing() const
-{
-    for (int i = 0; i < resolved.size(); ++i) {
-        if (!resolved.at(i))
-            return names.at(i);
-    }
-    return {};
-}
-
-QHash<Plant *, QStringList> QPlcSignalControl::Private::namesByPlant() const
-{
-    QHash<Plant *, QStringList> all;
-    for (const PlantList::Signal &signal : resolved) {
-        if (signal && !all.value(signal.plant).contains(signal.definition().name))
-            all[signal.plant] << signal.definition().name;
-    }
-    return all;
-}
 
 QPlcSignalControl::QPlcSignalControl(QPlcPanelContext *context, QObject *parent)
     : QObject(parent)
@@ -415,41 +483,6 @@ void QPlcSignalControl::giveBack()
 
 // ---- values ----
 
-ValueStream &QPlcSignalControl::Private::streamTo(Plant *plant)
-{
-    std::unique_ptr<ValueStream> &stream = streams[plant];
-    if (!stream) {
-        stream = std::make_unique<ValueStream>();
-        stream->setPlant(plant);
-        connect(stream.get(), &ValueStream::failed, q, &QPlcSignalControl::failed);
-    }
-    return *stream;
-}
-
-/// \return false if the signal is not a number, or another element is not known yet
-bool QPlcSignalControl::Private::add(const QString &reference, double number, Values *values) const
-{
-    const PlantList::Signal signal = find(reference);
-    if (!isNumber(signal))
-        return false;
-    const QPlcSignalDefinition &definition = signal.definition();
-    ValueStream::Values &ofPlant = (*values)[signal.plant];
-    const QPlcValue others = ofPlant.value(definition.name, signal.plant->value(signal.index));
-    const QPlcValue whole = wholeValue(signal, limited(definition, number), others);
-    if (whole.isValid())
-        ofPlant.insert(definition.name, whole);
-    return whole.isValid();
-}
-
-/// Behind what is in progress, without leaving out anything.
-void QPlcSignalControl::Private::sendNow(const Values &values)
-{
-    for (const auto &[plant, ofPlant] : values) {
-        streamTo(plant).flush();
-        follow(plant, plant->setValues(ofPlant));
-    }
-}
-
 bool QPlcSignalControl::set(const QString &reference, double value)
 {
     return set({{reference, value}});
@@ -522,58 +555,4 @@ bool QPlcSignalControl::isHolding() const
 void QPlcSignalControl::endHold()
 {
     d->endHold();
-}
-
-void QPlcSignalControl::Private::endHold()
-{
-    const QStringList all = std::exchange(held, {});
-    const QStringList leases = std::exchange(leased, {});
-    Values values;
-    for (const QString &reference : all)
-        add(reference, q->neutral(reference), &values);
-    if (q->mayWrite())
-        sendNow(values);
-    for (const QString &reference : leases) {
-        if (const PlantList::Signal signal = find(reference))
-            signal.plant->releaseLease({signal.definition().name});
-    }
-}
-
-/// What is held must not go on for another person.
-void QPlcSignalControl::Private::loseHold()
-{
-    if (held.isEmpty() || q->mayWrite())
-        return;
-    held.clear();
-    leased.clear();
-    for (const auto &stream : streams)
-        stream.second->clear();
-    Q_EMIT q->holdLost();
-}
-
-/// What was set in a plant reaches that plant, and does not go on in another one.
-void QPlcSignalControl::Private::finish()
-{
-    endHold();
-    for (const auto &stream : streams)
-        stream.second->flush();
-    streams.clear();
-}
-
-void QPlcSignalControl::Private::leave()
-{
-    const bool wasHolding = q->isHolding();
-    finish();
-    if (wasHolding)
-        Q_EMIT q->holdLost();
-    Q_EMIT q->leaving();
-}
-
-void QPlcSignalControl::Private::end()
-{
-    if (!plants)
-        return;
-    finish();
-    if (state == Mine && !keepsControl)
-        q->giveBack();
 }

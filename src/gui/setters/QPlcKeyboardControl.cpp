@@ -21,15 +21,133 @@ using namespace qplc;
 
 struct QPlcKeyboardControl::Private
 {
-    explicit Private(QPlcKeyboardControl *panel);
-    void makeLayout();
-    void makeArmAction();
-    void apply(const ManualBindings &bindings);
-    void showState();
-    void showValues();
-    void showTheme();
+    explicit Private(QPlcKeyboardControl *panel)
+        : q(panel)
+        , control(panel->context())
+        , bar(new ControlBar(&control.control(), ControlBar::Large, panel))
+        , keys(new KeyMapView(&control, panel))
+        , hintLabel(new ElidedLabel(panel))
+        , arm(new QAction(tr("Arm gamepad"), panel))
+    {
+        makeLayout();
+        makeArmAction();
+        constexpr int tenth = 100;  // [ms]
+        pause.setSingleShot(true);
+        pause.setInterval(tenth);
+        connect(&pause, &QTimer::timeout, panel, [this] {
+            if (isOutdated)
+                showValues();
+        });
+        connect(q->context(), &QPlcPanelContext::valuesChanged, panel, [this] {
+            isOutdated = true;
+            if (!pause.isActive())
+                showValues();
+        });
+        connect(&control.control(), &QPlcSignalControl::changed, panel, [this] { showState(); });
+        connect(&control, &ManualControl::moved, panel, [this] { showState(); });
+        connect(bar, &ControlBar::handled, panel, [this] { q->setFocus(Qt::OtherFocusReason); });
+    }
+
+    void makeLayout()
+    {
+        auto *column = new QVBoxLayout(q);
+        column->setContentsMargins(8, 5, 8, 5);
+        column->setSpacing(4);
+        column->addWidget(bar);
+        auto *scroll = new QScrollArea(q);
+        scroll->setWidget(keys);
+        scroll->setWidgetResizable(true);
+        scroll->setFrameShape(QFrame::NoFrame);
+        scroll->setFocusPolicy(Qt::NoFocus);
+        scroll->viewport()->setAutoFillBackground(false);
+        keys->setAutoFillBackground(false);
+        column->addWidget(scroll, 1);
+        hintLabel->setMostLines(3);
+        auto *row = new QHBoxLayout;
+        row->addWidget(hintLabel, 1);
+        auto *armButton = new QToolButton(q);
+        armButton->setDefaultAction(arm);
+        armButton->setFocusPolicy(Qt::NoFocus);  // the keyboard stays with the keys that steer
+        row->addWidget(armButton);
+        connect(arm, &QAction::changed, armButton, [this, armButton] { armButton->setVisible(arm->isVisible()); });
+        column->addLayout(row);
+    }
+
+    void makeArmAction()
+    {
+        arm->setCheckable(true);
+        arm->setVisible(false);
+        arm->setShortcut(tr("Ctrl+J"));  // as in joystick; Ctrl+G gives back
+        arm->setShortcutContext(Qt::WidgetWithChildrenShortcut);
+        arm->setToolTip(tr("Axes act while they are armed (Ctrl+J, or the lower button of the gamepad)"));
+        connect(arm, &QAction::triggered, q, [this](bool checked) {
+            q->setFocus(Qt::OtherFocusReason);
+            control.setArmed(checked && control.isFlying() && q->hasFocus());
+            showState();
+        });
+    }
+
+    void apply(const ManualBindings &bindings)
+    {
+        control.setBindings(bindings);
+        if (bindings.axes.isEmpty()) {
+            gamepad.reset();
+        } else if (!gamepad) {
+            gamepad = std::make_unique<Gamepad>();
+            connect(gamepad.get(), &Gamepad::axisMoved, &control, &ManualControl::moveAxis);
+            connect(gamepad.get(), &Gamepad::armPressed, arm, &QAction::trigger);
+            connect(gamepad.get(), &Gamepad::connectedChanged, q, [this] {
+                control.setArmed(false);  // the axes of one that is gone say nothing any more
+                showState();
+            });
+        }
+        showState();
+    }
+
+    void showState()
+    {
+        hintLabel->showText(hint());
+        arm->setVisible(hasGamepad());
+        arm->setEnabled(control.isFlying() && hasGamepad());
+        arm->setChecked(control.isArmed());
+        if (isInWindow) {
+            const QPlcTheme theme = q->context()->theme();
+            hintLabel->setColor(control.isFlying() && !q->hasFocus() ? theme.warning : theme.mutedText);
+        }
+        keys->setAxesShown(hasGamepad());
+        q->update();
+    }
+
+    void showValues()
+    {
+        isOutdated = false;
+        if (!q->isVisible())
+            return;
+        pause.start();
+        keys->refresh();
+    }
+
+    void showTheme()
+    {
+        const QPlcTheme theme = q->context()->theme();
+        bar->setTheme(theme);
+        keys->setTheme(theme);
+        showState();
+    }
+
     bool hasGamepad() const { return gamepad && gamepad->isConnected(); }
-    QString hint() const;
+    QString hint() const
+    {
+        if (control.bindings().keys.isEmpty() && control.bindings().axes.isEmpty())
+            return tr("No keys yet: choose some in the settings");
+        if (control.bindings().keys.isEmpty() && !hasGamepad())
+            return gamepad->absence();
+        const QString neutral = control.control().neutralText();
+        if (!control.isFlying())
+            return neutral.isEmpty() ? QString() : tr("Take control: these keys begin at neutral (%1)").arg(neutral);
+        return q->hasFocus() ? tr("Hold a key to steer: let go, and it is neutral")
+                             : tr("Click here to steer: the keyboard is elsewhere");
+    }
 
     QPlcKeyboardControl *const q;
     ManualControl control;
@@ -42,133 +160,6 @@ struct QPlcKeyboardControl::Private
     bool isOutdated = false;
     bool isInWindow = false;
 };
-
-QPlcKeyboardControl::Private::Private(QPlcKeyboardControl *panel)
-    : q(panel)
-    , control(panel->context())
-    , bar(new ControlBar(&control.control(), ControlBar::Large, panel))
-    , keys(new KeyMapView(&control, panel))
-    , hintLabel(new ElidedLabel(panel))
-    , arm(new QAction(tr("Arm gamepad"), panel))
-{
-    makeLayout();
-    makeArmAction();
-    constexpr int tenth = 100;  // [ms]
-    pause.setSingleShot(true);
-    pause.setInterval(tenth);
-    connect(&pause, &QTimer::timeout, panel, [this] {
-        if (isOutdated)
-            showValues();
-    });
-    connect(q->context(), &QPlcPanelContext::valuesChanged, panel, [this] {
-        isOutdated = true;
-        if (!pause.isActive())
-            showValues();
-    });
-    connect(&control.control(), &QPlcSignalControl::changed, panel, [this] { showState(); });
-    connect(&control, &ManualControl::moved, panel, [this] { showState(); });
-    connect(bar, &ControlBar::handled, panel, [this] { q->setFocus(Qt::OtherFocusReason); });
-}
-
-void QPlcKeyboardControl::Private::makeLayout()
-{
-    auto *column = new QVBoxLayout(q);
-    column->setContentsMargins(8, 5, 8, 5);
-    column->setSpacing(4);
-    column->addWidget(bar);
-    auto *scroll = new QScrollArea(q);
-    scroll->setWidget(keys);
-    scroll->setWidgetResizable(true);
-    scroll->setFrameShape(QFrame::NoFrame);
-    scroll->setFocusPolicy(Qt::NoFocus);
-    scroll->viewport()->setAutoFillBackground(false);
-    keys->setAutoFillBackground(false);
-    column->addWidget(scroll, 1);
-    hintLabel->setMostLines(3);
-    auto *row = new QHBoxLayout;
-    row->addWidget(hintLabel, 1);
-    auto *armButton = new QToolButton(q);
-    armButton->setDefaultAction(arm);
-    armButton->setFocusPolicy(Qt::NoFocus);  // the keyboard stays with the keys that steer
-    row->addWidget(armButton);
-    connect(arm, &QAction::changed, armButton, [this, armButton] { armButton->setVisible(arm->isVisible()); });
-    column->addLayout(row);
-}
-
-void QPlcKeyboardControl::Private::makeArmAction()
-{
-    arm->setCheckable(true);
-    arm->setVisible(false);
-    arm->setShortcut(tr("Ctrl+J"));  // as in joystick; Ctrl+G gives back
-    arm->setShortcutContext(Qt::WidgetWithChildrenShortcut);
-    arm->setToolTip(tr("Axes act while they are armed (Ctrl+J, or the lower button of the gamepad)"));
-    connect(arm, &QAction::triggered, q, [this](bool checked) {
-        q->setFocus(Qt::OtherFocusReason);
-        control.setArmed(checked && control.isFlying() && q->hasFocus());
-        showState();
-    });
-}
-
-void QPlcKeyboardControl::Private::apply(const ManualBindings &bindings)
-{
-    control.setBindings(bindings);
-    if (bindings.axes.isEmpty()) {
-        gamepad.reset();
-    } else if (!gamepad) {
-        gamepad = std::make_unique<Gamepad>();
-        connect(gamepad.get(), &Gamepad::axisMoved, &control, &ManualControl::moveAxis);
-        connect(gamepad.get(), &Gamepad::armPressed, arm, &QAction::trigger);
-        connect(gamepad.get(), &Gamepad::connectedChanged, q, [this] {
-            control.setArmed(false);  // the axes of one that is gone say nothing any more
-            showState();
-        });
-    }
-    showState();
-}
-
-QString QPlcKeyboardControl::Private::hint() const
-{
-    if (control.bindings().keys.isEmpty() && control.bindings().axes.isEmpty())
-        return tr("No keys yet: choose some in the settings");
-    if (control.bindings().keys.isEmpty() && !hasGamepad())
-        return gamepad->absence();
-    const QString neutral = control.control().neutralText();
-    if (!control.isFlying())
-        return neutral.isEmpty() ? QString() : tr("Take control: these keys begin at neutral (%1)").arg(neutral);
-    return q->hasFocus() ? tr("Hold a key to steer: let go, and it is neutral")
-                         : tr("Click here to steer: the keyboard is elsewhere");
-}
-
-void QPlcKeyboardControl::Private::showState()
-{
-    hintLabel->showText(hint());
-    arm->setVisible(hasGamepad());
-    arm->setEnabled(control.isFlying() && hasGamepad());
-    arm->setChecked(control.isArmed());
-    if (isInWindow) {
-        const QPlcTheme theme = q->context()->theme();
-        hintLabel->setColor(control.isFlying() && !q->hasFocus() ? theme.warning : theme.mutedText);
-    }
-    keys->setAxesShown(hasGamepad());
-    q->update();
-}
-
-void QPlcKeyboardControl::Private::showValues()
-{
-    isOutdated = false;
-    if (!q->isVisible())
-        return;
-    pause.start();
-    keys->refresh();
-}
-
-void QPlcKeyboardControl::Private::showTheme()
-{
-    const QPlcTheme theme = q->context()->theme();
-    bar->setTheme(theme);
-    keys->setTheme(theme);
-    showState();
-}
 
 QPlcKeyboardControl::QPlcKeyboardControl(QWidget *parent)
     : QPlcWidget(parent)

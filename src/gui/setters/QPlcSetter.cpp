@@ -18,14 +18,133 @@ using namespace qplc;
 
 struct QPlcSetter::Private
 {
-    explicit Private(QPlcSetter *setter);
-    void makeView();
-    void renewView();
-    void apply(const SetterSettings &wanted);
-    void showState();
-    void showActual();
-    void showTheme();
-    QString actualText() const;
+    explicit Private(QPlcSetter *setter)
+        : q(setter)
+        , target(setter->context())
+        , name(new ElidedLabel(setter))
+        , actual(new ElidedLabel(setter))
+        , message(new ElidedLabel(setter))
+        , bar(new ControlBar(&target.control(), ControlBar::Small, setter))
+    {
+        QFont bold = name->font();
+        bold.setBold(true);
+        name->setFont(bold);
+        actual->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+        actual->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);  // the name has the rest
+        auto *column = new QVBoxLayout(setter);
+        column->setContentsMargins(8, 5, 8, 5);
+        column->setSpacing(3);
+        auto *header = new QHBoxLayout;
+        header->addWidget(name, 1);
+        header->addWidget(actual);
+        column->addLayout(header);
+        column->addWidget(message);
+        column->addWidget(bar);
+        column->addStretch(1);
+        constexpr int tenth = 100;  // [ms]
+        pause.setSingleShot(true);
+        pause.setInterval(tenth);
+        connect(&pause, &QTimer::timeout, setter, [this] {
+            if (isOutdated)
+                showActual();
+        });
+        connect(&target, &SetterTarget::updated, setter, [this] {
+            isOutdated = true;
+            if (!pause.isActive())
+                showActual();
+        });
+        connect(&target, &SetterTarget::changed, setter, [this] { showState(); });
+        connect(&target.control(), &QPlcSignalControl::leaving, setter, [this] { renewView(); });
+    }
+
+    void makeView()
+    {
+        delete view;  // ends what it does
+        view = SetterView::create(settings.style, &target, q);
+        static_cast<QVBoxLayout *>(q->layout())->insertWidget(1, view);
+        q->setFocusProxy(view);
+        connect(view, &SetterView::said, q, [this](const QString &sentence) {
+            message->showText(sentence);
+            message->setVisible(!sentence.isEmpty());
+        });
+        connect(view, &SetterView::generatorEdited, q, [this](const QJsonObject &generator) {
+            settings.generator = generator;
+            Q_EMIT q->settingsEdited();
+        });
+        message->showText({});
+        message->hide();
+        view->show();
+    }
+
+    /// What was typed or dragged for one plant is not there for the next one.
+    void renewView()
+    {
+        const bool hadFocus = q->isAncestorOf(QApplication::focusWidget());
+        makeView();
+        view->applySettings(settings.toJson());
+        if (hadFocus)
+            q->setFocus(Qt::OtherFocusReason);
+    }
+
+    void apply(const SetterSettings &wanted)
+    {
+        const bool isOtherStyle = !view || wanted.style != settings.style;
+        const bool isOtherSignal = wanted.signal != settings.signal;
+        settings = wanted;
+        if (isOtherStyle || isOtherSignal)
+            makeView();  // whatever the old one does ends with the signal that it was done to
+        if (isOtherSignal)
+            target.setSignal(settings.signal.toString());
+        target.setLimits(settings.minimum, settings.maximum);
+        view->applySettings(settings.toJson());
+        showState();
+    }
+
+    void showState()
+    {
+        const SignalReference reference = settings.signal;
+        name->showText(reference.isValid() ? reference.toString() : tr("Setter"));
+        if (target.signal())
+            name->setToolTip(target.signal().definition.description);
+        if (view)
+            view->refresh();
+        showActual();
+        q->update();
+    }
+
+    void showActual()
+    {
+        isOutdated = false;
+        if (!q->isVisible())
+            return;
+        pause.start();
+        target.renewPrefix();
+        actual->showText(actualText());
+        if (isInWindow) {
+            const bool isStale = target.signal() && target.plant().isStale;
+            const QPlcTheme theme = q->context()->theme();
+            actual->setColor(isStale ? theme.stale : theme.text);
+        }
+        view->showActual();
+    }
+
+    void showTheme()
+    {
+        const QPlcTheme theme = q->context()->theme();
+        name->setColor(theme.text);
+        message->setColor(theme.warning);
+        bar->setTheme(theme);
+        q->update();
+    }
+
+    QString actualText() const
+    {
+        if (!target.signal())
+            return {};
+        const QPlcPanelContext::Plant plant = target.plant();
+        const QString text = view->actualText();
+        return plant.isStale ? tr("%1, %2 old").arg(text, ageText(plant.age)) : text;
+    }
 
     QPlcSetter *const q;
     SetterTarget target;
@@ -39,134 +158,6 @@ struct QPlcSetter::Private
     bool isOutdated = false;
     bool isInWindow = false;
 };
-
-QPlcSetter::Private::Private(QPlcSetter *setter)
-    : q(setter)
-    , target(setter->context())
-    , name(new ElidedLabel(setter))
-    , actual(new ElidedLabel(setter))
-    , message(new ElidedLabel(setter))
-    , bar(new ControlBar(&target.control(), ControlBar::Small, setter))
-{
-    QFont bold = name->font();
-    bold.setBold(true);
-    name->setFont(bold);
-    actual->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
-    actual->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);  // the name has the rest
-    auto *column = new QVBoxLayout(setter);
-    column->setContentsMargins(8, 5, 8, 5);
-    column->setSpacing(3);
-    auto *header = new QHBoxLayout;
-    header->addWidget(name, 1);
-    header->addWidget(actual);
-    column->addLayout(header);
-    column->addWidget(message);
-    column->addWidget(bar);
-    column->addStretch(1);
-    constexpr int tenth = 100;  // [ms]
-    pause.setSingleShot(true);
-    pause.setInterval(tenth);
-    connect(&pause, &QTimer::timeout, setter, [this] {
-        if (isOutdated)
-            showActual();
-    });
-    connect(&target, &SetterTarget::updated, setter, [this] {
-        isOutdated = true;
-        if (!pause.isActive())
-            showActual();
-    });
-    connect(&target, &SetterTarget::changed, setter, [this] { showState(); });
-    connect(&target.control(), &QPlcSignalControl::leaving, setter, [this] { renewView(); });
-}
-
-void QPlcSetter::Private::makeView()
-{
-    delete view;  // ends what it does
-    view = SetterView::create(settings.style, &target, q);
-    static_cast<QVBoxLayout *>(q->layout())->insertWidget(1, view);
-    q->setFocusProxy(view);
-    connect(view, &SetterView::said, q, [this](const QString &sentence) {
-        message->showText(sentence);
-        message->setVisible(!sentence.isEmpty());
-    });
-    connect(view, &SetterView::generatorEdited, q, [this](const QJsonObject &generator) {
-        settings.generator = generator;
-        Q_EMIT q->settingsEdited();
-    });
-    message->showText({});
-    message->hide();
-    view->show();
-}
-
-/// What was typed or dragged for one plant is not there for the next one.
-void QPlcSetter::Private::renewView()
-{
-    const bool hadFocus = q->isAncestorOf(QApplication::focusWidget());
-    makeView();
-    view->applySettings(settings.toJson());
-    if (hadFocus)
-        q->setFocus(Qt::OtherFocusReason);
-}
-
-void QPlcSetter::Private::apply(const SetterSettings &wanted)
-{
-    const bool isOtherStyle = !view || wanted.style != settings.style;
-    const bool isOtherSignal = wanted.signal != settings.signal;
-    settings = wanted;
-    if (isOtherStyle || isOtherSignal)
-        makeView();  // whatever the old one does ends with the signal that it was done to
-    if (isOtherSignal)
-        target.setSignal(settings.signal.toString());
-    target.setLimits(settings.minimum, settings.maximum);
-    view->applySettings(settings.toJson());
-    showState();
-}
-
-void QPlcSetter::Private::showState()
-{
-    const SignalReference reference = settings.signal;
-    name->showText(reference.isValid() ? reference.toString() : tr("Setter"));
-    if (target.signal())
-        name->setToolTip(target.signal().definition.description);
-    if (view)
-        view->refresh();
-    showActual();
-    q->update();
-}
-
-QString QPlcSetter::Private::actualText() const
-{
-    if (!target.signal())
-        return {};
-    const QPlcPanelContext::Plant plant = target.plant();
-    const QString text = view->actualText();
-    return plant.isStale ? tr("%1, %2 old").arg(text, ageText(plant.age)) : text;
-}
-
-void QPlcSetter::Private::showActual()
-{
-    isOutdated = false;
-    if (!q->isVisible())
-        return;
-    pause.start();
-    target.renewPrefix();
-    actual->showText(actualText());
-    if (isInWindow) {
-        const bool isStale = target.signal() && target.plant().isStale;
-        const QPlcTheme theme = q->context()->theme();
-        actual->setColor(isStale ? theme.stale : theme.text);
-    }
-    view->showActual();
-}
-
-void QPlcSetter::Private::showTheme()
-{
-    const QPlcTheme theme = q->context()->theme();
-    name->setColor(theme.text);
-    message->setColor(theme.warning);
-    bar->setTheme(theme);
-    q->update();
-}
 
 QPlcSetter::QPlcSetter(QWidget *parent)
     : QPlcWidget(parent)
