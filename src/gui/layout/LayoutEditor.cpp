@@ -65,7 +65,7 @@ void LayoutEditor::setLayout(const Layout &layout)
 
 bool LayoutEditor::replace(const Layout &layout, const QString &text)
 {
-    return push(layout, text);
+    return push(layout, text, {});
 }
 
 void LayoutEditor::show(const Layout &from, const Layout &to)
@@ -82,21 +82,22 @@ void LayoutEditor::show(const Layout &from, const Layout &to)
     Q_EMIT layoutChanged();
 }
 
-bool LayoutEditor::push(const Layout &after, const QString &text, MergeKind kind, const QString &mergeKey)
+bool LayoutEditor::push(const Layout &after, const QString &text, const Merge &merge)
 {
     if (after == m_layout)
         return false;
-    auto *step = new Step(this, after, kind, QStringLiteral("%1\n%2").arg(m_series).arg(mergeKey));
+    auto *step = new Step(this, after, merge.kind, QStringLiteral("%1\n%2").arg(m_series).arg(merge.key));
     step->setText(text);
     m_stack.push(step);
     return true;
 }
 
-bool LayoutEditor::edit(const std::function<bool(Layout *)> &change, const QString &text, MergeKind kind,
-                        const QString &mergeKey)
+template<typename... Parameters, typename... Arguments>
+bool LayoutEditor::edit(bool (Layout::*change)(Parameters...), const QString &text, const Merge &merge,
+                        const Arguments &...arguments)
 {
     Layout after = m_layout;
-    return change(&after) && push(after, text, kind, mergeKey);
+    return (after.*change)(arguments...) && push(after, text, merge);
 }
 
 QString LayoutEditor::titleOf(const QString &panelId) const
@@ -143,93 +144,90 @@ QString LayoutEditor::duplicatePanel(const QString &panelId, LayoutSide side)
     Layout after = m_layout;
     const QString id = after.duplicatePanel(panelId, side);
     if (!id.isEmpty())
-        push(after, tr("copy of '%1'").arg(titleOf(panelId)));
+        push(after, tr("copy of '%1'").arg(titleOf(panelId)), {});
     return id;
 }
 
 bool LayoutEditor::closePanel(const QString &panelId)
 {
-    return edit([&](Layout *layout) { return layout->closePanel(panelId); }, tr("close of '%1'").arg(titleOf(panelId)));
+    return edit(&Layout::closePanel, tr("close of '%1'").arg(titleOf(panelId)), {}, panelId);
 }
 
 bool LayoutEditor::movePanel(const QString &panelId, const LayoutTarget &target)
 {
-    return edit([&](Layout *layout) { return layout->movePanel(panelId, target); },
-                tr("move of '%1'").arg(titleOf(panelId)));
+    return edit(&Layout::movePanel, tr("move of '%1'").arg(titleOf(panelId)), {}, panelId, target);
 }
 
 bool LayoutEditor::floatPanel(const QString &panelId, const QRect &geometry)
 {
-    return edit([&](Layout *layout) { return layout->floatPanel(panelId, geometry); },
-                tr("float of '%1'").arg(titleOf(panelId)));
+    return edit(&Layout::floatPanel, tr("float of '%1'").arg(titleOf(panelId)), {}, panelId, geometry);
 }
 
 bool LayoutEditor::dockPanel(const QString &panelId)
 {
-    return edit([&](Layout *layout) { return layout->dockPanel(panelId); }, tr("dock of '%1'").arg(titleOf(panelId)));
+    return edit(&Layout::dockPanel, tr("dock of '%1'").arg(titleOf(panelId)), {}, panelId);
 }
 
 bool LayoutEditor::setMaximized(const QString &panelId, bool isMaximized)
 {
-    return edit([&](Layout *layout) { return layout->setMaximized(panelId, isMaximized); },
-                (isMaximized ? tr("maximize of '%1'") : tr("restore of '%1'")).arg(titleOf(panelId)));
+    return edit(&Layout::setMaximized,
+                (isMaximized ? tr("maximize of '%1'") : tr("restore of '%1'")).arg(titleOf(panelId)), {}, panelId,
+                isMaximized);
 }
 
 bool LayoutEditor::setPanelSettings(const QString &panelId, const QJsonObject &settings)
 {
-    return edit([&](Layout *layout) { return layout->setPanelSettings(panelId, settings); },
-                tr("settings of '%1'").arg(titleOf(panelId)), Settings, panelId);
+    return edit(&Layout::setPanelSettings, tr("settings of '%1'").arg(titleOf(panelId)), {Settings, panelId}, panelId,
+                settings);
 }
 
 bool LayoutEditor::setPanelTitle(const QString &panelId, const QString &title)
 {
-    return edit([&](Layout *layout) { return layout->setPanelTitle(panelId, title); },
-                tr("rename of '%1'").arg(titleOf(panelId)));
+    return edit(&Layout::setPanelTitle, tr("rename of '%1'").arg(titleOf(panelId)), {}, panelId, title);
 }
 
 bool LayoutEditor::setShares(const LayoutSpan &split, const QVector<int> &shares)
 {
-    return edit([&](Layout *layout) { return layout->setShares(split, shares); }, tr("resize"), Resizes,
-                split.first + QLatin1Char('\n') + split.last);
+    return edit(&Layout::setShares, tr("resize"), {Resizes, split.first + QLatin1Char('\n') + split.last}, split,
+                shares);
 }
 
 bool LayoutEditor::growPanel(const QString &panelId, Qt::Orientation orientation, int change)
 {
-    return edit([&](Layout *layout) { return layout->growPanel(panelId, orientation, change); },
-                tr("resize of '%1'").arg(titleOf(panelId)), Resizes,
-                panelId + (orientation == Qt::Horizontal ? QStringLiteral("\nwidth") : QStringLiteral("\nheight")));
+    return edit(
+        &Layout::growPanel, tr("resize of '%1'").arg(titleOf(panelId)),
+        {Resizes, panelId + (orientation == Qt::Horizontal ? QStringLiteral("\nwidth") : QStringLiteral("\nheight"))},
+        panelId, orientation, change);
 }
 
 QString LayoutEditor::addTab(const QString &name)
 {
     Layout after = m_layout;
     const QString id = after.addTab(name);
-    push(after, tr("new tab '%1'").arg(after.tab(id)->name));
+    push(after, tr("new tab '%1'").arg(after.tab(id)->name), {});
     return id;
 }
 
 bool LayoutEditor::closeTab(const QString &tabId)
 {
-    return edit([&](Layout *layout) { return layout->closeTab(tabId); }, tr("close of tab '%1'").arg(quotedTab(tabId)));
+    return edit(&Layout::closeTab, tr("close of tab '%1'").arg(quotedTab(tabId)), {}, tabId);
 }
 
 bool LayoutEditor::renameTab(const QString &tabId, const QString &name)
 {
-    return edit([&](Layout *layout) { return layout->renameTab(tabId, name); },
-                tr("rename of tab '%1'").arg(quotedTab(tabId)));
+    return edit(&Layout::renameTab, tr("rename of tab '%1'").arg(quotedTab(tabId)), {}, tabId, name);
 }
 
 bool LayoutEditor::moveTab(const QString &tabId, int index)
 {
-    return edit([&](Layout *layout) { return layout->moveTab(tabId, index); },
-                tr("move of tab '%1'").arg(quotedTab(tabId)), TabMoves, tabId);
+    return edit(&Layout::moveTab, tr("move of tab '%1'").arg(quotedTab(tabId)), {TabMoves, tabId}, tabId, index);
 }
 
 bool LayoutEditor::closeWindow(const QString &windowId)
 {
     const LayoutWindow *window = m_layout.window(windowId);
     const QString first = window ? titleOf(window->tree->span().first) : windowId;
-    return edit([&](Layout *layout) { return layout->closeWindow(windowId); }, tr("close of window '%1'").arg(first));
+    return edit(&Layout::closeWindow, tr("close of window '%1'").arg(first), {}, windowId);
 }
 
 void LayoutEditor::setCurrentTab(const QString &tabId)

@@ -71,9 +71,18 @@ private:
     class Step;
     enum MergeKind { NoMerge = -1, Resizes = 1, TabMoves, Settings };
 
-    bool push(const Layout &after, const QString &text, MergeKind kind = NoMerge, const QString &mergeKey = {});
-    bool edit(const std::function<bool(Layout *)> &change, const QString &text, MergeKind kind = NoMerge,
-              const QString &mergeKey = {});
+    /// Successive steps of one kind and key are one.
+    struct Merge
+    {
+        MergeKind kind = NoMerge;
+        QString key{};
+    };
+
+    bool push(const Layout &after, const QString &text, const Merge &merge);
+    /// One of the edits of Layout, with its arguments.
+    template<typename... Parameters, typename... Arguments>
+    bool edit(bool (Layout::*change)(Parameters...), const QString &text, const Merge &merge,
+              const Arguments &...arguments);
     bool hasRoom();
     void show(const Layout &from, const Layout &to);
     QString quotedTab(const QString &tabId) const;
