@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ChartExport.h"
 
-#include "ChartAction.h"
+#include "gui/panel/PanelAction.h"
 
 #include <QtCore/QEvent>
 #include <QtGui/QClipboard>
@@ -51,18 +51,20 @@ ChartExport::ChartExport(QWidget *panel, Picture picture)
 
 void ChartExport::addTableActions(const std::function<Table()> &table)
 {
-    addChartAction(m_panel, tr("Export as CSV..."), {QKeySequence(int(Qt::CTRL) | Qt::Key_E)}, "saveTable",
-                   [this, table] { saveTable(table()); });
-    addChartAction(m_panel, tr("Copy as table"), {QKeySequence(int(Qt::CTRL) | Qt::Key_C)}, "copyTable",
-                   [this, table] { copyTable(table()); });
+    addPanelAction(
+        m_panel, tr("Export as CSV..."), {int(Qt::CTRL) | Qt::Key_E}, [this, table] { saveTable(table()); },
+        "saveTable");
+    addPanelAction(
+        m_panel, tr("Copy as table"), {int(Qt::CTRL) | Qt::Key_C}, [this, table] { copyTable(table()); }, "copyTable");
 }
 
 void ChartExport::addPictureActions()
 {
-    addChartAction(m_panel, tr("Save picture..."), {QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_E)}, "savePicture",
-                   [this] { savePicture(); });
-    addChartAction(m_panel, tr("Copy picture"), {QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_C)}, "copyPicture",
-                   [this] { copyPicture(); });
+    addPanelAction(
+        m_panel, tr("Save picture..."), {int(Qt::CTRL | Qt::SHIFT) | Qt::Key_E}, [this] { savePicture(); },
+        "savePicture");
+    addPanelAction(
+        m_panel, tr("Copy picture"), {int(Qt::CTRL | Qt::SHIFT) | Qt::Key_C}, [this] { copyPicture(); }, "copyPicture");
 }
 
 void ChartExport::saveTable(const Table &table)

@@ -2,6 +2,7 @@
 #include "ChartPanel.h"
 
 #include "QPlcWidget.h"
+#include "gui/panel/PanelAction.h"
 
 #include <QtCore/QCoreApplication>
 #include <QtGui/QContextMenuEvent>
@@ -128,6 +129,12 @@ void ChartPanel::showLook()
     m_exporter->setTheme(theme);
     showTheme(theme);
     bind();
+}
+
+QAction *ChartPanel::addAction(const QString &text, const QList<QKeySequence> &keys, const char *name,
+                               const std::function<void()> &act) const
+{
+    return addPanelAction(m_panel, text, keys, act, name);
 }
 
 QMenu *ChartPanel::makeMenu(std::initializer_list<std::initializer_list<const char *>> groups) const

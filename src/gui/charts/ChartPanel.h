@@ -6,8 +6,10 @@
 
 #include <QtCore/QElapsedTimer>
 
+#include <functional>
 #include <initializer_list>
 
+class QAction;
 class QMenu;
 class QPlcWidget;
 
@@ -57,6 +59,9 @@ protected:
     void setTickPeriod(int period) { m_ticks.setInterval(period); }
     /// Texts are as quiet as the numbers of axes.
     void setQuietTexts() { m_hasQuietTexts = true; }
+    /// As addPanelAction(), to this panel.
+    QAction *addAction(const QString &text, const QList<QKeySequence> &keys, const char *name,
+                       const std::function<void()> &act) const;
     /// A menu that ends when it closes, with the actions of the panel of these names: groups, and
     /// what the frame around adds.
     QMenu *makeMenu(std::initializer_list<std::initializer_list<const char *>> groups) const;

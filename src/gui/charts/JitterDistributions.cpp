@@ -46,7 +46,7 @@ double atLeastZero(qint64 duration)
 QString quantityText(const QString &quantity)
 {
     const auto text = [](const char *name) { return QCoreApplication::translate("JitterDistribution", name); };
-    if (quantity == QLatin1String("roundTrip"))
+    if (quantity == QLatin1String(JitterDistribution::RoundTrip))
         return text("round trip");
     return text(quantity.toLatin1().constData());
 }

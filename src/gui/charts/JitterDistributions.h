@@ -16,8 +16,13 @@ struct JitterDistribution
         double count;
     };
 
-    QString who;       // "Master", or a node
-    QString quantity;  // "lateness", "execution", "roundTrip", as docs/protocol.md 5.6 names them
+    // Quantities, as QPlcPanelContext::Duration and settings name them.
+    static constexpr const char *Lateness = "lateness";
+    static constexpr const char *Execution = "execution";
+    static constexpr const char *RoundTrip = "roundTrip";
+
+    QString who;  // "Master", or a node
+    QString quantity;
     double count = 0.0;
     double p50 = 0.0;      // [ns]
     double p99 = 0.0;      // [ns]
@@ -26,6 +31,7 @@ struct JitterDistribution
 
     /// For settings: "Master.lateness".
     QString key() const { return who + QLatin1Char('.') + quantity; }
+    static QString keyOfMaster(const char *quantity) { return QStringLiteral("Master.") + QLatin1String(quantity); }
     /// For people: "Master lateness".
     QString title() const { return titleOf(key()); }
     static QString titleOf(const QString &key);

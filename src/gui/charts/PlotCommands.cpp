@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a person can do with a time plot, by mouse, keys and menu.
-#include "ChartAction.h"
 #include "QPlcTimePlotPrivate.h"
 #include "gui/panel/SignalEdit.h"
 
@@ -32,9 +31,6 @@ void QPlcTimePlot::Private::makeActions()
 
 void QPlcTimePlot::Private::makeCurveActions()
 {
-    const auto make = [this](const QString &text, int key, const char *name, std::function<void()> act) {
-        return addChartAction(q, text, {QKeySequence(key)}, name, std::move(act));
-    };
     const auto choose = [this](int step) {
         return [this, step] {
             const int count = curves.size();
@@ -42,21 +38,17 @@ void QPlcTimePlot::Private::makeCurveActions()
                 select(curves.selected() < 0 ? (step > 0 ? 0 : count - 1) : (curves.selected() + step + count) % count);
         };
     };
-    make(QPlcTimePlot::tr("Add signal..."), Qt::Key_Insert, "add", [this] { openAddBar(); });
-    removeAction
-        = make(QPlcTimePlot::tr("Remove curve"), Qt::Key_Delete, "remove", [this] { removeCurve(curves.selected()); });
-    toggleAction
-        = make(QPlcTimePlot::tr("Hide or show curve"), Qt::Key_V, "toggle", [this] { toggleCurve(curves.selected()); });
-    make(QPlcTimePlot::tr("Next curve"), Qt::Key_N, "next", choose(1));
-    make(QPlcTimePlot::tr("Previous curve"), int(Qt::SHIFT) | Qt::Key_N, "previous", choose(-1));
+    addAction(QPlcTimePlot::tr("Add signal..."), {Qt::Key_Insert}, "add", [this] { openAddBar(); });
+    removeAction = addAction(QPlcTimePlot::tr("Remove curve"), {Qt::Key_Delete}, "remove",
+                             [this] { removeCurve(curves.selected()); });
+    toggleAction = addAction(QPlcTimePlot::tr("Hide or show curve"), {Qt::Key_V}, "toggle",
+                             [this] { toggleCurve(curves.selected()); });
+    addAction(QPlcTimePlot::tr("Next curve"), {Qt::Key_N}, "next", choose(1));
+    addAction(QPlcTimePlot::tr("Previous curve"), {int(Qt::SHIFT) | Qt::Key_N}, "previous", choose(-1));
 }
 
 void QPlcTimePlot::Private::makeViewActions()
 {
-    const auto make = [this](const QString &text, const QList<int> &keys, const char *name, std::function<void()> act) {
-        const QList<QKeySequence> sequences(keys.begin(), keys.end());
-        return addChartAction(q, text, sequences, name, std::move(act));
-    };
     const auto pan = [this](double share) {
         return [this, share] { time.pan(Time(std::llround(share * double(time.view()->span())))); };
     };
@@ -75,32 +67,30 @@ void QPlcTimePlot::Private::makeViewActions()
         };
     };
     constexpr int ctrl = int(Qt::CTRL);
-    make(QPlcTimePlot::tr("Show all"), {Qt::Key_A}, "all", [this] { showAll(); });
-    make(QPlcTimePlot::tr("Live"), {Qt::Key_L}, "live", [this] { time.view()->goLive(); });
-    make(QPlcTimePlot::tr("Freeze or go live"), {Qt::Key_Space}, "freeze", [this] { time.toggleLive(); });
-    make(QPlcTimePlot::tr("Zoom in"), {Qt::Key_Plus, Qt::Key_Equal}, "zoomIn",
-         [this] { curves.isEmpty() ? openAddBar() : time.zoom(zoomOfKey); });
-    make(QPlcTimePlot::tr("Zoom out"), {Qt::Key_Minus}, "zoomOut", [this] { time.zoom(1.0 / zoomOfKey); });
-    make(QPlcTimePlot::tr("Zoom values in"), {ctrl | Qt::Key_Plus, ctrl | Qt::Key_Equal}, "zoomValuesIn",
-         zoomUp(zoomOfKey));
-    make(QPlcTimePlot::tr("Zoom values out"), {ctrl | Qt::Key_Minus}, "zoomValuesOut", zoomUp(1.0 / zoomOfKey));
-    make(QPlcTimePlot::tr("Earlier"), {Qt::Key_Left}, "earlier", pan(-panOfKey));
-    make(QPlcTimePlot::tr("Later"), {Qt::Key_Right}, "later", pan(panOfKey));
-    make(QPlcTimePlot::tr("Larger values"), {Qt::Key_Up}, "larger", panUp(panOfKey));
-    make(QPlcTimePlot::tr("Smaller values"), {Qt::Key_Down}, "smaller", panUp(-panOfKey));
-    make(QPlcTimePlot::tr("Cursor A"), {Qt::Key_1}, "cursorA", [this] { time.placeCursor(QPlcTimeAxis::A); });
-    make(QPlcTimePlot::tr("Cursor B"), {Qt::Key_2}, "cursorB", [this] { time.placeCursor(QPlcTimeAxis::B); });
-    make(QPlcTimePlot::tr("Remove cursors"), {Qt::Key_0}, "removeCursors", [this] { time.removeCursors(); });
-    make(QPlcTimePlot::tr("Cursor to the left"), {ctrl | Qt::Key_Left}, "cursorLeft", [this] { time.moveCursor(-1); });
-    make(QPlcTimePlot::tr("Cursor to the right"), {ctrl | Qt::Key_Right}, "cursorRight",
-         [this] { time.moveCursor(1); });
+    addAction(QPlcTimePlot::tr("Show all"), {Qt::Key_A}, "all", [this] { showAll(); });
+    addAction(QPlcTimePlot::tr("Live"), {Qt::Key_L}, "live", [this] { time.view()->goLive(); });
+    addAction(QPlcTimePlot::tr("Freeze or go live"), {Qt::Key_Space}, "freeze", [this] { time.toggleLive(); });
+    addAction(QPlcTimePlot::tr("Zoom in"), {Qt::Key_Plus, Qt::Key_Equal}, "zoomIn",
+              [this] { curves.isEmpty() ? openAddBar() : time.zoom(zoomOfKey); });
+    addAction(QPlcTimePlot::tr("Zoom out"), {Qt::Key_Minus}, "zoomOut", [this] { time.zoom(1.0 / zoomOfKey); });
+    addAction(QPlcTimePlot::tr("Zoom values in"), {ctrl | Qt::Key_Plus, ctrl | Qt::Key_Equal}, "zoomValuesIn",
+              zoomUp(zoomOfKey));
+    addAction(QPlcTimePlot::tr("Zoom values out"), {ctrl | Qt::Key_Minus}, "zoomValuesOut", zoomUp(1.0 / zoomOfKey));
+    addAction(QPlcTimePlot::tr("Earlier"), {Qt::Key_Left}, "earlier", pan(-panOfKey));
+    addAction(QPlcTimePlot::tr("Later"), {Qt::Key_Right}, "later", pan(panOfKey));
+    addAction(QPlcTimePlot::tr("Larger values"), {Qt::Key_Up}, "larger", panUp(panOfKey));
+    addAction(QPlcTimePlot::tr("Smaller values"), {Qt::Key_Down}, "smaller", panUp(-panOfKey));
+    addAction(QPlcTimePlot::tr("Cursor A"), {Qt::Key_1}, "cursorA", [this] { time.placeCursor(QPlcTimeAxis::A); });
+    addAction(QPlcTimePlot::tr("Cursor B"), {Qt::Key_2}, "cursorB", [this] { time.placeCursor(QPlcTimeAxis::B); });
+    addAction(QPlcTimePlot::tr("Remove cursors"), {Qt::Key_0}, "removeCursors", [this] { time.removeCursors(); });
+    addAction(QPlcTimePlot::tr("Cursor to the left"), {ctrl | Qt::Key_Left}, "cursorLeft",
+              [this] { time.moveCursor(-1); });
+    addAction(QPlcTimePlot::tr("Cursor to the right"), {ctrl | Qt::Key_Right}, "cursorRight",
+              [this] { time.moveCursor(1); });
 }
 
 void QPlcTimePlot::Private::makeSettingActions()
 {
-    const auto make = [this](const QString &text, int key, const char *name, std::function<void()> act) {
-        return addChartAction(q, text, {QKeySequence(key)}, name, std::move(act));
-    };
     const auto editing = [this](void (*how)(PlotSettings *)) {
         return [this, how] {
             PlotSettings wanted = settings;
@@ -108,16 +98,20 @@ void QPlcTimePlot::Private::makeSettingActions()
             edit(wanted);
         };
     };
-    statisticsAction = make(QPlcTimePlot::tr("Statistics between the cursors"), Qt::Key_S, "statistics",
-                            editing([](PlotSettings *wanted) { wanted->hasStatistics = !wanted->hasStatistics; }));
-    make(QPlcTimePlot::tr("Reference line"), Qt::Key_R, "addLine", [this] { addLine(); });
-    make(QPlcTimePlot::tr("Remove reference lines"), int(Qt::SHIFT) | Qt::Key_R, "removeLines",
-         editing([](PlotSettings *wanted) { wanted->removeLines(); }));
-    bandsAction = make(QPlcTimePlot::tr("Show as state bands"), Qt::Key_B, "bands", [this] { toggleBands(); });
-    limitsAction = make(QPlcTimePlot::tr("Limits"), Qt::Key_M, "limits",
-                        editing([](PlotSettings *wanted) { wanted->limits = !wanted->showsLimits(); }));
-    rightAxisAction = make(QPlcTimePlot::tr("Right axis"), Qt::Key_Y, "rightAxis", [this] { toggleRightAxis(); });
-    triggerAction = make(QPlcTimePlot::tr("Trigger"), Qt::Key_T, "trigger", [this] { toggleTrigger(); });
+    statisticsAction = addAction(QPlcTimePlot::tr("Statistics between the cursors"), {Qt::Key_S}, "statistics",
+                                 editing([](PlotSettings *wanted) { wanted->hasStatistics = !wanted->hasStatistics; }));
+    addAction(QPlcTimePlot::tr("Reference line"), {Qt::Key_R}, "addLine", [this] { addLine(); });
+    addAction(QPlcTimePlot::tr("Remove reference lines"), {int(Qt::SHIFT) | Qt::Key_R}, "removeLines",
+              [this, remove = editing([](PlotSettings *wanted) { wanted->removeLines(); })] {
+                  if (settings.hasLines())
+                      remove();
+              });
+    bandsAction = addAction(QPlcTimePlot::tr("Show as state bands"), {Qt::Key_B}, "bands", [this] { toggleBands(); });
+    limitsAction = addAction(QPlcTimePlot::tr("Limits"), {Qt::Key_M}, "limits",
+                             editing([](PlotSettings *wanted) { wanted->limits = !wanted->showsLimits(); }));
+    rightAxisAction
+        = addAction(QPlcTimePlot::tr("Right axis"), {Qt::Key_Y}, "rightAxis", [this] { toggleRightAxis(); });
+    triggerAction = addAction(QPlcTimePlot::tr("Trigger"), {Qt::Key_T}, "trigger", [this] { toggleTrigger(); });
     for (QAction *action : {bandsAction, limitsAction, rightAxisAction, triggerAction})
         action->setCheckable(true);
 }
@@ -125,10 +119,10 @@ void QPlcTimePlot::Private::makeSettingActions()
 void QPlcTimePlot::Private::makeExportActions()
 {
     exporter()->addTableActions([this] { return shownTable(); });
-    addChartAction(q, QPlcTimePlot::tr("Export A ... B as CSV..."), {QKeySequence(Qt::CTRL | Qt::ALT | Qt::Key_E)},
-                   "saveBetween", [this] { exporter()->saveTable(tableBetweenCursors()); });
-    addChartAction(q, QPlcTimePlot::tr("Copy A ... B as table"), {QKeySequence(Qt::CTRL | Qt::ALT | Qt::Key_C)},
-                   "copyBetween", [this] { exporter()->copyTable(tableBetweenCursors()); });
+    addAction(QPlcTimePlot::tr("Export A ... B as CSV..."), {int(Qt::CTRL | Qt::ALT) | Qt::Key_E}, "saveBetween",
+              [this] { exporter()->saveTable(tableBetweenCursors()); });
+    addAction(QPlcTimePlot::tr("Copy A ... B as table"), {int(Qt::CTRL | Qt::ALT) | Qt::Key_C}, "copyBetween",
+              [this] { exporter()->copyTable(tableBetweenCursors()); });
     exporter()->addPictureActions();
 }
 

@@ -2,15 +2,20 @@
 #include "QPlcXyPlot.h"
 
 #include "ChartLook.h"
+#include "ChartPanel.h"
 #include "QPlcTimeAxis.h"
-#include "QPlcXyPlotPrivate.h"
+#include "XyCanvas.h"
+#include "XyInteraction.h"
 #include "XyPlotEditor.h"
 #include "gui/models/ValueFormat.h"
+#include "gui/panel/PanelSettings.h"
 
 #include <QtCore/QDateTime>
 #include <QtCore/QElapsedTimer>
 #include <QtCore/QJsonArray>
+#include <QtWidgets/QAction>
 #include <QtWidgets/QLabel>
+#include <QtWidgets/QMenu>
 #include <QtWidgets/QVBoxLayout>
 
 #include <algorithm>
@@ -19,6 +24,7 @@ using namespace qplc;
 
 namespace {
 
+constexpr int shortestPause = 40;  // [ms] between pictures
 constexpr int longestPause = 1000;
 constexpr int costShare = 4;   // drawing takes at most so small a share of the time
 constexpr int agePause = 500;  // [ms]
@@ -29,179 +35,276 @@ const QString yKey = QStringLiteral("y");
 const QString xyColorKey = QStringLiteral("color");
 constexpr const char *aspectKey = "equalAspect";
 
+constexpr double zoomOfKey = 0.7;  // what a key leaves
+constexpr double panOfKey = 0.15;  // of the canvas
+constexpr int xyDigits = 5;
+
+QString textOf(const QPlcPast &source, double value)
+{
+    const QString unit = source.unit.isEmpty() ? QString() : QLatin1Char(' ') + source.unit;
+    return QStringLiteral("%1%2").arg(numberText(value, xyDigits), unit);
+}
+
 }  // namespace
 
-QPlcXyPlot::Private::Private(QPlcXyPlot *plot)
-    : ChartPanel(plot, [this] { return std::make_unique<ChartPicture>(canvas, legend->text()); })
-    , q(plot)
-    , canvas(new XyCanvas)
-    , message(new QLabel)
-    , legend(new QLabel)
-    , moment(new QLabel)
-    , interaction(new XyInteraction(canvas, plot))
+class QPlcXyPlot::Private : public ChartPanel
 {
-    auto *all = new QVBoxLayout(plot);
-    all->setContentsMargins(2, 2, 2, 2);
-    all->setSpacing(0);
-    all->addWidget(message);
-    all->addWidget(legend);
-    all->addWidget(canvas, 1);
-    all->addWidget(moment);
-    message->setWordWrap(true);
-    message->setMargin(6);
-    message->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-    legend->setWordWrap(true);
-    legend->setMargin(4);
-    legend->setFont(scaleFont(legend->font()));
-    legend->setTextFormat(Qt::RichText);
-    legend->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-    moment->setMargin(2);
-    moment->setFont(scaleFont(moment->font()));
-    moment->setAlignment(Qt::AlignRight);
-    canvas->setAccessibleName(tr("XY plot"));
-    setPause(shortestPause);
-    setTickPeriod(agePause);
-    setQuietTexts();
-    makeActions();
-    connectInteraction();
-}
-
-/// Finds what the expressions mean now.
-void QPlcXyPlot::Private::bind()
-{
-    std::vector<std::unique_ptr<XyCurve>> found;
-    std::vector<QColor> colors;
-    error.clear();
-    const QJsonArray wanted = curves();
-    QStringList names;
-    for (const QJsonValue &entry : wanted) {
-        const QString x = entry[xKey].toString();
-        const QString y = entry[yKey].toString();
-        if (!x.isEmpty() && !y.isEmpty())
-            names << tr("%1 over %2").arg(QPlcPast::textOf(y), QPlcPast::textOf(x));
-        if (x.isEmpty() || y.isEmpty())
-            continue;
-        const QPlcPast xPast = context()->past(x);
-        const QPlcPast yPast = context()->past(y);
-        if (xPast && yPast && xPast.plant == yPast.plant) {
-            found.push_back(std::make_unique<XyCurve>(xPast, yPast, tr("%1 over %2").arg(yPast.text(), xPast.text())));
-            colors.emplace_back(entry[xyColorKey].toString());
-        } else if (error.isEmpty()) {
-            error = !xPast ? xPast.problem
-                : !yPast   ? yPast.problem
-                           : tr("%1 and %2 are of two plants. Remedy: choose signals of one.").arg(x, y);
-        }
+public:
+    explicit Private(QPlcXyPlot *plot)
+        : ChartPanel(plot, [this] { return std::make_unique<ChartPicture>(canvas, legend->text()); })
+        , q(plot)
+        , canvas(new XyCanvas)
+        , message(new QLabel)
+        , legend(new QLabel)
+        , moment(new QLabel)
+        , interaction(new XyInteraction(canvas, plot))
+    {
+        auto *all = new QVBoxLayout(plot);
+        all->setContentsMargins(2, 2, 2, 2);
+        all->setSpacing(0);
+        all->addWidget(message);
+        all->addWidget(legend);
+        all->addWidget(canvas, 1);
+        all->addWidget(moment);
+        message->setWordWrap(true);
+        message->setMargin(6);
+        message->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+        legend->setWordWrap(true);
+        legend->setMargin(4);
+        legend->setFont(scaleFont(legend->font()));
+        legend->setTextFormat(Qt::RichText);
+        legend->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+        moment->setMargin(2);
+        moment->setFont(scaleFont(moment->font()));
+        moment->setAlignment(Qt::AlignRight);
+        canvas->setAccessibleName(tr("XY plot"));
+        setPause(shortestPause);
+        setTickPeriod(agePause);
+        setQuietTexts();
+        makeActions();
+        connectInteraction();
     }
-    canvas->setCurves(std::move(found), colors);
-    q->setDefaultTitle(names.join(QStringLiteral(", ")));
-    showMessage();
-    showLegend();
-    schedule();
-}
 
-QString QPlcXyPlot::Private::messageText() const
-{
-    const QJsonArray wanted = curves();
-    if (wanted.isEmpty())
-        return tr("Drop two signals here: the second one is drawn over the first.");
-    if (!error.isEmpty())
-        return error;
-    const QJsonValue last = wanted.last();
-    if (last[yKey].toString().isEmpty() && !last[xKey].toString().isEmpty())
-        return tr("Drop a second signal here: it is drawn over %1.").arg(last[xKey].toString());
-    return canvas->curves().empty() ? tr("Choose signals for x and y in the settings.") : QString();
-}
+    QJsonArray curves() const { return settings.value(xyCurvesKey).toArray(); }
 
-void QPlcXyPlot::Private::showMessage()
-{
-    const QString text = messageText();
-    message->setText(text);
-    message->setVisible(!text.isEmpty());
-    const bool hasCurves = !canvas->curves().empty();
-    canvas->setVisible(hasCurves);
-    message->setAlignment(hasCurves ? Qt::AlignLeft : Qt::AlignCenter);
-    message->setSizePolicy(QSizePolicy::Ignored, hasCurves ? QSizePolicy::Preferred : QSizePolicy::Expanding);
-}
+    /// Finds what the expressions mean now.
+    void bind() override
+    {
+        std::vector<std::unique_ptr<XyCurve>> found;
+        std::vector<QColor> colors;
+        error.clear();
+        const QJsonArray wanted = curves();
+        QStringList names;
+        for (const QJsonValue &entry : wanted) {
+            const QString x = entry[xKey].toString();
+            const QString y = entry[yKey].toString();
+            if (!x.isEmpty() && !y.isEmpty())
+                names << tr("%1 over %2").arg(QPlcPast::textOf(y), QPlcPast::textOf(x));
+            if (x.isEmpty() || y.isEmpty())
+                continue;
+            const QPlcPast xPast = context()->past(x);
+            const QPlcPast yPast = context()->past(y);
+            if (xPast && yPast && xPast.plant == yPast.plant) {
+                found.push_back(
+                    std::make_unique<XyCurve>(xPast, yPast, tr("%1 over %2").arg(yPast.text(), xPast.text())));
+                colors.emplace_back(entry[xyColorKey].toString());
+            } else if (error.isEmpty()) {
+                error = !xPast ? xPast.problem
+                    : !yPast   ? yPast.problem
+                               : tr("%1 and %2 are of two plants. Remedy: choose signals of one.").arg(x, y);
+            }
+        }
+        canvas->setCurves(std::move(found), colors);
+        q->setDefaultTitle(names.join(QStringLiteral(", ")));
+        showMessage();
+        showLegend();
+        schedule();
+    }
 
-void QPlcXyPlot::Private::showLegend()
-{
-    legend->setText(canvas->legend());
-    legend->setVisible(!legend->text().isEmpty() && q->height() >= leastHeightOfTexts);
-}
+    void draw() override
+    {
+        const auto displayed = context()->shownTime();
+        QElapsedTimer cost;
+        cost.start();
+        const bool isStale = !displayed && stale();
+        canvas->show({seenEnd() - context()->timeAxis()->span(), seenEnd(), displayed, isStale});
+        legend->setVisible(!legend->text().isEmpty() && q->height() >= leastHeightOfTexts);
+        setPause(std::clamp(int(cost.elapsed()) * costShare, shortestPause, longestPause));
+        showMoment();
+    }
 
-void QPlcXyPlot::Private::showTheme(const QPlcTheme &theme)
-{
-    canvas->setTheme(theme);
-}
+    /// What a person has changed.
+    void edit(const QJsonArray &edited)
+    {
+        settings.set(xyCurvesKey, edited, QJsonArray());
+        canvas->release();  // what is added is to be seen
+        bind();
+        Q_EMIT q->settingsEdited();
+    }
 
-const QPlcPast *QPlcXyPlot::Private::stale() const
-{
-    const auto found = std::find_if(canvas->curves().begin(), canvas->curves().end(),
-                                    [](const std::unique_ptr<XyCurve> &curve) { return !curve->x().isCurrent(); });
-    return found != canvas->curves().end() ? &(*found)->x() : nullptr;
-}
+    void showAspect()
+    {
+        equal->setChecked(q->isAspectEqual());
+        canvas->setAspect(q->isAspectEqual() ? XyCanvas::Equal : XyCanvas::Free);
+        schedule();
+    }
 
-/// The end of the time that is seen: live, that of the newest values of the plants that are drawn,
-/// as each has a clock of its own.
-QPlcPast::Time QPlcXyPlot::Private::seenEnd() const
-{
-    QPlcPast::Time newest = 0;
-    for (const std::unique_ptr<XyCurve> &curve : canvas->curves())
-        newest = std::max(newest, curve->x().newestTime());
-    return context()->isLive() && newest > 0 ? newest : context()->timeAxis()->end();
-}
+    void showMessage()
+    {
+        const QString text = messageText();
+        message->setText(text);
+        message->setVisible(!text.isEmpty());
+        const bool hasCurves = !canvas->curves().empty();
+        canvas->setVisible(hasCurves);
+        message->setAlignment(hasCurves ? Qt::AlignLeft : Qt::AlignCenter);
+        message->setSizePolicy(QSizePolicy::Ignored, hasCurves ? QSizePolicy::Preferred : QSizePolicy::Expanding);
+    }
 
-void QPlcXyPlot::Private::draw()
-{
-    const auto displayed = context()->shownTime();
-    QElapsedTimer cost;
-    cost.start();
-    const bool isStale = !displayed && stale();
-    canvas->show({seenEnd() - context()->timeAxis()->span(), seenEnd(), displayed, isStale});
-    legend->setVisible(!legend->text().isEmpty() && q->height() >= leastHeightOfTexts);
-    setPause(std::clamp(int(cost.elapsed()) * costShare, shortestPause, longestPause));
-    showMoment();
-}
+    void showLegend()
+    {
+        legend->setText(canvas->legend());
+        legend->setVisible(!legend->text().isEmpty() && q->height() >= leastHeightOfTexts);
+    }
 
-/// Where the mouse is, or else when the dot was.
-void QPlcXyPlot::Private::showMoment()
-{
-    const QString text = interaction->mouse() ? pointerText() : timeText();
-    moment->setVisible(!text.isEmpty() && !canvas->curves().empty());
-    if (text != moment->text())
-        moment->setText(text);
-}
+    /// Where the mouse is, or else when the dot was.
+    void showMoment()
+    {
+        const QString text = interaction->mouse() ? pointerText() : timeText();
+        moment->setVisible(!text.isEmpty() && !canvas->curves().empty());
+        if (text != moment->text())
+            moment->setText(text);
+    }
 
-/// Empty: the dot is where the plant is.
-QString QPlcXyPlot::Private::timeText() const
-{
-    const auto displayed = context()->shownTime();
-    if (displayed)
-        return tr("dot at %1")
-            .arg(QDateTime::fromMSecsSinceEpoch(*displayed / 1'000'000).toString(QStringLiteral("hh:mm:ss.zzz")));
-    return stale() ? tr("stale, %1").arg(ageText(stale()->age())) : QString();
-}
+    void showTheme(const QPlcTheme &theme) override { canvas->setTheme(theme); }
 
-QJsonArray QPlcXyPlot::Private::curves() const
-{
-    return settings.value(xyCurvesKey).toArray();
-}
+    QString messageText() const
+    {
+        const QJsonArray wanted = curves();
+        if (wanted.isEmpty())
+            return tr("Drop two signals here: the second one is drawn over the first.");
+        if (!error.isEmpty())
+            return error;
+        const QJsonValue last = wanted.last();
+        if (last[yKey].toString().isEmpty() && !last[xKey].toString().isEmpty())
+            return tr("Drop a second signal here: it is drawn over %1.").arg(last[xKey].toString());
+        return canvas->curves().empty() ? tr("Choose signals for x and y in the settings.") : QString();
+    }
 
-void QPlcXyPlot::Private::showAspect()
-{
-    equal->setChecked(q->isAspectEqual());
-    canvas->setAspect(q->isAspectEqual() ? XyCanvas::Equal : XyCanvas::Free);
-    schedule();
-}
+    /// Empty: the dot is where the plant is.
+    QString timeText() const
+    {
+        const auto displayed = context()->shownTime();
+        if (displayed)
+            return tr("dot at %1")
+                .arg(QDateTime::fromMSecsSinceEpoch(*displayed / 1'000'000).toString(QStringLiteral("hh:mm:ss.zzz")));
+        return stale() ? tr("stale, %1").arg(ageText(stale()->age())) : QString();
+    }
 
-/// What a person has changed.
-void QPlcXyPlot::Private::edit(const QJsonArray &edited)
-{
-    settings.set(xyCurvesKey, edited, QJsonArray());
-    canvas->release();  // what is added is to be seen
-    bind();
-    Q_EMIT q->settingsEdited();
-}
+    /// Of the first curve whose newest values are no longer true; null: all are.
+    const QPlcPast *stale() const
+    {
+        const auto found = std::find_if(canvas->curves().begin(), canvas->curves().end(),
+                                        [](const std::unique_ptr<XyCurve> &curve) { return !curve->x().isCurrent(); });
+        return found != canvas->curves().end() ? &(*found)->x() : nullptr;
+    }
+
+    /// The end of the time that is seen: live, that of the newest values of the plants that are
+    /// drawn, as each has a clock of its own.
+    QPlcPast::Time seenEnd() const
+    {
+        QPlcPast::Time newest = 0;
+        for (const std::unique_ptr<XyCurve> &curve : canvas->curves())
+            newest = std::max(newest, curve->x().newestTime());
+        return context()->isLive() && newest > 0 ? newest : context()->timeAxis()->end();
+    }
+
+    void makeActions()
+    {
+        const auto pan = [this](double x, double y) {
+            return [this, x, y] {
+                const QSizeF size = canvas->canvas()->size();
+                canvas->pan({x * panOfKey * size.width(), y * panOfKey * size.height()});
+            };
+        };
+        equal = addAction(tr("Equal aspect"), {Qt::Key_E}, "equal", [this] {
+            q->setAspectEqual(equal->isChecked());
+            Q_EMIT q->settingsEdited();
+        });
+        equal->setCheckable(true);
+        addAction(tr("Show all"), {Qt::Key_A}, "all", [this] { canvas->release(); });
+        addAction(tr("Zoom in"), {Qt::Key_Plus, Qt::Key_Equal}, "zoomIn", [this] { zoom(zoomOfKey); });
+        addAction(tr("Zoom out"), {Qt::Key_Minus}, "zoomOut", [this] { zoom(1.0 / zoomOfKey); });
+        addAction(tr("Move left"), {Qt::Key_Left}, "left", pan(1.0, 0.0));
+        addAction(tr("Move right"), {Qt::Key_Right}, "right", pan(-1.0, 0.0));
+        addAction(tr("Move up"), {Qt::Key_Up}, "up", pan(0.0, 1.0));
+        addAction(tr("Move down"), {Qt::Key_Down}, "down", pan(0.0, -1.0));
+        exporter()->addTableActions([this] { return table(); });
+        exporter()->addPictureActions();
+    }
+
+    void connectInteraction()
+    {
+        connect(interaction, &XyInteraction::pressed, q, [this] { q->setFocus(Qt::MouseFocusReason); });
+        connect(interaction, &XyInteraction::mouseMoved, q, [this] { showMoment(); });
+        connect(interaction, &XyInteraction::allWanted, q, [this] { canvas->release(); });
+        connect(interaction, &XyInteraction::menuWanted, q,
+                [this](const QPoint &, const QPoint &global) { createMenu()->popup(global); });
+    }
+
+    QMenu *createMenu() override
+    {
+        return makeMenu({{"all", "zoomIn", "zoomOut", "equal"},
+                         {"saveTable", "copyTable", "savePicture", "copyPicture"},
+                         {"panelMenu"}});  // of the frame around
+    }
+
+    /// About the mouse, or the middle.
+    void zoom(double factor)
+    {
+        const QPointF middle = QRectF(canvas->canvas()->rect()).center();
+        canvas->zoom(factor, factor, interaction->mouse() ? QPointF(*interaction->mouse()) : middle);
+    }
+
+    /// x and y below the mouse.
+    QString pointerText() const
+    {
+        if (canvas->curves().empty())
+            return {};
+        const QPointF at = canvas->valueAt(*interaction->mouse());
+        const XyCurve &first = *canvas->curves().front();
+        return tr("x %1   y %2").arg(textOf(first.x(), at.x()), textOf(first.y(), at.y()));
+    }
+
+    /// The rows of the time that is seen at the moment of the wish; what several curves have in
+    /// common is one column.
+    ChartExport::Table table() const
+    {
+        const QPlcPast::Time end = seenEnd();
+        const QPlcPast::Time begin = end - context()->timeAxis()->span();
+        return [this, begin, end](TableExport::Format format) {
+            std::vector<TableExport::Column> columns;
+            QStringList added;
+            for (const std::unique_ptr<XyCurve> &curve : canvas->curves()) {
+                for (const QPlcPast &past : {curve->x(), curve->y()}) {
+                    if (!added.contains(past.expression))
+                        columns.push_back(TableExport::Column::of(past, past.text()));
+                    added << past.expression;
+                }
+            }
+            return TableExport(format, std::move(columns), begin, end);
+        };
+    }
+
+    QPlcXyPlot *q;
+    XyCanvas *canvas;
+    QLabel *message;  // what is missing
+    QLabel *legend;
+    QLabel *moment;  // when the dot was
+    XyInteraction *interaction;
+    QAction *equal = nullptr;
+    PanelSettings settings{"curves", "equalAspect"};
+    QString error;  // of the first curve that cannot be drawn
+};
 
 QPlcXyPlot::QPlcXyPlot(QWidget *parent)
     : QPlcWidget(parent)

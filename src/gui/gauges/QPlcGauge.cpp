@@ -5,6 +5,7 @@
 #include "GaugeFeed.h"
 #include "GaugePaint.h"
 #include "QPlcPanelContext.h"
+#include "gui/panel/PanelAction.h"
 
 #include <QtWidgets/QAction>
 
@@ -29,11 +30,8 @@ QPlcGauge::QPlcGauge(QWidget *parent)
     });
     connect(this, &QPlcWidget::titleChanged, this,
             [this] { d->feed.setNameShown(!QPlcWidget::settings().contains(QStringLiteral("title"))); });
-    auto *reset = new QAction(tr("Reset smallest and largest value"), this);
-    reset->setShortcut(QKeySequence(int(Qt::CTRL) | int(Qt::Key_R)));
-    reset->setShortcutContext(Qt::WidgetWithChildrenShortcut);
-    connect(reset, &QAction::triggered, &d->feed, &GaugeFeed::reset);
-    addAction(reset);
+    addPanelAction(this, tr("Reset smallest and largest value"), {int(Qt::CTRL) | int(Qt::Key_R)},
+                   [this] { d->feed.reset(); });
     addStyleAction(tr("Dial"), styleText(GaugeStyle::Dial));
     addStyleAction(tr("Bar"), styleText(GaugeStyle::Bar));
     addStyleAction(tr("Number"), styleText(GaugeStyle::Number));
@@ -44,12 +42,10 @@ QPlcGauge::~QPlcGauge() = default;
 
 void QPlcGauge::addStyleAction(const QString &text, const QString &style)
 {
-    auto *action = new QAction(tr("Show as %1").arg(text), this);
-    connect(action, &QAction::triggered, this, [this, style] {
+    addPanelAction(this, tr("Show as %1").arg(text), {}, [this, style] {
         if (d->settings.set("style", style, styleText(GaugeStyle::Dial)))
             takeEdit();
     });
-    addAction(action);
 }
 
 QJsonObject QPlcGauge::settings() const

@@ -4,6 +4,7 @@
 #include "InlineEdit.h"
 #include "LayoutIcons.h"
 #include "TitleButton.h"
+#include "gui/panel/PanelAction.h"
 
 #include <QtGui/QContextMenuEvent>
 #include <QtGui/QMouseEvent>
@@ -44,12 +45,8 @@ LayoutTabBar::LayoutTabBar(LayoutEditor *editor, QWidget *parent)
 
 void LayoutTabBar::makeActions()
 {
-    const auto add = [this](const QString &text, const QString &keys, auto slot) {
-        auto *action = new QAction(text, this);
-        action->setShortcut(keys);
-        action->setShortcutContext(Qt::WidgetShortcut);
-        connect(action, &QAction::triggered, this, slot);
-        addAction(action);
+    const auto add = [this](const QString &text, const QString &keys, const std::function<void()> &act) {
+        addPanelAction(this, text, {keys}, act, "", Qt::WidgetShortcut);
     };
     add(tr("Rename tab"), tr("F2"), [this] { startRename(currentIndex()); });
     add(tr("Move tab left"), tr("Ctrl+Shift+Left"),

@@ -13,6 +13,7 @@
 #include "QPlcWidget.h"
 #include "QPlcWidgetFactory.h"
 #include "TabDrop.h"
+#include "gui/panel/PanelAction.h"
 
 #include <QtWidgets/QAction>
 #include <QtWidgets/QHBoxLayout>
@@ -70,12 +71,8 @@ LayoutView::~LayoutView()
 
 void LayoutView::makeActions()
 {
-    const auto add = [this](const QString &text, const QString &keys, auto slot) {
-        auto *action = new QAction(text, this);
-        action->setShortcuts(QKeySequence::listFromString(keys));
-        action->setShortcutContext(Qt::WidgetWithChildrenShortcut);
-        connect(action, &QAction::triggered, this, slot);
-        addAction(action);
+    const auto add = [this](const QString &text, const QString &keys, const std::function<void()> &act) {
+        addPanelAction(this, text, QKeySequence::listFromString(keys), act);
     };
     add(tr("Next panel"), tr("F6"), [this] { focusPanel(1); });
     add(tr("Previous panel"), tr("Shift+F6"), [this] { focusPanel(-1); });

@@ -7,6 +7,7 @@
 #include "PanelTitleBar.h"
 #include "QPlcWidget.h"
 #include "QPlcWidgetFactory.h"
+#include "gui/panel/PanelAction.h"
 #include "gui/panel/SignalDropArea.h"
 
 #include <QtGui/QContextMenuEvent>
@@ -84,12 +85,9 @@ void PanelFrame::makeActions()
     m_rename->setShortcut(tr("F2"));
     m_rename->setShortcutContext(Qt::WidgetWithChildrenShortcut);
     addAction(m_rename);
-    auto *menu = new QAction(tr("Menu of the panel"), this);  // many keyboards have no key for it
-    menu->setShortcut(tr("Shift+F10"));
-    menu->setShortcutContext(Qt::WidgetWithChildrenShortcut);
-    connect(menu, &QAction::triggered, this,
-            [this] { openMenu(m_titleBar->mapToGlobal(QPoint(0, m_titleBar->height()))); });
-    addAction(menu);
+    // Many keyboards have no key for it.
+    addPanelAction(this, tr("Menu of the panel"), {tr("Shift+F10")},
+                   [this] { openMenu(m_titleBar->mapToGlobal(QPoint(0, m_titleBar->height()))); });
 }
 
 void PanelFrame::makeContent(const LayoutPanel &panel, const QPlcWidgetFactory *factory)

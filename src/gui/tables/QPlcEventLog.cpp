@@ -6,6 +6,7 @@
 #include "QPlcTimeAxis.h"
 #include "SearchLine.h"
 #include "gui/models/EventLogModel.h"
+#include "gui/panel/PanelAction.h"
 #include "gui/panel/PanelSettings.h"
 
 #include <QtWidgets/QAction>
@@ -93,11 +94,7 @@ struct QPlcEventLog::Private
             note->hide();
             table->setFocus(Qt::OtherFocusReason);
         };
-        auto *forget = new QAction(note);
-        forget->setShortcut(QKeySequence(Qt::Key_Escape));
-        forget->setShortcutContext(Qt::WidgetShortcut);
-        note->addAction(forget);
-        QObject::connect(forget, &QAction::triggered, note, close);
+        addPanelAction(note, {}, {Qt::Key_Escape}, close, "", Qt::WidgetShortcut);
         QObject::connect(note, &QLineEdit::returnPressed, note, [this, close] {
             const QString text = note->text().simplified();
             if (!text.isEmpty() && context)

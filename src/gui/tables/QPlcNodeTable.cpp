@@ -4,6 +4,7 @@
 #include "PanelTable.h"
 #include "QPlcPanelContext.h"
 #include "gui/models/NodeTableModel.h"
+#include "gui/panel/PanelAction.h"
 #include "gui/panel/PanelSettings.h"
 
 #include <QtCore/QSortFilterProxyModel>
@@ -88,12 +89,8 @@ QPlcNodeTable::QPlcNodeTable(QWidget *parent)
         d->table->writeSettings(&d->settings);
         Q_EMIT settingsEdited();
     });
-    auto *copy = new QAction(tr("Copy as text"), this);
-    copy->setShortcut(QKeySequence::Copy);
-    copy->setShortcutContext(Qt::WidgetWithChildrenShortcut);
-    connect(copy, &QAction::triggered, this,
-            [this] { QGuiApplication::clipboard()->setText(d->table->toTabSeparated()); });
-    addAction(copy);
+    addPanelAction(this, tr("Copy as text"), {QKeySequence::Copy},
+                   [this] { QGuiApplication::clipboard()->setText(d->table->toTabSeparated()); });
 }
 
 QPlcNodeTable::~QPlcNodeTable() = default;

@@ -8,6 +8,7 @@
 #include "TimeStrip.h"
 #include "gui/models/SignalFilterModel.h"
 #include "gui/models/SignalTreeModel.h"
+#include "gui/panel/PanelAction.h"
 #include "gui/panel/PanelSettings.h"
 
 #include <QtCore/QTimer>
@@ -89,16 +90,8 @@ QPlcSignalTree::~QPlcSignalTree() = default;
 
 void QPlcSignalTree::makeActions()
 {
-    const auto make = [this](const QString &text, const QList<QKeySequence> &keys, const auto &act) {
-        auto *action = new QAction(text, this);
-        action->setShortcuts(keys);
-        action->setShortcutContext(Qt::WidgetWithChildrenShortcut);
-        connect(action, &QAction::triggered, this, act);
-        addAction(action);
-        return action;
-    };
     const auto makeShow = [&](const QString &text, const QList<QKeySequence> &keys, const QString &typeName) {
-        d->shows << make(text, keys, [this, typeName] { request(typeName); });
+        d->shows << addPanelAction(this, text, keys, [this, typeName] { request(typeName); });
     };
     makeShow(tr("Show in a plot"), {Qt::Key_Return, Qt::Key_Enter}, QStringLiteral("Time plot"));
     makeShow(tr("Show in an XY plot"), {Qt::Key_X}, QStringLiteral("XY plot"));
@@ -106,18 +99,15 @@ void QPlcSignalTree::makeActions()
     makeShow(tr("Watch in a value table"), {Qt::Key_W}, QStringLiteral("Value table"));
     makeShow(tr("Set by a setter"), {Qt::Key_S}, QStringLiteral("Setter"));
     d->showSetter = d->shows.last();
-    d->others << make(tr("Search signals"), {QKeySequence::Find}, [this] { startSearch(); });
-    d->openMenu = make(tr("Menu of the signals"), {tr("Shift+F10")}, [this] { openMenuAtRow(); });
+    d->others << addPanelAction(this, tr("Search signals"), {QKeySequence::Find}, [this] { startSearch(); });
+    d->openMenu = addPanelAction(this, tr("Menu of the signals"), {tr("Shift+F10")}, [this] { openMenuAtRow(); });
     leaveByEscape(d->search, d->table);
-    auto *toTree = new QAction(d->search);  // from the line into the rows
-    toTree->setShortcut(QKeySequence(Qt::Key_Down));
-    toTree->setShortcutContext(Qt::WidgetShortcut);
-    d->search->addAction(toTree);
-    connect(toTree, &QAction::triggered, d->table, [this] {
+    const auto toTree = [this] {  // from the line into the rows
         d->table->setFocus(Qt::TabFocusReason);
         if (!d->table->currentIndex().isValid())
             d->table->setCurrentIndex(d->filter->index(0, 0));
-    });
+    };
+    addPanelAction(d->search, {}, {Qt::Key_Down}, toTree, "", Qt::WidgetShortcut);
 }
 
 void QPlcSignalTree::updateActions()

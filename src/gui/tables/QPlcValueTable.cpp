@@ -6,6 +6,7 @@
 #include "TimeStrip.h"
 #include "ValueTableModel.h"
 #include "gui/models/SignalFilterModel.h"
+#include "gui/panel/PanelAction.h"
 #include "gui/panel/PanelSettings.h"
 #include "gui/panel/SignalEdit.h"
 
@@ -120,25 +121,18 @@ QPlcValueTable::~QPlcValueTable() = default;
 
 void QPlcValueTable::makeActions()
 {
-    const auto make = [this](const QString &text, const QKeySequence &key, const auto &act) {
-        auto *action = new QAction(text, this);
-        action->setShortcut(key);
-        action->setShortcutContext(Qt::WidgetWithChildrenShortcut);
-        connect(action, &QAction::triggered, this, act);
-        addAction(action);
-    };
-    make(tr("Add a signal"), QKeySequence(Qt::Key_Insert), [this] { openAdding(); });
-    make(tr("Remove the selected signals"), QKeySequence(Qt::Key_Delete), [this] {
+    addPanelAction(this, tr("Add a signal"), {Qt::Key_Insert}, [this] { openAdding(); });
+    addPanelAction(this, tr("Remove the selected signals"), {Qt::Key_Delete}, [this] {
         if (d->model)
             d->removeSelected();
     });
-    make(tr("Reset smallest and largest values"), QKeySequence(int(Qt::CTRL) | int(Qt::Key_R)), [this] {
+    addPanelAction(this, tr("Reset smallest and largest values"), {int(Qt::CTRL) | int(Qt::Key_R)}, [this] {
         if (d->model)
             d->model->reset();
     });
-    make(tr("Search in the table"), QKeySequence(QKeySequence::Find), [this] { openSearch(); });
-    make(tr("Copy as text"), QKeySequence(QKeySequence::Copy),
-         [this] { QGuiApplication::clipboard()->setText(d->table->toTabSeparated()); });
+    addPanelAction(this, tr("Search in the table"), {QKeySequence::Find}, [this] { openSearch(); });
+    addPanelAction(this, tr("Copy as text"), {QKeySequence::Copy},
+                   [this] { QGuiApplication::clipboard()->setText(d->table->toTabSeparated()); });
 }
 
 /// A line above the rows, until Escape.
@@ -160,19 +154,14 @@ void QPlcValueTable::makeSearch()
     d->column->insertWidget(0, d->search);
     d->search->show();  // at once, so that it can have the focus
     connect(d->search, &QLineEdit::textChanged, this, &QPlcValueTable::search);
-    const auto make = [this](const QList<QKeySequence> &keys, const auto &act) {
-        auto *action = new QAction(d->search);
-        action->setShortcuts(keys);
-        action->setShortcutContext(Qt::WidgetShortcut);
-        d->search->addAction(action);
-        connect(action, &QAction::triggered, this, act);
-    };
-    make({Qt::Key_Escape}, [this] { closeSearch(); });
-    make({Qt::Key_Down, Qt::Key_Return, Qt::Key_Enter}, [this] {  // from the line into the rows
+    addPanelAction(
+        d->search, {}, {Qt::Key_Escape}, [this] { closeSearch(); }, "", Qt::WidgetShortcut);
+    const auto toRows = [this] {  // from the line into the rows
         d->table->setFocus(Qt::TabFocusReason);
         if (!d->table->currentIndex().isValid())
             d->table->setCurrentIndex(d->sorted->index(0, 0));
-    });
+    };
+    addPanelAction(d->search, {}, {Qt::Key_Down, Qt::Key_Return, Qt::Key_Enter}, toRows, "", Qt::WidgetShortcut);
 }
 
 /// And shows all rows.
@@ -209,11 +198,7 @@ void QPlcValueTable::openAdding()
     QWidget *edit = createSettingsEditor();
     d->column->insertWidget(0, edit);
     edit->setFocus();
-    auto *close = new QAction(edit);
-    close->setShortcut(QKeySequence(Qt::Key_Escape));
-    close->setShortcutContext(Qt::WidgetWithChildrenShortcut);
-    edit->addAction(close);
-    connect(close, &QAction::triggered, this, [this, edit] {
+    addPanelAction(edit, {}, {Qt::Key_Escape}, [this, edit] {
         edit->deleteLater();
         d->table->setFocus();
     });

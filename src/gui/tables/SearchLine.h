@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "gui/panel/PanelAction.h"
+
 #include <QtWidgets/QAction>
 #include <QtWidgets/QLineEdit>
 
@@ -10,17 +12,14 @@ namespace qplc {
 /// key stays free for others.
 inline void leaveByEscape(QLineEdit *search, QWidget *rows)
 {
-    auto *leave = new QAction(search);
-    leave->setShortcut(QKeySequence(Qt::Key_Escape));
-    leave->setShortcutContext(Qt::WidgetShortcut);
-    leave->setEnabled(!search->text().isEmpty());
-    search->addAction(leave);
-    QObject::connect(search, &QLineEdit::textChanged, leave,
-                     [leave](const QString &text) { leave->setEnabled(!text.isEmpty()); });
-    QObject::connect(leave, &QAction::triggered, rows, [search, rows] {
+    const auto clear = [search, rows] {
         search->clear();
         rows->setFocus(Qt::OtherFocusReason);
-    });
+    };
+    QAction *leave = addPanelAction(search, {}, {Qt::Key_Escape}, clear, "", Qt::WidgetShortcut);
+    leave->setEnabled(!search->text().isEmpty());
+    QObject::connect(search, &QLineEdit::textChanged, leave,
+                     [leave](const QString &text) { leave->setEnabled(!text.isEmpty()); });
 }
 
 }  // namespace qplc

@@ -4,6 +4,7 @@
 #include "QPlcSignalTree.h"
 #include "SignalPlacer.h"
 #include "gui/layout/PanelFrame.h"
+#include "gui/panel/PanelAction.h"
 #include "gui/panel/SignalDropArea.h"
 
 #include <QtWidgets/QAction>
@@ -32,13 +33,8 @@ SignalPlaceActions::SignalPlaceActions(QPlcSignalTree *tree, LayoutView *view, S
 
 void SignalPlaceActions::add(DropZone zone, const QString &keys)
 {
-    auto *action = new QAction(m_tree);
-    action->setShortcuts(QKeySequence::listFromString(keys));
-    action->setShortcutContext(Qt::WidgetWithChildrenShortcut);
-    connect(action, &QAction::triggered, this,
-            [this, zone] { m_placer->drop(currentPanel(), zone, m_tree->selectedReferences()); });
-    m_tree->addAction(action);
-    m_actions.insert(zone, action);
+    const auto drop = [this, zone] { m_placer->drop(currentPanel(), zone, m_tree->selectedReferences()); };
+    m_actions.insert(zone, addPanelAction(m_tree, {}, QKeySequence::listFromString(keys), drop));
 }
 
 QString SignalPlaceActions::currentPanel() const
