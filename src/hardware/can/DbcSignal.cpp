@@ -2,9 +2,6 @@
 #include "DbcSignal.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstring>
-#include <limits>
 
 namespace qplc {
 
@@ -75,58 +72,12 @@ void setMotorolaBits(quint8 *data, int start, int length, quint64 value) noexcep
     }
 }
 
-// The integer that is nearest to `value`, halves away from 0, within 0 ... 2^length - 1.
-quint64 nearestUnsigned(double value, int length, DbcSignal::Fit *fit) noexcept
+RawNumber numberOf(const DbcSignal &signal) noexcept
 {
-    const double rounded = std::round(value);
-    *fit = rounded >= 0.0 && rounded < std::ldexp(1.0, length) ? DbcSignal::Fits : DbcSignal::Saturated;
-    if (*fit == DbcSignal::Fits)
-        return static_cast<quint64>(rounded);
-    return rounded < 0.0 ? 0 : lowBits(length);
-}
-
-// As above, within -2^(length - 1) ... 2^(length - 1) - 1, as bits.
-quint64 nearestSigned(double value, int length, DbcSignal::Fit *fit) noexcept
-{
-    const double rounded = std::round(value);
-    const double limit = std::ldexp(1.0, length - 1);
-    *fit = rounded >= -limit && rounded < limit ? DbcSignal::Fits : DbcSignal::Saturated;
-    if (*fit == DbcSignal::Fits)
-        return static_cast<quint64>(static_cast<qint64>(rounded));
-    return rounded < 0.0 ? quint64(1) << (length - 1) : lowBits(length - 1);
-}
-
-// A double that is no float stays finite: the largest float is the nearest one.
-quint64 nearestFloat(double value, DbcSignal::Fit *fit) noexcept
-{
-    constexpr double largest = double(std::numeric_limits<float>::max());
-    const bool isTooLarge = std::isfinite(value) && std::abs(value) > largest;
-    *fit = isTooLarge ? DbcSignal::Saturated : DbcSignal::Fits;
-    const auto number = static_cast<float>(isTooLarge ? std::copysign(largest, value) : value);
-    quint32 bits = 0;
-    std::memcpy(&bits, &number, sizeof bits);
-    return bits;
-}
-
-quint64 bitsOfDouble(double value) noexcept
-{
-    quint64 bits = 0;
-    std::memcpy(&bits, &value, sizeof bits);
-    return bits;
-}
-
-double doubleOfFloatBits(quint32 bits) noexcept
-{
-    float value = 0.0F;
-    std::memcpy(&value, &bits, sizeof value);
-    return double(value);
-}
-
-double doubleOfBits(quint64 bits) noexcept
-{
-    double value = 0.0;
-    std::memcpy(&value, &bits, sizeof value);
-    return value;
+    const RawNumber::Kind kind = signal.isFloat() ? RawNumber::Float
+        : signal.kind == DbcSignal::Signed        ? RawNumber::Signed
+                                                  : RawNumber::Unsigned;
+    return {kind, signal.length};
 }
 
 }  // namespace
@@ -152,24 +103,12 @@ void DbcSignal::setBits(quint8 *data, quint64 value) const noexcept
 
 qint64 DbcSignal::signedRaw(const quint8 *data) const noexcept
 {
-    const quint64 value = bits(data);
-    const bool isNegative = (value >> (length - 1)) & 1;
-    return static_cast<qint64>(isNegative ? value | ~lowBits(length) : value);
+    return numberOf(*this).decodeSigned(bits(data));
 }
 
 double DbcSignal::decode(const quint8 *data) const noexcept
 {
-    switch (kind) {
-    case Unsigned:
-        return double(bits(data)) * factor + offset;
-    case Signed:
-        return double(signedRaw(data)) * factor + offset;
-    case Float32:
-        return doubleOfFloatBits(quint32(bits(data))) * factor + offset;
-    case Float64:
-        return doubleOfBits(bits(data)) * factor + offset;
-    }
-    return 0.0;
+    return numberOf(*this).decode(bits(data)) * factor + offset;
 }
 
 DbcSignal::Fit DbcSignal::encode(quint8 *data, double value) const noexcept
@@ -180,16 +119,7 @@ DbcSignal::Fit DbcSignal::encode(quint8 *data, double value) const noexcept
 DbcSignal::Fit DbcSignal::encodeRaw(quint8 *data, double raw) const noexcept
 {
     Fit fit = Fits;
-    quint64 value = 0;
-    if (kind == Float64)
-        value = bitsOfDouble(raw);
-    else if (kind == Float32)
-        value = nearestFloat(raw, &fit);
-    else if (std::isnan(raw))
-        fit = NoNumber;
-    else
-        value = kind == Signed ? nearestSigned(raw, length, &fit) : nearestUnsigned(raw, length, &fit);
-    setBits(data, value);
+    setBits(data, numberOf(*this).encode(raw, &fit));
     return fit;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "hardware/RawNumber.h"
+
 #include <QtCore/QMap>
 #include <QtCore/QString>
 
@@ -22,11 +24,10 @@ struct DbcSignal
         Multiplexor,  ///< says which of the others are in the frame
         Multiplexed   ///< is in the frame when the multiplexor has the value multiplexValue
     };
-    enum Fit : quint8 {
-        Fits,
-        Saturated,  ///< the value does not fit into the bits; the nearest one that does was taken
-        NoNumber    ///< NaN, and the raw value is an integer; 0 was taken
-    };
+    using Fit = RawNumber::Fit;
+    static constexpr Fit Fits = RawNumber::Fits;
+    static constexpr Fit Saturated = RawNumber::Saturated;
+    static constexpr Fit NoNumber = RawNumber::NoNumber;
 
     QString name;
     int start = 0;

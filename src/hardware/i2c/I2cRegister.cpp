@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "I2cRegister.h"
 
+#include "hardware/RawNumber.h"
 #include "signals/MessageText.h"
 
 #include <cmath>
-#include <cstring>
 
 namespace qplc {
 
@@ -63,12 +63,12 @@ bool readWord(const QString &word, I2cRegister *result)
         && readType(parts.first(), result);
 }
 
-quint32 unsignedOf(const I2cRegister &reg, const quint8 *bytes)
+RawNumber registerNumber(const I2cRegister &reg)
 {
-    quint32 number = 0;
-    for (int i = 0; i < reg.size; ++i)
-        number = number << 8 | bytes[reg.isBigEndian ? i : reg.size - 1 - i];
-    return number;
+    const RawNumber::Kind kind = reg.type == I2cRegister::Real ? RawNumber::Float
+        : reg.type == I2cRegister::SignedInteger               ? RawNumber::Signed
+                                                               : RawNumber::Unsigned;
+    return {kind, 8 * reg.size};
 }
 
 }  // namespace
@@ -97,31 +97,15 @@ QString I2cRegister::read(const QStringList &words, I2cRegister *result)
 
 double I2cRegister::valueOf(const quint8 *bytes) const
 {
-    const quint32 number = unsignedOf(*this, bytes);
-    double raw = number;
-    if (type == Real) {
-        float real = 0.0F;
-        std::memcpy(&real, &number, sizeof real);
-        raw = double(real);
-    } else if (type == SignedInteger && (number >> (8 * size - 1)) != 0) {
-        raw -= std::ldexp(1.0, 8 * size);
-    }
-    return factor * raw + offset;
+    quint64 number = 0;
+    for (int i = 0; i < size; ++i)
+        number = number << 8 | bytes[isBigEndian ? i : size - 1 - i];
+    return factor * registerNumber(*this).decode(number) + offset;
 }
 
 void I2cRegister::bytesOf(double value, quint8 *bytes) const
 {
-    const double raw = (value - offset) / factor;
-    quint32 number = 0;
-    if (type == Real) {
-        const auto real = float(raw);
-        std::memcpy(&number, &real, sizeof number);
-    } else {
-        const double range = std::ldexp(1.0, 8 * size);
-        const double lowest = type == SignedInteger ? -range / 2 : 0.0;
-        const double nearest = std::isnan(raw) ? 0.0 : std::round(raw);
-        number = quint32(qint64(qBound(lowest, nearest, lowest + range - 1)));
-    }
+    const quint64 number = registerNumber(*this).encode((value - offset) / factor);
     for (int i = 0; i < size; ++i)
         bytes[isBigEndian ? size - 1 - i : i] = quint8(number >> (8 * i));
 }

@@ -18,7 +18,6 @@ LibModbusLink::LibModbusLink(const QString &host, quint16 port, std::chrono::nan
 
 LibModbusLink::LibModbusLink(const SerialLine &line, std::chrono::nanoseconds responseTimeout)
     : m_isSerial(true)
-    , m_serialDevice(line.device)
     , m_responseTimeout(responseTimeout)
     , m_context(modbus_new_rtu(line.device.toLocal8Bit().constData(), line.baud, line.parity, 8, line.stopBits))
     , m_bits(ModbusRequest::MostBitsRead)

@@ -46,7 +46,6 @@ private:
     int writeBits(const ModbusRequest &request, const quint16 *values);
 
     const bool m_isSerial;
-    const QString m_serialDevice;
     const std::chrono::nanoseconds m_responseTimeout;
     std::unique_ptr<_modbus, Release> m_context;
     std::vector<quint8> m_bits;  // of a request

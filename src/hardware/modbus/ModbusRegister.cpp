@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ModbusRegister.h"
 
+#include "hardware/RawNumber.h"
 #include "signals/MessageText.h"
 
 #include <QtCore/QStringList>
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <limits>
 
 namespace qplc {
 
@@ -29,27 +28,10 @@ const QStringList &typeWords()  // in the order of ModbusRegister::Type, without
     return words;
 }
 
-template<typename Number>
-Number nearest(double value)
-{
-    using Limits = std::numeric_limits<Number>;
-    const double rounded = Limits::is_integer ? std::round(value) : value;
-    if (rounded <= double(Limits::lowest()))
-        return Limits::lowest();
-    if (rounded >= double(Limits::max()))
-        return Limits::max();
-    return Number(rounded);
-}
-
-/// Bits of a number as an integer, and back.
-template<typename To, typename From>
-To sameBits(From from)
-{
-    static_assert(sizeof(To) == sizeof(From));
-    To to;
-    std::memcpy(&to, &from, sizeof to);
-    return to;
-}
+constexpr RawNumber modbusNumbers[]
+    = {{RawNumber::Unsigned, 1},  // in the order of ModbusRegister::Type
+       {RawNumber::Signed, 16},  {RawNumber::Unsigned, 16}, {RawNumber::Signed, 32}, {RawNumber::Unsigned, 32},
+       {RawNumber::Float, 32},   {RawNumber::Signed, 64},   {RawNumber::Float, 64}};
 
 bool toWhole(const QString &text, qint64 minimum, qint64 maximum, qint64 *result)
 {
@@ -187,17 +169,7 @@ private:
 
 int ModbusRegister::size() const
 {
-    switch (type) {
-    case Int32:
-    case UInt32:
-    case Float32:
-        return 2;
-    case Int64:
-    case Float64:
-        return 4;
-    default:
-        return 1;
-    }
+    return std::max(1, modbusNumbers[type].bits / 16);
 }
 
 double ModbusRegister::decode(const quint16 *words) const
@@ -206,65 +178,13 @@ double ModbusRegister::decode(const quint16 *words) const
     quint64 bits = 0;
     for (int i = 0; i < count; ++i)
         bits = (bits << 16) | words[isLowWordFirst ? count - 1 - i : i];
-
-    double raw = 0.0;
-    switch (type) {
-    case Bit:
-        raw = double((bits >> bit) & 1);
-        break;
-    case Int16:
-        raw = double(qint16(bits));
-        break;
-    case Int32:
-        raw = double(qint32(bits));
-        break;
-    case Float32:
-        raw = double(sameBits<float>(quint32(bits)));
-        break;
-    case Int64:
-        raw = double(qint64(bits));
-        break;
-    case Float64:
-        raw = sameBits<double>(bits);
-        break;
-    case UInt16:
-    case UInt32:
-        raw = double(bits);
-        break;
-    }
-    return raw * factor + offset;
+    return modbusNumbers[type].decode(type == Bit ? bits >> bit : bits) * factor + offset;
 }
 
 void ModbusRegister::encode(double value, quint16 *words) const
 {
     const double raw = (value - offset) / factor;
-    quint64 bits = 0;
-    switch (type) {
-    case Bit:
-        bits = raw >= 0.5 ? 1 : 0;
-        break;
-    case Int16:
-        bits = quint16(nearest<qint16>(raw));
-        break;
-    case UInt16:
-        bits = nearest<quint16>(raw);
-        break;
-    case Int32:
-        bits = quint32(nearest<qint32>(raw));
-        break;
-    case UInt32:
-        bits = nearest<quint32>(raw);
-        break;
-    case Float32:
-        bits = sameBits<quint32>(nearest<float>(raw));
-        break;
-    case Int64:
-        bits = quint64(nearest<qint64>(raw));
-        break;
-    case Float64:
-        bits = sameBits<quint64>(raw);
-        break;
-    }
+    quint64 bits = type == Bit ? quint64(raw >= 0.5) : modbusNumbers[type].encode(raw);
     const int count = size();
     for (int i = 0; i < count; ++i, bits >>= 16)
         words[isLowWordFirst ? i : count - 1 - i] = quint16(bits);

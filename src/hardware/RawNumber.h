@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QtCore/QtGlobal>
+
+namespace qplc {
+
+/// A number in some bits of a device: an integer with or without a sign, or a float of IEEE 754.
+struct RawNumber
+{
+    enum Kind : quint8 { Unsigned, Signed, Float };
+    enum Fit : quint8 {
+        Fits,
+        Saturated,  ///< the value does not fit into the bits; the nearest one that does was taken
+        NoNumber    ///< NaN, and the bits are an integer; 0 was taken
+    };
+
+    Kind kind = Unsigned;
+    int bits = 16;  // 1 ... 64; of a float 32 or 64
+
+    /// \param value  bits above those of the number do not count
+    double decode(quint64 value) const noexcept;
+    /// \return the bits of the nearest number, halves away from 0; those above may be set
+    quint64 encode(double value, Fit *fit = nullptr) const noexcept;
+    /// The bits of a signed number as an integer.
+    qint64 decodeSigned(quint64 value) const noexcept;
+};
+
+}  // namespace qplc
