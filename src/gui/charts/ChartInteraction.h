@@ -52,7 +52,6 @@ protected:
     virtual void wheel(const QWidget *watched, const QWheelEvent &event) = 0;
 
     QPoint onCanvas(const QWidget *watched, QPoint position) const;
-    bool isDragging() const { return m_action == Dragging; }
     /// Steps of a wheel. \param angle  as QWheelEvent has it
     static double stepsOf(int angle);
     /// What steps of a wheel leave of what is seen.

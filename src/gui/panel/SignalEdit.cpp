@@ -35,16 +35,16 @@ SignalEdit::SignalEdit(QPlcPanelContext *context, Offer offer, QWidget *parent)
 QStringList SignalEdit::names(const PlantList &plants, Offer offer)
 {
     QStringList names;
-    for (int i = 0; i < plants.size(); ++i) {
-        const QPlcSignalTable &table = plants.at(i)->table();
+    for (const Plant *plant : plants.all()) {
+        const QPlcSignalTable &table = plant->table();
         for (int place = 0; place < table.size(); ++place) {
             const auto signal = QPlcSignalIndex(place);
             const QPlcSignalType type = table.at(signal).type;
             if (offer == AllSignals || (type.isNumeric() && !type.isArray()))
-                names << plants.reference(plants.at(i), signal).toString();
+                names << plants.reference(plant, signal).toString();
             const bool hasElements = type.isArray() && (offer == AllSignals || type.isNumeric());
             for (int element = 0; hasElements && element < type.count(); ++element)
-                names << plants.reference(plants.at(i), signal, element).toString();
+                names << plants.reference(plant, signal, element).toString();
         }
     }
     return names;

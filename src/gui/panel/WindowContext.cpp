@@ -59,8 +59,8 @@ void WindowContext::follow(Plant *plant)
 void WindowContext::renewNewest()
 {
     QPlcTimeAxis::Time newest = 0;
-    for (int place = 0; place < m_plants.size(); ++place)
-        newest = std::max<QPlcTimeAxis::Time>(newest, m_plants.at(place)->newestTime());
+    for (const Plant *plant : m_plants.all())
+        newest = std::max<QPlcTimeAxis::Time>(newest, plant->newestTime());
     m_timeAxis.setNewest(newest);
     Q_EMIT valuesChanged();
 }

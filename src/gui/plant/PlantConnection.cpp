@@ -92,10 +92,7 @@ PlantConnection::PlantConnection(const QString &address, const QString &nodeName
     });
     connect(&m_control, &ControlClient::greeted, this, &PlantConnection::greeted);
     connect(&m_control, &ControlClient::lost, this, &PlantConnection::lost);
-    connect(&m_listener, &Listener::joined, this, [this] {
-        m_listenerFailures = 0;
-        setListening(true);
-    });
+    connect(&m_listener, &Listener::joined, this, [this] { m_listenerFailures = 0; });
     connect(&m_listener, &Listener::lost, this, &PlantConnection::listenerLost);
 }
 
@@ -128,7 +125,6 @@ void PlantConnection::close()
     m_listenerRetry.stop();
     m_resolver.cancel();
     m_listener.disconnectFromMaster();
-    setListening(false);
     m_control.close();
     const bool wasConnected = m_state == Connected;
     setState(Disconnected, QStringLiteral("disconnected by the user"));
@@ -177,7 +173,6 @@ void PlantConnection::failed(const QString &reason, Failure failure)
         return;
     m_listenerRetry.stop();
     m_listener.disconnectFromMaster();
-    setListening(false);
     const bool wasConnected = m_state == Connected;
     m_retry.start(pauseAfter(++m_failures));
     setState(Disconnected, reason);
@@ -218,7 +213,6 @@ void PlantConnection::chooseInterval()
 
 void PlantConnection::listenerLost(const QString &sentence)
 {
-    setListening(false);
     if (m_state != Connected)
         return;
     m_listenerReason = sentence;
@@ -232,14 +226,6 @@ void PlantConnection::setState(State state, const QString &reason)
     m_state = state;
     m_reason = reason;
     Q_EMIT stateChanged();
-}
-
-void PlantConnection::setListening(bool listening)
-{
-    if (listening == m_isListening)
-        return;
-    m_isListening = listening;
-    Q_EMIT listeningChanged();
 }
 
 }  // namespace qplc

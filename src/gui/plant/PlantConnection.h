@@ -46,8 +46,6 @@ public:
     QString reason() const { return m_reason; }
     /// Time until the next attempt [s]; -1 when none waits.
     double nextAttempt() const { return m_retry.isActive() ? m_retry.remainingTime() * 1e-3 : -1.0; }
-    /// Whether values come, or would if cycles ran.
-    bool isListening() const { return m_isListening; }
     ControlClient &control() { return m_control; }
     Listener &listener() { return m_listener; }
 
@@ -61,7 +59,6 @@ Q_SIGNALS:
     void disconnected(const QString &reason);
     /// A master is there, but this window cannot work with it. Attempts go on.
     void refused(const QString &reason);
-    void listeningChanged();
     /// The listener is not taken, or was lost, while the master answers.
     void listenerFailed(const QString &sentence);
 
@@ -75,7 +72,6 @@ private:
     void chooseInterval();
     void listenerLost(const QString &sentence);
     void setState(State state, const QString &reason);
-    void setListening(bool listening);
 
     QString m_address;
     PlantAddress m_parts;
@@ -90,7 +86,6 @@ private:
     State m_state = Disconnected;
     QString m_reason;
     bool m_isOpen = false;
-    bool m_isListening = false;
     int m_failures = 0;
     int m_listenerFailures = 0;
     QPlcUnderlyingProtocol m_master;

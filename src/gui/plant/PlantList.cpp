@@ -133,6 +133,14 @@ Plant *PlantList::find(const QString &name) const
     return found == m_plants.end() ? nullptr : found->get();
 }
 
+QVector<Plant *> PlantList::all() const
+{
+    QVector<Plant *> all;
+    for (const std::unique_ptr<Plant> &plant : m_plants)
+        all << plant.get();
+    return all;
+}
+
 QStringList PlantList::names() const
 {
     QStringList names;

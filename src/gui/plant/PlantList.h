@@ -54,6 +54,7 @@ public:
     /// Of all plants, also those that come: Plant::setRate().
     void setRate(double timesPerSecond);
     int size() const { return int(m_plants.size()); }
+    QVector<Plant *> all() const;
     Plant *at(int place) const { return m_plants[std::size_t(place)].get(); }
     /// -1 when it is none of them.
     int indexOf(const Plant *plant) const;

@@ -34,6 +34,7 @@ BarButton::BarButton(Kind kind, WindowContext *context, QWidget *parent)
 {
     setFocusPolicy(Qt::TabFocus);
     setCursor(Qt::PointingHandCursor);
+    setAttribute(Qt::WA_Hover);  // it looks different below the mouse
     connect(context, &WindowContext::themeChanged, this, QOverload<>::of(&QWidget::update));
 }
 
@@ -144,18 +145,6 @@ void BarButton::paintEvent(QPaintEvent * /*event*/)
     }
     if (hasFocus())
         drawFocusRing(&painter, rect(), m_context->theme());
-}
-
-void BarButton::enterEvent(QEvent *event)
-{
-    QAbstractButton::enterEvent(event);
-    update();
-}
-
-void BarButton::leaveEvent(QEvent *event)
-{
-    QAbstractButton::leaveEvent(event);
-    update();
 }
 
 }  // namespace qplc

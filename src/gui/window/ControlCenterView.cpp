@@ -236,8 +236,7 @@ void QPlcControlCenter::Private::appendPanels(QVector<PaletteItem> *items)
 void QPlcControlCenter::Private::appendSignals(QVector<PaletteItem> *items)
 {
     PlantList *plants = context.plants();
-    for (int place = 0; place < plants->size(); ++place) {
-        const Plant *plant = plants->at(place);
+    for (const Plant *plant : plants->all()) {
         for (QPlcSignalIndex signal = 0; signal < plant->table().size(); ++signal) {
             const QString reference = plants->reference(plant, signal).toString();
             items->append({reference, tr("Plot signal"), {}, [this, reference] {
@@ -276,8 +275,7 @@ QString keyOf(const char *what)
 void QPlcControlCenter::Private::save()
 {
     QStringList plants;
-    for (int place = 0; place < context.plants()->size(); ++place) {
-        const Plant *plant = context.plants()->at(place);
+    for (const Plant *plant : context.plants()->all()) {
         if (!plant->feed())
             plants << plant->address() << plant->name();
     }

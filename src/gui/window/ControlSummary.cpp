@@ -41,10 +41,10 @@ QStringList signalsOf(const Plant &plant, ControlFact::Kind kind)
 bool giveBack(const PlantList &plants, ControlFact::Kind kind)
 {
     bool isAny = false;
-    for (int place = 0; place < plants.size(); ++place) {
-        const QStringList names = signalsOf(*plants.at(place), kind);
+    for (Plant *plant : plants.all()) {
+        const QStringList names = signalsOf(*plant, kind);
         if (!names.isEmpty())
-            plants.at(place)->releaseLease(names);
+            plant->releaseLease(names);
         isAny = isAny || !names.isEmpty();
     }
     return isAny;
@@ -89,8 +89,7 @@ QString ControlFact::remedy() const
 QVector<ControlFact> ControlFact::of(const PlantList &plants)
 {
     QVector<ControlFact> facts;
-    for (int place = 0; place < plants.size(); ++place) {
-        const Plant *plant = plants.at(place);
+    for (const Plant *plant : plants.all()) {
         for (const LeaseStatus &lease : plant->leases()) {
             const bool isKnown = plant->table().contains(lease.signal);
             addTo(&facts, lease,

@@ -37,12 +37,11 @@ FaultBanner::FaultBanner(WindowContext *context, QWidget *parent)
 void FaultBanner::follow()
 {
     QStringList sentences;
-    const PlantList &plants = *m_context->plants();
-    for (int place = 0; place < plants.size(); ++place) {
-        const QStringList who = injectors(*plants.at(place));
+    for (const Plant *plant : m_context->plants()->all()) {
+        const QStringList who = injectors(*plant);
         if (!who.isEmpty())
-            sentences << tr("%1: faults are injected on purpose by %2")
-                             .arg(plants.at(place)->name(), who.join(QStringLiteral(", ")));
+            sentences
+                << tr("%1: faults are injected on purpose by %2").arg(plant->name(), who.join(QStringLiteral(", ")));
     }
     m_text = sentences.join(QStringLiteral("; "));
     setToolTip(m_text);

@@ -15,8 +15,7 @@ InsecureNotice::InsecureNotice(WindowContext *context, QWidget *parent)
 void InsecureNotice::follow()
 {
     QStringList names;
-    for (int place = 0; place < context()->plants()->size(); ++place) {
-        const Plant *plant = context()->plants()->at(place);
+    for (const Plant *plant : context()->plants()->all()) {
         if (plant->isConnected() && plant->isInsecure())
             names << plant->name();
     }

@@ -45,9 +45,9 @@ void LatchBanner::follow()
         = [](const Plant *plant) { return plant && plant->isConnected() && plant->status().isLatched(); };
     if (isLatched(plants->selected()))
         m_plant = plants->selected();
-    for (int place = 0; place < plants->size() && !m_plant; ++place) {
-        if (isLatched(plants->at(place)))
-            m_plant = plants->at(place);
+    for (Plant *plant : plants->all()) {
+        if (!m_plant && isLatched(plant))
+            m_plant = plant;
     }
     m_reset->setDetail(m_plant == plants->selected() ? tr("F7") : QString());  // the key resets the selected plant
     if (m_plant) {

@@ -63,8 +63,7 @@ void PanelWiring::findPlants()
 {
     const QString table = QPlcSignalIndexTable::current().toIni();
     m_plants.clear();
-    for (int place = 0; place < m_context->plants()->size(); ++place) {
-        Plant *plant = m_context->plants()->at(place);
+    for (Plant *plant : m_context->plants()->all()) {
         if (plant->feed() || (!plant->table().isEmpty() && plant->table().toIni() == table))
             m_plants.insert(plant);
     }

@@ -61,9 +61,9 @@ void PlantSelection::followControl(Plant *plant)
 
 void PlantSelection::forgetLost()
 {
-    for (int place = 0; place < m_plants->size(); ++place) {
-        if (!m_plants->at(place)->isConnected())
-            m_controlled.remove(m_plants->at(place));
+    for (Plant *lost : m_plants->all()) {
+        if (!lost->isConnected())
+            m_controlled.remove(lost);
     }
 }
 
@@ -76,10 +76,9 @@ void PlantSelection::selectNext()
 QVector<Plant *> PlantSelection::plantsToStop() const
 {
     QVector<Plant *> controlled, lost;
-    for (int place = 0; place < m_plants->size(); ++place) {
-        Plant *plant = m_plants->at(place);
-        if (m_controlled.contains(plant))
-            (plant->isConnected() ? controlled : lost) << plant;
+    for (Plant *each : m_plants->all()) {
+        if (m_controlled.contains(each))
+            (each->isConnected() ? controlled : lost) << each;
     }
     if (controlled.isEmpty())
         controlled = lost;

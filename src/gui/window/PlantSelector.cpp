@@ -50,8 +50,7 @@ PlantSelector::PlantSelector(PlantSelection *selection, WindowContext *context, 
 void PlantSelector::watchViolations()
 {
     const PlantList *plants = m_selection->plants();
-    for (int place = 0; place < plants->size(); ++place) {
-        const Plant *plant = plants->at(place);
+    for (const Plant *plant : plants->all()) {
         if (plant->isConnected() && plant->status().isCounted)
             m_watches[plant].take(ViolationWatch::totalOf(plant->status()), m_clock.elapsed());
         else
@@ -95,8 +94,7 @@ void PlantSelector::openMenu()
     auto *menu = new QMenu(this);
     menu->setAttribute(Qt::WA_DeleteOnClose);
     PlantList *plants = m_selection->plants();
-    for (int place = 0; place < plants->size(); ++place) {
-        Plant *plant = plants->at(place);
+    for (Plant *plant : plants->all()) {
         QAction *action
             = menu->addAction(QStringLiteral("%1   %2").arg(plant->name(), PlantSummary::of(*plant).condition));
         action->setCheckable(true);

@@ -250,8 +250,7 @@ void QPlcControlCenter::Private::connectTo(const QString &address)
 /// The plant that is connected to \a address already, as after a click on a master that was found.
 Plant *QPlcControlCenter::Private::plantAt(const QString &address)
 {
-    for (int place = 0; place < context.plants()->size(); ++place) {
-        Plant *plant = context.plants()->at(place);
+    for (Plant *plant : context.plants()->all()) {
         if (!plant->feed() && plant->address() == address)
             return plant;
     }
@@ -299,9 +298,9 @@ void QPlcControlCenter::Private::stopPlants(const QVector<Plant *> &plants, cons
 
 Plant *QPlcControlCenter::Private::wiredPlant()
 {
-    for (int place = 0; place < context.plants()->size(); ++place) {
-        if (context.plants()->at(place)->feed())
-            return context.plants()->at(place);
+    for (Plant *plant : context.plants()->all()) {
+        if (plant->feed())
+            return plant;
     }
     return nullptr;
 }

@@ -16,6 +16,7 @@ StartButton::StartButton(QAction *action, WindowContext *context, QWidget *paren
 {
     setFocusPolicy(Qt::StrongFocus);
     setCursor(Qt::PointingHandCursor);
+    setAttribute(Qt::WA_Hover);  // it looks different below the mouse
     setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
     connect(action, &QAction::changed, this, &StartButton::follow);
     connect(this, &QAbstractButton::clicked, action, &QAction::trigger);
@@ -85,18 +86,6 @@ void StartButton::paintEvent(QPaintEvent * /*event*/)
                      fontMetrics().elidedText(m_sentence, Qt::ElideRight, right - left));
     if (hasFocus())
         drawFocusRing(&painter, rect(), theme);
-}
-
-void StartButton::enterEvent(QEvent *event)
-{
-    QAbstractButton::enterEvent(event);
-    update();
-}
-
-void StartButton::leaveEvent(QEvent *event)
-{
-    QAbstractButton::leaveEvent(event);
-    update();
 }
 
 }  // namespace qplc

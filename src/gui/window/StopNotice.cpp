@@ -20,11 +20,9 @@ StopNotice::StopNotice(WindowContext *context, QWidget *parent)
 void StopNotice::follow()
 {
     QStringList sentences;
-    const PlantList &plants = *context()->plants();
-    for (int place = 0; place < plants.size(); ++place) {
-        const Plant &plant = *plants.at(place);
-        if (plant.isConnected() && plant.status().master.stopped && !plant.status().isRunning())
-            sentences << sentenceOf(plant);
+    for (const Plant *plant : context()->plants()->all()) {
+        if (plant->isConnected() && plant->status().master.stopped && !plant->status().isRunning())
+            sentences << sentenceOf(*plant);
     }
     const QString all = sentences.join(QLatin1Char('\n'));
     if (all != text())

@@ -74,8 +74,7 @@ TimeBar::State TimeBar::liveState() const
     double age = 0.0;
     bool isAnyLive = false;
     bool isAnyAtRest = false;
-    for (int place = 0; place < plants.size(); ++place) {
-        const Plant *plant = plants.at(place);
+    for (const Plant *plant : plants.all()) {
         const Plant::Quality quality = plant->quality();
         isAnyLive = isAnyLive || quality == Plant::Good;
         isAnyAtRest = isAnyAtRest || quality == Plant::AtRest;

@@ -16,8 +16,8 @@ void watchPlants(PlantList *plants, Receiver *receiver, void (Receiver::*follow)
         (receiver->*follow)();
     });
     QObject::connect(plants, &PlantList::removed, receiver, follow);
-    for (int place = 0; place < plants->size(); ++place)
-        listen(plants->at(place));
+    for (Plant *plant : plants->all())
+        listen(plant);
     (receiver->*follow)();
 }
 
