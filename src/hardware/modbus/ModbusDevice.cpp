@@ -37,13 +37,13 @@ bool splitHost(const QString &text, QString *host, quint16 *port)
     return !host->isEmpty() && !(isBracketed && end < 0) && hasColon && isNumber && *port != 0;
 }
 
-LibModbusLink::SerialLine readSerialLine(QPlcDriverSettings &settings)
+ModbusSerialLine readSerialLine(QPlcDriverSettings &settings)
 {
     const std::vector<int> rates{1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200, 230400, 460800, 500000, 921600};
     QStringList words;
     for (int rate : rates)
         words << QString::number(rate);
-    LibModbusLink::SerialLine line;
+    ModbusSerialLine line;
     const int rate = settings.choice(QStringLiteral("baud"), words, words.indexOf(QString::number(line.baud)));
     line.baud = rates[std::size_t(rate)];
     line.parity = "ENO"[settings.choice(QStringLiteral("parity"),
@@ -56,7 +56,7 @@ LibModbusLink::SerialLine readSerialLine(QPlcDriverSettings &settings)
 template<typename... Arguments>
 std::unique_ptr<ModbusLink> makeRealLink(QPlcDriverSettings &, const Arguments &...arguments)
 {
-    return std::make_unique<LibModbusLink>(arguments...);
+    return createLibModbusLink(arguments...);
 }
 #else
 template<typename... Arguments>
@@ -85,7 +85,7 @@ std::unique_ptr<ModbusLink> makeTcpLink(QPlcDriverSettings &settings, const QStr
 std::unique_ptr<ModbusLink> makeSerialLink(QPlcDriverSettings &settings, const QString &place,
                                            std::chrono::nanoseconds timeout)
 {
-    LibModbusLink::SerialLine line = readSerialLine(settings);
+    ModbusSerialLine line = readSerialLine(settings);
     line.device = place;
     if (place.startsWith(QLatin1Char('/')))
         return makeRealLink(settings, line, timeout);
