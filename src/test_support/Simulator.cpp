@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <thread>
 #include <utility>
 
 namespace qplc {
@@ -71,22 +72,6 @@ private:
     Code m_code;
 };
 
-class SimulatorThread final : public QThread
-{
-public:
-    SimulatorThread(Simulator *simulator, const std::function<void(Simulator &)> &scenario)
-        : m_simulator(simulator)
-        , m_scenario(scenario)
-    {
-        setEventDispatcher(simulator);
-    }
-    void run() override { m_scenario(*m_simulator); }
-
-private:
-    Simulator *m_simulator;
-    const std::function<void(Simulator &)> &m_scenario;
-};
-
 }  // namespace
 
 SimulatedTarget::SimulatedTarget(Simulator &simulator, SimulatedHost *host)
@@ -101,11 +86,16 @@ SimulatedTarget::~SimulatedTarget()
     m_simulator.leave(m_slot);
 }
 
+/// Unlike that of QThread::wait(), the end of join() comes behind all that libraries do when a
+/// thread ends.
 void Simulator::run(std::uint64_t seed, const std::function<void(Simulator &)> &scenario)
 {
-    SimulatorThread thread(new Simulator(seed), scenario);  // the thread owns it
-    thread.start();
-    thread.wait();
+    std::thread thread([&] {
+        auto *simulator = new Simulator(seed);  // the thread owns it
+        QThread::currentThread()->setEventDispatcher(simulator);
+        scenario(*simulator);
+    });
+    thread.join();
 }
 
 Simulator::Simulator(std::uint64_t seed)
