@@ -220,7 +220,10 @@ void tst_TakeOver::signalIsNeutralWhenTheHolderIsSilent()
     QVERIFY(startWithNodes());
     take(*m_anna, {"echo"}, {{"values", QJsonObject{{"echo", "-1"}}}, {"timeout", 100e6}});
     QTRY_COMPARE(value("echo"), QString("-1"));
-    QTRY_COMPARE(value("echo"), QString("0"));
+    pass(90ms);
+    QCOMPARE(value("echo"), QString("-1"));
+    pass(20ms);
+    QCOMPARE(value("echo"), QString("0"));
     QCOMPARE(row("echo").value("lease").toString(), QString("lost"));
     QCOMPARE(set(*m_anna, "echo", "1").text("error"), QString("LeaseHeld"));  // she has to take it again
     QVERIFY(waitForSomeCycles());
@@ -237,7 +240,10 @@ void tst_TakeOver::anyMessageOfTheHolderRenewsTheLease()
     }
     QCOMPARE(value("setpoint"), QString("4"));
     QVERIFY(!m_master->leases().at(0).isLost);
-    QTRY_COMPARE(value("setpoint"), QString("0"));
+    pass(940ms);  // the last message was 50 ms ago
+    QCOMPARE(value("setpoint"), QString("4"));
+    pass(20ms);
+    QCOMPARE(value("setpoint"), QString("0"));
 }
 
 void tst_TakeOver::lostLeaseCanBeReleasedOrReplacedByAnyone()
@@ -510,7 +516,7 @@ void tst_TakeOver::leaseChangesArePushedToToolsWithTheFeature()
     m_anna->control.abort();
     QTRY_COMPARE(viewer.messages.last().fields().value("leases").toArray().at(0).toObject().value("lease").toString(),
                  QString("lost"));
-    QVERIFY2(viewer.messages.size() < 30, qPrintable(QString::number(viewer.messages.size())));
+    QCOMPARE(viewer.messages.size(), 3);
     QVERIFY(m_bert->messages.last().kind() == QPlcMessage::Done);  // without the feature: nothing
 }
 
