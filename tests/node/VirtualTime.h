@@ -7,22 +7,17 @@
 #include <QtCore/QCoreApplication>
 #include <QtTest/QTest>
 
-/// Runs all functions of \a Test on one simulated computer, 127.0.0.1: they wait in virtual time,
-/// and the same happens in each run.
-template<typename Test>
-int runInVirtualTime(int argc, char **argv)
+#include <functional>
+
+/// Runs \a code on a simulated computer, 127.0.0.1: it waits in virtual time, and the same happens
+/// in each run.
+inline void runInVirtualTime(const std::function<void()> &code)
 {
-    QCoreApplication application(argc, argv);
     qplc::SimulatedTransport::install();
-    int failures = 1;
     qplc::Simulator::run(1, [&](qplc::Simulator &simulator) {
         qplc::SimulatedHost host(simulator, QStringLiteral("machine"), QHostAddress(QHostAddress::LocalHost));
-        host.call([&] {
-            Test test;
-            failures = QTest::qExec(&test, argc, argv);
-        });
+        host.call(code);
     });
-    return failures;
 }
 
 /// While it lives, the thread is on the machine, for sockets and addresses of the kernel. Timers of
@@ -39,9 +34,15 @@ private:
     qplc::Host *const m_before = qplc::Host::enter(nullptr);
 };
 
-/// In place of QTEST_GUILESS_MAIN.
+/// In place of QTEST_GUILESS_MAIN: all functions of \a Test run in virtual time.
 #define QTPLC_VIRTUAL_TIME_MAIN(Test)                                                                                  \
     int main(int argc, char **argv)                                                                                    \
     {                                                                                                                  \
-        return runInVirtualTime<Test>(argc, argv);                                                                     \
+        const QCoreApplication application(argc, argv);                                                                \
+        int failures = 1;                                                                                              \
+        runInVirtualTime([&] {                                                                                         \
+            Test test;                                                                                                 \
+            failures = QTest::qExec(&test, argc, argv);                                                                \
+        });                                                                                                            \
+        return failures;                                                                                               \
     }
