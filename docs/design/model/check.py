@@ -4,7 +4,7 @@
 
 usage: check.py [--quick] [--only WORD] [--keep FOLDER]
 
-Without an option: every property, the run without each switch, and every mutant; half an hour.
+Without an option: every property, the run without each switch, and every mutant: minutes.
   --quick   some of them, for each change
   --only    runs whose name contains WORD
   --keep    keeps the folder of each run, with the trail of a violation: spin -t -p plant.pml
