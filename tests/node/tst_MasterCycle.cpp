@@ -4,10 +4,83 @@
 #include "protocol/CyclicFrame.h"
 #include "transport/StreamTransport.h"
 
+#include <optional>
 #include <sys/socket.h>
 #include <unistd.h>
+#include <vector>
 
 using namespace qplc;
+
+namespace {
+
+constexpr quint64 session = 5;
+
+/// A node at the other end of a stream: it reads requests and answers them when the test says so.
+class PipedNode
+{
+public:
+    PipedNode(MasterCycle &cycle, const QPlcSignalTable &table, const QVector<QPlcSignalIndex> &inputs)
+        : slot(std::make_shared<NodeSlot>())
+    {
+        if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, m_ends) != 0)
+            qFatal("no pair of sockets");
+        slot->id = 1;
+        slot->inputLayout = PayloadLayout(table, inputs);
+        slot->outputLayout = PayloadLayout(table, {0});
+        slot->prepare(cycle.image(), session);
+        slot->peer = StreamTransport::peer(m_ends[0], slot->outputCutter(), MaximumCyclicFrame);
+        slot->peer->owner = slot.get();
+        m_decoder.emplace(FrameKind::Inputs, FrameSeed{session, 1, slot->inputLayout.hash()},
+                          slot->inputLayout.partBorders(MaximumCyclicPayload));
+    }
+    ~PipedNode() { ::close(m_ends[1]); }
+    PipedNode(const PipedNode &) = delete;
+    PipedNode &operator=(const PipedNode &) = delete;
+
+    void setSmallestBuffer()
+    {
+        const int smallest = 1;
+        ::setsockopt(m_ends[0], SOL_SOCKET, SO_SNDBUF, &smallest, sizeof smallest);
+    }
+    /// Whether the next request is here: its flags are flags() then.
+    bool readRequest()
+    {
+        char bytes[4096];
+        for (ssize_t count; (count = ::recv(m_ends[1], bytes, sizeof bytes, MSG_DONTWAIT)) > 0;)
+            m_stream.append(bytes, int(count));
+        while (m_stream.size() >= int(CyclicHeaderSize)) {
+            const int size = int(m_decoder->frameSize(m_stream.constData()));
+            if (size == 0 || m_stream.size() < size)
+                return false;
+            const FrameStatus status = m_decoder->decode(m_stream.constData(), std::size_t(size));
+            m_stream.remove(0, size);
+            if (status == FrameStatus::Complete)
+                return true;
+        }
+        return false;
+    }
+    std::uint8_t flags() const { return m_decoder->header().flags; }
+    /// Answers the request that was read last.
+    bool answer(const QPlcValue &output, std::uint8_t answerFlags = 0)
+    {
+        FrameHeader header;
+        header.cycle = std::uint32_t(m_decoder->cycle());
+        header.flags = answerFlags;
+        const FrameEncoder encoder(FrameKind::Outputs, {session, 1, slot->outputLayout.hash()}, {0, 4});
+        std::vector<char> frame(encoder.totalSize());
+        encoder.encode(0, header, output.toBytes().constData(), frame.data());
+        return ::send(m_ends[1], frame.data(), frame.size(), MSG_NOSIGNAL) == ssize_t(frame.size());
+    }
+
+    std::shared_ptr<NodeSlot> slot;
+
+private:
+    int m_ends[2] = {-1, -1};
+    std::optional<FrameDecoder> m_decoder;
+    QByteArray m_stream;
+};
+
+}  // namespace
 
 // The cycle of a master over a stream whose kernel takes little at a time, as on a slow network.
 class tst_MasterCycle : public QObject
@@ -16,6 +89,8 @@ class tst_MasterCycle : public QObject
 
 private Q_SLOTS:
     void lockstepSendsTheRestAfterAFullStreamDrains();
+    void aCriticalNodeThatCannotWorkStopsThePlantFromTheNextCycleOn_data();
+    void aCriticalNodeThatCannotWorkStopsThePlantFromTheNextCycleOn();
     void anAbandonedSignalIsSafeWhenItsHoldIsOver();
     void theHubForgetsTheNodesOfACycleThatIsGone();
     void aNodeThatHasLeftIsFreedAtOnceWhileNoCycleRuns();
@@ -23,7 +98,6 @@ private Q_SLOTS:
 
 void tst_MasterCycle::lockstepSendsTheRestAfterAFullStreamDrains()
 {
-    constexpr quint64 session = 5;
     QByteArray ini = "[out]\ntype = Int32\n";
     QVector<QPlcSignalIndex> inputs;
     for (int i = 0; i < 40; ++i) {
@@ -31,56 +105,64 @@ void tst_MasterCycle::lockstepSendsTheRestAfterAFullStreamDrains()
         inputs << QPlcSignalIndex(i + 1);
     }
     const QPlcSignalTable table = QPlcSignalTable::fromIni(ini);
-    int ends[2] = {-1, -1};
-    QCOMPARE(::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends), 0);
-    const int smallest = 1;
-    ::setsockopt(ends[0], SOL_SOCKET, SO_SNDBUF, &smallest, sizeof smallest);
-
     CyclicHub hub;
     MasterCycle cycle(table, hub, false);
-    const auto slot = std::make_shared<NodeSlot>();
-    slot->id = 1;
-    slot->inputLayout = PayloadLayout(table, inputs);
-    slot->outputLayout = PayloadLayout(table, {0});
-    slot->prepare(cycle.image(), session);
-    slot->peer = StreamTransport::peer(ends[0], slot->outputCutter(), MaximumCyclicFrame);
-    slot->peer->owner = slot.get();
-    cycle.setRoster({{slot}});
+    PipedNode node(cycle, table, inputs);
+    node.setSmallestBuffer();
+    cycle.setRoster({{node.slot}});
     MasterCycle::Phase phase;
     phase.period = std::chrono::milliseconds(10);
     phase.clock = QPlcClock::lockstep();
     phase.cycleLimit = 1;
     QVERIFY(cycle.start(phase));
 
-    FrameDecoder decoder(FrameKind::Inputs, {session, 1, slot->inputLayout.hash()},
-                         slot->inputLayout.partBorders(MaximumCyclicPayload));
-    QByteArray stream;
-    FrameStatus status = FrameStatus::Incomplete;
-    QTRY_VERIFY(([&] {
-        char bytes[4096];
-        for (ssize_t count; (count = ::recv(ends[1], bytes, sizeof bytes, MSG_DONTWAIT)) > 0;)
-            stream.append(bytes, int(count));
-        while (stream.size() >= int(CyclicHeaderSize) && status != FrameStatus::Complete) {
-            const int size = int(decoder.frameSize(stream.constData()));
-            if (size == 0 || stream.size() < size)
-                break;
-            status = decoder.decode(stream.constData(), std::size_t(size));
-            stream.remove(0, size);
-        }
-        return status == FrameStatus::Complete;
-    }()));
-    QVERIFY(slot->peer->sendFailures > 0);  // else this test has shown nothing
-    const FrameEncoder encoder(FrameKind::Outputs, {session, 1, slot->outputLayout.hash()}, {0, 4});
-    FrameHeader header;
-    header.cycle = std::uint32_t(decoder.cycle());
-    char answer[20];
-    encoder.encode(0, header, QPlcValue(77).toBytes().constData(), answer);
-    QCOMPARE(::send(ends[1], answer, sizeof answer, MSG_NOSIGNAL), ssize_t(sizeof answer));
+    QVERIFY(waitUntil([&] { return node.readRequest(); }));
+    QVERIFY(node.slot->peer->sendFailures > 0);  // else this test has shown nothing
+    QVERIFY(node.answer(QPlcValue(77)));
     QTRY_COMPARE(cycle.statistics().cycles, quint64(1));
     cycle.stop();
     QCOMPARE(cycle.value(0).toInt(), 77);
     cycle.setRoster({});
-    ::close(ends[1]);
+}
+
+void tst_MasterCycle::aCriticalNodeThatCannotWorkStopsThePlantFromTheNextCycleOn_data()
+{
+    QTest::addColumn<bool>("critical");
+    QTest::addColumn<int>("flags");
+    QTest::addColumn<bool>("stops");
+    QTest::newRow("its code has failed") << true << int(FaultFlag) << true;
+    QTest::newRow("it is in its safe state") << true << int(SafeStopFlag) << true;
+    QTest::newRow("it works") << true << 0 << false;
+    QTest::newRow("code of another node has failed") << false << int(FaultFlag) << false;
+    QTest::newRow("another node is in its safe state") << false << int(SafeStopFlag) << false;
+}
+
+/// The thread of the master is busy here: it reads no report.
+void tst_MasterCycle::aCriticalNodeThatCannotWorkStopsThePlantFromTheNextCycleOn()
+{
+    QFETCH(bool, critical);
+    QFETCH(int, flags);
+    QFETCH(bool, stops);
+    const QPlcSignalTable table = QPlcSignalTable::fromIni("[out]\ntype = Int32\n[in]\ntype = Int32\n");
+    CyclicHub hub;
+    MasterCycle cycle(table, hub, false);
+    PipedNode node(cycle, table, {1});
+    node.slot->critical = critical;
+    cycle.setRoster({{node.slot}});
+    MasterCycle::Phase phase;
+    phase.period = std::chrono::milliseconds(1);
+    phase.clock = QPlcClock::lockstep();
+    QVERIFY(cycle.start(phase));
+
+    for (int i = 0; i < 3; ++i) {
+        QVERIFY(waitUntil([&] { return node.readRequest(); }));
+        QVERIFY(!(node.flags() & SafeStopFlag));
+        QVERIFY(node.answer(QPlcValue(i), i == 2 ? std::uint8_t(flags) : 0));
+    }
+    QVERIFY(waitUntil([&] { return node.readRequest(); }));
+    QCOMPARE(bool(node.flags() & SafeStopFlag), stops);
+    cycle.stop();
+    cycle.setRoster({});
 }
 
 /// Its writer gave the initial value, and left before it took part in the cycles.

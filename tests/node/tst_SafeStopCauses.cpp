@@ -23,6 +23,7 @@ private Q_SLOTS:
     void aCriticalNodeThatIsLateTooOftenStopsThePlant();
     void thePolicyStopsThePlantAtTheFirstLateAnswer();
     void aWaitThatIsTooLongStopsThePlant();
+    void aCriticalNodeThatIsSafeByItselfStopsThePlantUntilItReturns();
     void aLateNodeThatDiesWhileTheMasterWaitsNeverHangsIt_data();
     void aLateNodeThatDiesWhileTheMasterWaitsNeverHangsIt();
     void aMasterThatStoodStillStopsSafely();
@@ -198,6 +199,34 @@ void tst_SafeStopCauses::aWaitThatIsTooLongStopsThePlant()
     QVERIFY2(master.stateReason().contains("'Scripted' did not answer cycle 0"), qPrintable(master.stateReason()));
     QCOMPARE(states.at(states.size() - 2).at(0).value<QPlcMasterNode::State>(), QPlcMasterNode::WaitingForLateSlaves);
     QVERIFY(master.waitForCycles(3));  // and nobody is waited for any more
+}
+
+/// Its watchdog has expired, and frames arrive again: it answers in time, and moves nothing.
+void tst_SafeStopCauses::aCriticalNodeThatIsSafeByItselfStopsThePlantUntilItReturns()
+{
+    TestMaster master(QPlcClock::realTime());
+    master.setInterval(0.005);
+    QVERIFY(master.listen());
+    ScriptedNode winch("Winch");
+    winch.onRequest = [&](const ScriptedNode::Request &request) {
+        winch.answer(request.cycle, winch.initialValues, request.cycle > 5 ? qplc::SafeStopFlag : 0);
+    };
+    QVERIFY(winch.connectTo(master.serverPort()));
+    winch.send(QPlcMessage::Hello, winch.helloFields());
+    winch.session = winch.next().hex64("session");
+    QJsonObject fields = winch.registerFields();
+    fields.insert("critical", true);
+    winch.send(QPlcMessage::Register, fields);
+    QVERIFY(winch.takeRegistered(winch.next()));
+    QCOMPARE(winch.next().kind(), QPlcMessage::CyclicChannelAttached);
+    QVERIFY(master.startRealTime());
+    QVERIFY(master.waitForState(QPlcMasterNode::SafeStop));
+    QVERIFY2(master.stateReason().contains("critical node 'Winch' is in its safe state since cycle "),
+             qPrintable(master.stateReason()));
+    winch.control.abort();
+    QTRY_COMPARE(master.causeThatRemains(), QString("node 'Winch' is not back; start it again"));
+    QVERIFY(!master.reset());
+    master.stop();
 }
 
 void tst_SafeStopCauses::aLateNodeThatDiesWhileTheMasterWaitsNeverHangsIt_data()

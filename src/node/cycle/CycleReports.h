@@ -34,6 +34,8 @@ struct CycleEvent
         TrippedByGap,          // cycle, duration: no cycle could begin for so long
         TrippedByOverruns,     // cycle: too many in a row
         TrippedByNode,         // node, cycle: it asked for that
+        TrippedByFailure,      // node, cycle: the code of a critical node failed
+        TrippedBySafeNode,     // node, cycle: a critical node is in its safe state
         ToldSafeStop,          // cycle: the master has told a node to be safe
         Ended                  // cycle: the cycle thread has left its loop
     };

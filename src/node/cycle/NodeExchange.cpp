@@ -214,9 +214,7 @@ void NodeExchange::stepLocalNodes(const Stage &stage) noexcept
             slot.local->makeSafe(QPlcSlaveNode::MasterStopsSafely);
         slot.computed = slot.local->step(QPlcCycle(m_cycle.number, m_period, missed), slot.inputs);
         slot.answered = true;
-        if (!slot.computed && !slot.faulted)
-            m_reports.post({CycleEvent::NodeFaulted, slot.id, 0, m_cycle.number});
-        slot.faulted = !slot.computed;
+        setFaulted(slot, !slot.computed);
         if (slot.local->wantsSafeStop())
             m_guard.askedBy(slot, m_cycle.number);
         slot.statistics.stepped(slot.local->endOfStep(), slot.local->executionTime(), m_statistics.deadline());
@@ -401,17 +399,26 @@ void NodeExchange::handleAnswer(NodeSlot &slot, const char *frame, std::size_t s
     slot.statistics.answered(slot.decoder.cycle() - m_cycleZero, arrival, slot.decoder.header().info);
     if (current)
         m_statistics.answered(arrival);
-    const bool faulted = slot.decoder.header().flags & FaultFlag;
-    if (faulted && !slot.faulted)
-        m_reports.post({CycleEvent::NodeFaulted, slot.id, 0, m_cycle.number});
-    slot.faulted = faulted;
+    setFaulted(slot, slot.decoder.header().flags & FaultFlag);
     slot.pending = false;
-    if (m_isSafe || faulted)
+    if (slot.isSafe.load(std::memory_order_relaxed) && !m_isSafe)
+        m_guard.becameSafe(slot, m_cycle.number);
+    if (m_isSafe || slot.faulted)
         return;
     if (slot.twoPhase && current)
         slot.pending = true;  // the outputs of the next cycle
     else
         store(slot, slot.decoder.payload(), std::int64_t(slot.decoder.cycle() - m_cycleZero) + (slot.twoPhase ? 1 : 0));
+}
+
+/// The guard does not wait until somebody has read the report.
+void NodeExchange::setFaulted(NodeSlot &slot, bool isFaulted) noexcept
+{
+    if (isFaulted && !slot.faulted) {
+        m_reports.post({CycleEvent::NodeFaulted, slot.id, 0, m_cycle.number});
+        m_guard.codeFailed(slot, m_cycle.number);
+    }
+    slot.faulted = isFaulted;
 }
 
 /// Local nodes saw the image as it was when their stage began, whatever their order: their outputs

@@ -56,6 +56,7 @@ private:
     bool continueRequests() noexcept;
     void resendRequests() noexcept;
     void stepLocalNodes(const Stage &stage) noexcept;
+    void setFaulted(NodeSlot &slot, bool isFaulted) noexcept;
     void pasteLocalNodes(const Stage &stage) noexcept;
     void awaitEveryone() noexcept;
     std::int64_t deadline(std::size_t stage) const noexcept;

@@ -47,6 +47,18 @@ void SafetyGuard::answeredLate(NodeSlot &slot, std::uint64_t cycle) noexcept
         trip(CycleEvent::TrippedByLateAnswers, slot.id, cycle, 0);
 }
 
+void SafetyGuard::codeFailed(const NodeSlot &slot, std::uint64_t cycle) noexcept
+{
+    if (slot.critical)
+        trip(CycleEvent::TrippedByFailure, slot.id, cycle, 0);
+}
+
+void SafetyGuard::becameSafe(const NodeSlot &slot, std::uint64_t cycle) noexcept
+{
+    if (slot.critical)
+        trip(CycleEvent::TrippedBySafeNode, slot.id, cycle, 0);
+}
+
 void SafetyGuard::askedBy(const NodeSlot &slot, std::uint64_t cycle) noexcept
 {
     trip(CycleEvent::TrippedByNode, slot.id, cycle, 0);

@@ -42,6 +42,10 @@ public:
     void begin(const CycleClock::Tick &tick, std::int64_t period, std::int64_t slept) noexcept;
     void answeredInTime(NodeSlot &slot) noexcept;
     void answeredLate(NodeSlot &slot, std::uint64_t cycle) noexcept;
+    /// An answer of a node says that its code has failed.
+    void codeFailed(const NodeSlot &slot, std::uint64_t cycle) noexcept;
+    /// An answer of a node says that it is in its safe state, and the master has not told it to be.
+    void becameSafe(const NodeSlot &slot, std::uint64_t cycle) noexcept;
     /// A node wants the master to stop safely.
     void askedBy(const NodeSlot &slot, std::uint64_t cycle) noexcept;
     /// \param waited  [ns] for \a slot, until now. \return whether that is too long

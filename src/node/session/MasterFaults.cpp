@@ -8,7 +8,8 @@ namespace {
 bool isOfNode(CycleEvent::Kind kind)
 {
     return kind == CycleEvent::TrippedByLateAnswer || kind == CycleEvent::TrippedByLateAnswers
-        || kind == CycleEvent::TrippedByWait || kind == CycleEvent::TrippedByNode;
+        || kind == CycleEvent::TrippedByWait || kind == CycleEvent::TrippedByNode
+        || kind == CycleEvent::TrippedByFailure || kind == CycleEvent::TrippedBySafeNode;
 }
 
 QString tripText(const CycleEvent &event, const QString &node, int overrunLimit)
@@ -26,6 +27,10 @@ QString tripText(const CycleEvent &event, const QString &node, int overrunLimit)
             .arg(milliseconds, 0, 'f', 0);
     case CycleEvent::TrippedByNode:
         return QStringLiteral("node '%1' asked for it in cycle %2").arg(node).arg(event.cycle);
+    case CycleEvent::TrippedByFailure:
+        return QStringLiteral("the code of critical node '%1' failed in cycle %2").arg(node).arg(event.cycle);
+    case CycleEvent::TrippedBySafeNode:
+        return QStringLiteral("critical node '%1' is in its safe state since cycle %2").arg(node).arg(event.cycle);
     case CycleEvent::TrippedByGap:
         return QStringLiteral("the master stood still for %1 ms before cycle %2")
             .arg(milliseconds, 0, 'f', 0)
@@ -85,7 +90,7 @@ void MasterFaults::tripped(const CycleEvent &event, int overrunLimit)
     const QString name = m_phase.nodeName(event.node);
     const QString text = tripText(event, name, overrunLimit);
     if (isOfNode(event.kind)) {
-        blame(name, false);
+        blame(name, event.kind == CycleEvent::TrippedBySafeNode);  // it closes its connection, and begins again
         m_master.setError(QPlcMasterNode::NodeError, text, name, JournalEvent::Late);
     } else {
         blame(QString(), false);

@@ -71,6 +71,8 @@ void MasterReports::report(const CycleEvent &event)
     case CycleEvent::TrippedByGap:
     case CycleEvent::TrippedByOverruns:
     case CycleEvent::TrippedByNode:
+    case CycleEvent::TrippedByFailure:
+    case CycleEvent::TrippedBySafeNode:
         m_faults.tripped(event, m_settings.overrunLimit);
         break;
     default:
