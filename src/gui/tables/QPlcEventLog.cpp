@@ -219,7 +219,8 @@ void QPlcEventLog::contextChanged()
     d->table->setContext(context());
     d->table->setColumns(eventColumns);
     d->table->setStretchedColumn(EventLogModel::Text, 30);
-    d->table->setDispensable({EventLogModel::Source, EventLogModel::State, EventLogModel::Time});
+    d->table->setDispensable(
+        {EventLogModel::Source, EventLogModel::State, EventLogModel::Severity});  // seen by its colour
     d->table->applySettings(d->settings);
     connect(d->table, &PanelTable::settingsEdited, this, [this] {
         d->table->writeSettings(&d->settings);

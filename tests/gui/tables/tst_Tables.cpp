@@ -280,7 +280,7 @@ void tst_Tables::narrowTablesLeaveOutTheLessImportantColumns()
         QTRY_COMPARE(log.view->horizontalScrollBar()->maximum(), 0);
         QTRY_COMPARE(values.view->horizontalScrollBar()->maximum(), 0);
     }
-    QVERIFY(!log.view->isColumnHidden(EventLogModel::Severity));
+    QVERIFY(!log.view->isColumnHidden(EventLogModel::Time));
     QVERIFY(!log.view->isColumnHidden(EventLogModel::Text));
     QVERIFY(log.view->isColumnHidden(EventLogModel::Source));
     QVERIFY(!values.view->isColumnHidden(ValueTableModel::Value));

@@ -224,8 +224,11 @@ void tst_ControlCenter::theBottomLineKeepsItsPlaceWhileNumbersCount()
     view->freeze();
     view->setNewest(200'300'000'000);
     QTRY_VERIFY2(bar->stateText().contains(QLatin1String("100.3 s behind")), qPrintable(bar->stateText()));
-    QCoreApplication::processEvents();  // the line is laid out
-    const int place = fixture.part<EventLine>()->x();
+    int place = -1;
+    while (place != fixture.part<EventLine>()->x()) {  // until it is laid out
+        place = fixture.part<EventLine>()->x();
+        QTest::qWait(20);
+    }
     view->setNewest(101'100'000'000);
     QTRY_VERIFY2(bar->stateText().contains(QLatin1String("1.1 s behind")), qPrintable(bar->stateText()));
     QTRY_COMPARE(fixture.part<EventLine>()->x(), place);

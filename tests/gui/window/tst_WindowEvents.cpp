@@ -55,7 +55,8 @@ void tst_WindowEvents::fiveEventsAreSeenInTheDefaultLayout()
     auto *log = fixture.part<QPlcEventLog>();
     QTRY_VERIFY(log && log->isVisible());
     auto *table = log->findChild<QTreeView *>();
-    const int rows = table->viewport()->height() / table->visualRect(table->model()->index(29, 0)).height();
+    const int rows
+        = table->viewport()->height() / table->visualRect(table->model()->index(29, EventLogModel::Text)).height();
     QVERIFY2(rows >= 5, qPrintable(QString::number(rows)));
 }
 
