@@ -179,7 +179,12 @@ void tst_HotJoin::aProcessThatStaysAliveKeepsItsState()
     master.setInterval(0.005);
     QVERIFY(master.listen());
     CounterNode counter;
+    std::atomic<bool> isBack{false};
     std::atomic<int> smallest{1000000};
+    counter.onStep = [&](const QPlcCycle &) {
+        if (isBack)
+            smallest = std::min(smallest.load(), master.signalValue("count").toInt());
+    };
     QVERIFY(master.admit(counter, kind));
     QVERIFY(master.startRealTime());
     QTRY_VERIFY(master.signalValue("count").toInt() > 50);
@@ -188,8 +193,7 @@ void tst_HotJoin::aProcessThatStaysAliveKeepsItsState()
     const int before = master.signalValue("count").toInt();
     QVERIFY(master.admit(counter, kind));
     QTRY_COMPARE(counter.state(), QPlcSlaveNode::RealTime);
-    counter.onStep
-        = [&](const QPlcCycle &) { smallest = std::min(smallest.load(), master.signalValue("count").toInt()); };
+    isBack = true;
     QTRY_VERIFY(smallest < 1000000);
     QCOMPARE(counter.resets, keeps ? 1 : 2);
     QCOMPARE(counter.initializations, keeps ? 1 : 2);
