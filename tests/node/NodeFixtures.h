@@ -166,6 +166,9 @@ public:
     double initialEcho = -1.0;
     quint64 lastCycle = 0;
 
+    /// Its steps since the last reset; for onStep.
+    int count() const { return m_count; }
+
 protected:
     void reset() override
     {

@@ -183,7 +183,7 @@ void tst_HotJoin::aProcessThatStaysAliveKeepsItsState()
     std::atomic<int> smallest{1000000};
     counter.onStep = [&](const QPlcCycle &) {
         if (isBack)
-            smallest = std::min(smallest.load(), master.signalValue("count").toInt());
+            smallest = std::min(smallest.load(), counter.count());
     };
     QVERIFY(master.admit(counter, kind));
     QVERIFY(master.startRealTime());
