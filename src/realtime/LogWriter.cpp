@@ -15,7 +15,6 @@
 #include <pthread.h>
 #include <sched.h>
 #include <sys/stat.h>
-#include <thread>
 #include <unistd.h>
 
 namespace qplc {
@@ -38,6 +37,7 @@ struct LogWriter::State
     quint64 untold = 0;  // dropped lines that no line has told yet
     quint64 dropped = 0;
     bool isEnding = false;
+    bool hasThread = false;  // set before anybody writes
 };
 
 namespace {
@@ -67,6 +67,34 @@ void leaveRealTime()
 }
 
 }  // namespace
+
+/// Signals that a process may be sent go to the main thread. The stack is small: a program may lock
+/// all of its memory.
+bool LogWriter::startThread(const std::shared_ptr<State> &state)
+{
+    constexpr std::size_t stackSize = 256 << 10;  // [byte]
+    const auto body = [](void *argument) -> void * {
+        const std::unique_ptr<std::shared_ptr<State>> share(static_cast<std::shared_ptr<State> *>(argument));
+        (*share)->run();
+        return nullptr;
+    };
+    pthread_attr_t attributes;
+    pthread_attr_init(&attributes);
+    pthread_attr_setdetachstate(&attributes, PTHREAD_CREATE_DETACHED);
+    pthread_attr_setstacksize(&attributes, stackSize);
+    sigset_t all;
+    sigset_t before;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    auto share = std::make_unique<std::shared_ptr<State>>(state);
+    pthread_t thread;
+    const bool isStarted = pthread_create(&thread, &attributes, body, share.get()) == 0;
+    if (isStarted)
+        (void)share.release();  // the thread's
+    pthread_sigmask(SIG_SETMASK, &before, nullptr);
+    pthread_attr_destroy(&attributes);
+    return isStarted;
+}
 
 void LogWriter::State::push(const QByteArray &line)
 {
@@ -103,13 +131,7 @@ void LogWriter::State::run()
 LogWriter::LogWriter(int descriptor)
     : d(std::make_shared<State>(descriptor))
 {
-    // Signals that a process may be sent go to the main thread.
-    sigset_t all;
-    sigset_t before;
-    sigfillset(&all);
-    pthread_sigmask(SIG_SETMASK, &all, &before);
-    std::thread([state = d] { state->run(); }).detach();
-    pthread_sigmask(SIG_SETMASK, &before, nullptr);
+    d->hasThread = startThread(d);
 }
 
 LogWriter::~LogWriter()
@@ -122,6 +144,10 @@ LogWriter::~LogWriter()
 
 void LogWriter::write(const QByteArray &line)
 {
+    if (!d->hasThread) {
+        writeAll(d->descriptor, line);
+        return;
+    }
     const std::lock_guard<std::mutex> lock(d->mutex);
     if (d->bytes > 0 && d->bytes + line.size() > mostBytes) {
         ++d->untold;
@@ -197,6 +223,7 @@ void writeMessage(QtMsgType type, const QMessageLogContext &context, const QStri
 
 void LogWriter::takeMessages()
 {
+    ofStandardError();  // its thread starts before the program locks its memory
     const QtMessageHandler present = qInstallMessageHandler(nullptr);
     const QtMessageHandler ofQt = qInstallMessageHandler(nullptr);
     qInstallMessageHandler(present == ofQt ? writeMessage : present);

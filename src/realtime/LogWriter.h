@@ -16,7 +16,7 @@ namespace qplc {
 ///
 /// What the reader does not take waits here, up to mostBytes; further lines are dropped, and a line
 /// in their place tells how many. The thread has ordinary scheduling even in a program that was
-/// started by `chrt`.
+/// started by `chrt`. Where the system makes no thread, write() writes itself.
 /// \threadsafe yes
 class LogWriter
 {
@@ -49,6 +49,7 @@ public:
 
 private:
     struct State;
+    static bool startThread(const std::shared_ptr<State> &state);
     std::shared_ptr<State> d;  // the thread has its own share: it may never return from write()
 };
 
