@@ -100,7 +100,7 @@ RUNS = [
         HELPFUL=1, COMMANDS=0, FAULTS=1, LOSS=0, PROMPT=1),
     Run("stop_stops", "property 4: a Stop that was sent is carried out, or the master has died", formula="stop_stops",
         SINGLE_STOP=1, COMMANDS=2, FAULTS=0, LOSS=0, PROMPT=1),
-    # ---- without one switch: what today's product does not do ----
+    # ---- without one switch: each shows a defect ----
     Run("without_MANIFEST", "a plant starts without its critical node", PRESENT, True,
         MANIFEST=0, COMMANDS=1, FAULTS=0, LOSS=0),
     Run("without_FAULT_TRIPS", "code of the critical node has failed, and node 1 moves on", BOUNDED,

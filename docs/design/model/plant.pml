@@ -4,7 +4,7 @@
 
 #include "tables.pml"
 
-/* ---- switches: what the product does (1), or does not do yet (0) ---- */
+/* ---- switches: 1 as it should be; README.md says which of them the product has ---- */
 
 #ifndef MANIFEST            /* the master refuses to begin without its critical node */
 #define MANIFEST 1

@@ -91,7 +91,8 @@ void MasterFaults::tripped(const CycleEvent &event, int overrunLimit)
     const QString text = tripText(event, name, overrunLimit);
     if (isOfNode(event.kind)) {
         blame(name, event.kind == CycleEvent::TrippedBySafeNode);  // it closes its connection, and begins again
-        m_master.setError(QPlcMasterNode::NodeError, text, name, JournalEvent::Late);
+        const bool isFault = event.kind == CycleEvent::TrippedByFailure || event.kind == CycleEvent::TrippedBySafeNode;
+        m_master.setError(QPlcMasterNode::NodeError, text, name, isFault ? JournalEvent::Fault : JournalEvent::Late);
     } else {
         blame(QString(), false);
         m_master.setError(QPlcMasterNode::RealTimeError, text, NodeRegistry::masterName(), JournalEvent::Overrun);

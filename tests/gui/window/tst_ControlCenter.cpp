@@ -225,7 +225,7 @@ void tst_ControlCenter::theBottomLineKeepsItsPlaceWhileNumbersCount()
     view->setNewest(200'300'000'000);
     QTRY_VERIFY2(bar->stateText().contains(QLatin1String("100.3 s behind")), qPrintable(bar->stateText()));
     int place = -1;
-    while (place != fixture.part<EventLine>()->x()) {  // until it is laid out
+    for (int looks = 0; looks < 50 && place != fixture.part<EventLine>()->x(); ++looks) {  // until it is laid out
         place = fixture.part<EventLine>()->x();
         QTest::qWait(20);
     }
