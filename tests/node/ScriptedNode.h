@@ -58,6 +58,7 @@ public:
     QString policy = QStringLiteral("ErrorZeroOrderHold");
     QString cyclic = datagrams();
     bool listener = false;
+    bool critical = false;
     int every = 1;  // cycles
     QPlcSignalTable table = testTable();
     QStringList inputs{QStringLiteral("count")};
@@ -131,6 +132,7 @@ public:
                               {QStringLiteral("uuid"), uuid},
                               {QStringLiteral("policy"), policy},
                               {QStringLiteral("listener"), listener},
+                              {QStringLiteral("critical"), critical},
                               {QStringLiteral("every"), every},
                               {QStringLiteral("inputs"), describe(inputs)},
                               {QStringLiteral("outputs"), describe(outputs)},

@@ -211,14 +211,8 @@ void tst_SafeStopCauses::aCriticalNodeThatIsSafeByItselfStopsThePlantUntilItRetu
     winch.onRequest = [&](const ScriptedNode::Request &request) {
         winch.answer(request.cycle, winch.initialValues, request.cycle > 5 ? qplc::SafeStopFlag : 0);
     };
-    QVERIFY(winch.connectTo(master.serverPort()));
-    winch.send(QPlcMessage::Hello, winch.helloFields());
-    winch.session = winch.next().hex64("session");
-    QJsonObject fields = winch.registerFields();
-    fields.insert("critical", true);
-    winch.send(QPlcMessage::Register, fields);
-    QVERIFY(winch.takeRegistered(winch.next()));
-    QCOMPARE(winch.next().kind(), QPlcMessage::CyclicChannelAttached);
+    winch.critical = true;
+    QVERIFY(winch.registerAt(master.serverPort()));
     QVERIFY(master.startRealTime());
     QVERIFY(master.waitForState(QPlcMasterNode::SafeStop));
     QVERIFY2(master.stateReason().contains("critical node 'Winch' is in its safe state since cycle "),
@@ -246,14 +240,8 @@ void tst_SafeStopCauses::aLateNodeThatDiesWhileTheMasterWaitsNeverHangsIt()
     late.policy = "SilentWait";
     CounterNode other;
     QVERIFY(master.addLocalNode(&other));
-    QVERIFY(late.connectTo(master.serverPort()));
-    late.send(QPlcMessage::Hello, late.helloFields());
-    late.session = late.next().hex64("session");
-    QJsonObject fields = late.registerFields();
-    fields.insert("critical", critical);
-    late.send(QPlcMessage::Register, fields);
-    QVERIFY(late.takeRegistered(late.next()));
-    QCOMPARE(late.next().kind(), QPlcMessage::CyclicChannelAttached);
+    late.critical = critical;
+    QVERIFY(late.registerAt(master.serverPort()));
     QVERIFY(master.startRealTime());
     QVERIFY(master.waitForState(QPlcMasterNode::WaitingForLateSlaves));
     late.control.abort();

@@ -432,7 +432,7 @@ inline apply()
             event = NoEvent;
             carryOut();
             if
-            :: flag ->                /* whoever came while the others were being started joins now */
+            :: flag ->                /* a node that came while the others were being started joins now */
                 for (k : 0 .. 1) {
                     if
                     :: cycles && attached[k] && stage[k] == Idle -> join(k)

@@ -279,7 +279,7 @@ private:
         m_clock.look(now, wall);
     }
 
-    // Frames that came in, without those whose size is none of a frame. Returns how many.
+    // Returns the number of frames received. Data whose size fits no frame does not count.
     int convert(int received, CanFrame *frames) noexcept
     {
         int count = 0;

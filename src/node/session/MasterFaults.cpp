@@ -5,11 +5,21 @@ namespace qplc {
 
 namespace {
 
-bool isOfNode(CycleEvent::Kind kind)
+/// What the events of a trip are: Overrun is about the master itself, the others about a node.
+JournalEvent::Kind kindOfTrip(CycleEvent::Kind kind)
 {
-    return kind == CycleEvent::TrippedByLateAnswer || kind == CycleEvent::TrippedByLateAnswers
-        || kind == CycleEvent::TrippedByWait || kind == CycleEvent::TrippedByNode
-        || kind == CycleEvent::TrippedByFailure || kind == CycleEvent::TrippedBySafeNode;
+    switch (kind) {
+    case CycleEvent::TrippedByLateAnswer:
+    case CycleEvent::TrippedByLateAnswers:
+    case CycleEvent::TrippedByWait:
+    case CycleEvent::TrippedByNode:
+        return JournalEvent::Late;
+    case CycleEvent::TrippedByFailure:
+    case CycleEvent::TrippedBySafeNode:
+        return JournalEvent::Fault;
+    default:
+        return JournalEvent::Overrun;
+    }
 }
 
 QString tripText(const CycleEvent &event, const QString &node, int overrunLimit)
@@ -89,13 +99,13 @@ void MasterFaults::tripped(const CycleEvent &event, int overrunLimit)
         return;
     const QString name = m_phase.nodeName(event.node);
     const QString text = tripText(event, name, overrunLimit);
-    if (isOfNode(event.kind)) {
+    const JournalEvent::Kind kind = kindOfTrip(event.kind);
+    if (kind != JournalEvent::Overrun) {
         blame(name, event.kind == CycleEvent::TrippedBySafeNode);  // it closes its connection, and begins again
-        const bool isFault = event.kind == CycleEvent::TrippedByFailure || event.kind == CycleEvent::TrippedBySafeNode;
-        m_master.setError(QPlcMasterNode::NodeError, text, name, isFault ? JournalEvent::Fault : JournalEvent::Late);
+        m_master.setError(QPlcMasterNode::NodeError, text, name, kind);
     } else {
         blame(QString(), false);
-        m_master.setError(QPlcMasterNode::RealTimeError, text, NodeRegistry::masterName(), JournalEvent::Overrun);
+        m_master.setError(QPlcMasterNode::RealTimeError, text, NodeRegistry::masterName(), kind);
     }
     m_master.apply(MasterEvent::CyclesTripped, text);
 }
