@@ -4,6 +4,7 @@
 #include "VirtualTime.h"
 #include "Winch.h"
 #include "node/api/QPlcSlaveNodePrivate.h"
+#include "realtime/TimeSource.h"
 
 using namespace std::chrono_literals;
 using qplc::SafeStopFlag;
@@ -26,6 +27,7 @@ private Q_SLOTS:
     void init() { QPlcSignalIndexTable::setCurrent({}); }
     void safeStopFlagMakesTheNodeSafeUntilThePhaseEnds();
     void watchdogMakesTheNodeSafeAndItReconnects();
+    void nodeThatWasStoppedIsSafeBeforeItComputes();
     void nodeStaysDisconnectedWithoutReconnectPolicy();
     void exceptionMakesTheNodeSafe();
     void phaseEndMakesTheNodeSafeBeforeItStops();
@@ -95,6 +97,32 @@ void tst_SafeNodes::watchdogMakesTheNodeSafeAndItReconnects()
     QCOMPARE(winch.state(), QPlcSlaveNode::Registering);
     winch.disconnectFromMaster();
     QCOMPARE(winch.state(), QPlcSlaveNode::Disconnected);
+}
+
+void tst_SafeNodes::nodeThatWasStoppedIsSafeBeforeItComputes()
+{
+    ScriptedMaster master(winchTable());
+    Winch winch;
+    winch.activateWatchdog(60ms);
+    int steps = 0;
+    winch.onStep = [&](const QPlcCycle &) {
+        if (++steps > 1)
+            return;
+        const std::int64_t end = qplc::monotonicNow() + 100'000'000;  // [ns] as if it had been stopped
+        while (qplc::monotonicNow() < end)
+            qplc::TimeSource::monotonic().sleepUntil(end);
+    };
+    QVERIFY(master.admit(winch, master.place()));
+    QVERIFY(master.start());
+    master.request(0);
+    pass(50ms);
+    master.request(1);  // waits until it resumes
+    QVERIFY(master.waitForAnswers(2));
+    QCOMPARE(steps, 1);
+    QCOMPARE(int(master.answers.at(1).flags), int(SafeStopFlag));
+    QCOMPARE(real(master.answers.at(1).payload), 300.0);
+    QTRY_COMPARE(winch.story(), (QStringList{"step", "safe WatchdogReason", "stopped"}));
+    winch.disconnectFromMaster();
 }
 
 void tst_SafeNodes::nodeStaysDisconnectedWithoutReconnectPolicy()

@@ -3,13 +3,16 @@
 // on its standard output, a line each.
 //
 //   safe_plant master PORT NODES      starts as soon as NODES nodes are there (0: never)
-//   safe_plant node NAME PORT WATCHDOG_MS critical|plain
+//   safe_plant node NAME PORT WATCHDOG_MS critical|plain|stops
+//
+// A node that 'stops' sends itself SIGSTOP in its 20th step.
 #include <QtPlcCore>
 
 #include <QtCore/QMetaEnum>
 
 #include <atomic>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <unistd.h>
 
@@ -59,9 +62,10 @@ int runMaster(QPlcCoreApplication &application, int port, int nodes)
 class Node : public QPlcCompactSlaveNode
 {
 public:
-    explicit Node(const QString &name)
+    Node(const QString &name, bool stops)
         : QPlcCompactSlaveNode(name)
         , m_output(this, name == QLatin1String("A") ? "a" : "b")
+        , m_stops(stops)
     {
     }
 
@@ -73,6 +77,10 @@ protected:
         if (++m_steps == 10)
             tell(QStringLiteral("runs"));
         m_output = double(m_steps);
+        if (m_stops && m_steps == 20) {
+            tell(QStringLiteral("stops"));
+            std::raise(SIGSTOP);
+        }
     }
     void safeState(SafeStateReason reason) override
     {
@@ -85,6 +93,7 @@ protected:
 
 private:
     QPlcOutput<double> m_output;
+    const bool m_stops;
     std::atomic<qint64> m_lastStep{0};
     std::atomic<int> m_steps{0};
     quint64 m_missed = 0;
@@ -92,7 +101,7 @@ private:
 
 int runNode(QPlcCoreApplication &application, const QStringList &arguments)
 {
-    Node node(arguments.at(1));
+    Node node(arguments.at(1), arguments.at(4) == QLatin1String("stops"));
     node.activateWatchdog(std::chrono::milliseconds(arguments.at(3).toInt()));
     node.setCritical(arguments.at(4) == QLatin1String("critical"));
     QObject::connect(&node, &QPlcSlaveNode::connectedToMaster, [] { tell(QStringLiteral("registered")); });

@@ -15,6 +15,7 @@ class tst_SafeProcesses : public QObject
 private Q_SLOTS:
     void aKilledMasterLeavesItsNodesSafe();
     void stoppedMasterTripsWatchdogsAndStopsSafely();
+    void stoppedNodeIsSafeBeforeItComputes();
     void aKilledCriticalNodeStopsThePlantSafely();
     void restartedNodeReturnsWithoutDisturbingOthers();
     void aRestartedMasterFindsItsNodesAndStartsNothing();
@@ -96,6 +97,18 @@ void tst_SafeProcesses::stoppedMasterTripsWatchdogsAndStopsSafely()
     master->sendSignal(SIGCONT);
     QVERIFY(master->waitForOutput("state SafeStop the master stood still"));
     QVERIFY(a->waitForOutput("registered") && b->waitForOutput("registered"));
+}
+
+void tst_SafeProcesses::stoppedNodeIsSafeBeforeItComputes()
+{
+    QVERIFY(startPlant(Watchdog, "stops"));
+    QVERIFY(a->waitForOutput("stops"));
+    QTest::qWait(2 * Watchdog);  // meanwhile frames of the master arrive
+    a->sendSignal(SIGCONT);
+    const double time = safeAfter(*a, "WatchdogReason");
+    qInfo("safe %.1f ms after the last step, watchdog %d ms", time, Watchdog);
+    QVERIFY(time >= Watchdog);
+    QVERIFY(a->waitForOutput("registered"));
 }
 
 void tst_SafeProcesses::aKilledCriticalNodeStopsThePlantSafely()

@@ -129,7 +129,7 @@ void SlaveCycle::run() noexcept
             handle(frame, size);
             break;
         case CyclicLink::Nothing:
-            checkWatchdog();
+            checkWatchdog(monotonicNow());
             break;
         case CyclicLink::Closed:
             m_reports.post({CycleEvent::LinkClosed, m_identity.node, 0, m_lastCycle});
@@ -191,17 +191,19 @@ bool SlaveCycle::isForOthers(const char *frame, std::size_t size) const noexcept
         && loadLittle<std::uint16_t>(frame + CyclicHeaderSize) != m_phase.group.part;
 }
 
+/// The watchdog comes first: a frame that has waited while this process was stopped may belong to a
+/// phase that is over.
 void SlaveCycle::handle(const char *frame, std::size_t size) noexcept
 {
     const FrameStatus status = decode(frame, size);
+    const std::int64_t now = m_phase.clock.isLockstep() ? 0 : monotonicNow();
+    checkWatchdog(now);
     if (status == FrameStatus::Duplicate && m_computedAny && isRepeatedRequest())
         sendAnswer();
-    if (status != FrameStatus::Complete) {
-        checkWatchdog();  // frames that are no use do not calm it
-        return;
-    }
+    if (status != FrameStatus::Complete)
+        return;  // frames that are no use do not calm the watchdog
     if (!m_phase.clock.isLockstep())
-        skipToNewest();
+        skipToNewest(now);
     compute();
     if (!m_phase.clock.isLockstep())
         m_statistics.answered(m_watchdog.lastHeard(), m_runtime.executionTime(), monotonicNow());
@@ -210,9 +212,8 @@ void SlaveCycle::handle(const char *frame, std::size_t size) noexcept
 /// After a pause requests may have queued up; only the newest is worth an answer. Costs a system
 /// call only after a pause. Ends also where frames that are no use never end: run() goes on with
 /// the rest.
-void SlaveCycle::skipToNewest() noexcept
+void SlaveCycle::skipToNewest(std::int64_t now) noexcept
 {
-    const std::int64_t now = monotonicNow();
     const bool paused
         = simulated(now - m_watchdog.lastHeard()) > 2 * m_phase.interval.cycles() * m_phase.period.count();
     if (m_computedAny) {
@@ -234,7 +235,7 @@ void SlaveCycle::skipToNewest() noexcept
             continue;
         }
         useless += status != FrameStatus::Incomplete;
-        checkWatchdog();
+        checkWatchdog(monotonicNow());
     }
 }
 
@@ -322,11 +323,11 @@ std::int64_t SlaveCycle::watchdogTime() const noexcept
     return m_phase.clock.isLockstep() ? 0 : lasting(m_phase.watchdog);
 }
 
-void SlaveCycle::checkWatchdog() noexcept
+void SlaveCycle::checkWatchdog(std::int64_t now) noexcept
 {
     if (!m_watchdog.isOn())
         return;
-    const Watchdog::Answer answer = m_watchdog.look(monotonicNow());
+    const Watchdog::Answer answer = m_watchdog.look(now);
     if (answer == Watchdog::TooEarly)
         return;
     setAlarm();

@@ -86,14 +86,14 @@ private:
     CyclicLink::Status receive(const char **frame, std::size_t *size) noexcept;
     void handle(const char *frame, std::size_t size) noexcept;
     FrameStatus decode(const char *frame, std::size_t size) noexcept;
-    void skipToNewest() noexcept;
+    void skipToNewest(std::int64_t now) noexcept;
     void compute() noexcept;
     bool isRepeatedRequest() const noexcept;
     void encodeAnswer() noexcept;
     void sendAnswer() noexcept;
     void makeSafe(QPlcSlaveNode::SafeStateReason reason, const CycleEvent &event) noexcept;
     std::int64_t watchdogTime() const noexcept;
-    void checkWatchdog() noexcept;
+    void checkWatchdog(std::int64_t now) noexcept;
     void setAlarm() noexcept;
     std::int64_t simulated(std::int64_t time) const noexcept;
     std::int64_t lasting(std::chrono::nanoseconds simulated) const noexcept;
