@@ -144,7 +144,7 @@ REMOVALS = [
             "slot->awaited = slot->asked && !slot->listener;", "slot->awaited = slot->asked;",
             "tst_RealTimeViolationPolicies", "masterNeverWaitsForAListener"),
     Removal("node stopped: the newest request counts", "src/node/cycle/SlaveCycle.cpp",
-            "    if (!m_phase.clock.isLockstep())\n        skipToNewest();\n", "",
+            "    if (!m_phase.clock.isLockstep())\n        skipToNewest(now);\n", "",
             "tst_SlaveFaults", "nodeComputesOnlyTheNewestCycleAfterAPause"),
     Removal("flood of datagrams to a node: parts of requests are none", "src/node/cycle/SlaveCycle.cpp",
             "        useless += status != FrameStatus::Incomplete;\n", "        ++useless;\n",
