@@ -18,6 +18,8 @@ private Q_SLOTS:
     void releasedSignalHasNoHolder();
     void silentHolderLosesItsLeaseAtTheDeadline();
     void everyMessageOfTheHolderRenewsAllItsLeases();
+    void messageAtTheDeadlineRenewsNothing();
+    void leaseThatACycleHasEndedIsNotRenewed();
     void lostHolderLosesItsOwnLeasesOnce();
     void lostLeaseHasNoHolderAndStaysInTheMask();
     void nextDeadlineIsTheEarliestOfAllHeldLeases();
@@ -63,7 +65,7 @@ void tst_Leases::newLeaseReplacesTheHolder()
     QVERIFY(m_leases.isHeldBy(2, bert()));
     QVERIFY(m_leases.loseAllOf(anna()) == Leases::Signals{1});
     QVERIFY(m_leases.isHeldBy(2, bert()));
-    QCOMPARE(m_leases.find(2)->deadline, std::int64_t(1550));
+    QCOMPARE(m_leases.find(2)->term->deadline(), std::int64_t(1550));
 }
 
 void tst_Leases::releasedSignalHasNoHolder()
@@ -95,6 +97,25 @@ void tst_Leases::everyMessageOfTheHolderRenewsAllItsLeases()
     m_leases.renew(anna(), 1200);  // what is lost stays lost
     QVERIFY(m_leases.find(1)->isLost());
     QVERIFY(m_leases.loseSilent(1500) == Leases::Signals{2});
+}
+
+void tst_Leases::messageAtTheDeadlineRenewsNothing()
+{
+    m_leases.take({1}, anna(), "Anna", 100, 1000);
+    m_leases.renew(anna(), 1100);
+    QVERIFY(m_leases.loseSilent(1100) == Leases::Signals{1});
+}
+
+void tst_Leases::leaseThatACycleHasEndedIsNotRenewed()
+{
+    m_leases.take({1}, anna(), "Anna", 100, 1000);
+    LeaseTerm &term = *m_leases.terms().at(0).term;
+    QVERIFY(!term.end(1099) && !term.hasEnded());
+    QVERIFY(term.end(1100) && term.hasEnded());
+    QVERIFY(!term.end(1200));      // once
+    m_leases.renew(anna(), 1099);  // its message was read before, and the thread was busy since
+    QVERIFY(term.hasEnded());
+    QVERIFY(m_leases.loseSilent(1099) == Leases::Signals{1});
 }
 
 void tst_Leases::lostHolderLosesItsOwnLeasesOnce()

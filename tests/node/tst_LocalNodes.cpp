@@ -28,6 +28,7 @@ private Q_SLOTS:
     void aNodeThatEndsBeforeItsMasterLeavesIt_data();
     void aNodeThatEndsBeforeItsMasterLeavesIt();
     void unreadEventsDelayNoCycle();
+    void leaseEndsWhileTheEventLoopHangs();
 };
 
 void tst_LocalNodes::theOrderOfTheNodesDoesNotMatter()
@@ -350,6 +351,34 @@ void tst_LocalNodes::unreadEventsDelayNoCycle()
     while (master.statistics().cycles < cycles && !deadline.hasExpired())
         QThread::msleep(1);  // without a look at events
     QVERIFY(master.statistics().cycles >= cycles);
+    master.stop();
+}
+
+void tst_LocalNodes::leaseEndsWhileTheEventLoopHangs()
+{
+    TestMaster master(QPlcClock::realTime());
+    EchoNode echo;
+    master.setInterval(0.002);
+    QVERIFY(master.listen() && master.addLocalNode(&echo));
+    ScriptedTool anna("Anna");
+    QVERIFY(anna.greetAt(master.serverPort()));
+    QVERIFY(master.startRealTime() && anna.waitForMessage(QPlcMessage::StatesInitialized));
+    anna.forgetMessages();
+    const QJsonObject values{{"echo", "-1.5"}};
+    QCOMPARE(anna.ask(QPlcMessage::TakeLease, {{"signals", QJsonArray{"echo"}}, {"values", values}, {"timeout", 500e6}})
+                 .kind(),
+             QPlcMessage::Done);
+    QTRY_COMPARE(master.signalValue("echo").toReal(), -1.5);
+    anna.send(QPlcMessage::GetState);  // arrives in time, and is not read in time
+    const QDeadlineTimer deadline(20'000);
+    while (master.signalValue("echo").toReal() != 0.0 && !deadline.hasExpired())
+        QThread::msleep(1);  // without a look at events
+    QCOMPARE(master.signalValue("echo").toReal(), 0.0);
+    QCOMPARE(anna.next().kind(), QPlcMessage::State);
+    QVERIFY(master.leases().at(0).isLost);
+    QCOMPARE(anna.ask(QPlcMessage::SetSignals, {{"values", values}}).text("error"), QString("LeaseHeld"));
+    QVERIFY(master.waitForCycles(master.statistics().cycles + 5));
+    QCOMPARE(master.signalValue("echo").toReal(), 0.0);
     master.stop();
 }
 

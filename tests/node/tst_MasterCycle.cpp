@@ -4,6 +4,7 @@
 #include "protocol/CyclicFrame.h"
 #include "transport/StreamTransport.h"
 
+#include <limits>
 #include <optional>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -80,6 +81,30 @@ private:
     QByteArray m_stream;
 };
 
+/// Time passes only while a cycle sleeps: each of them begins exactly when it should.
+class SleptTime : public TimeSource
+{
+public:
+    std::int64_t now() noexcept override { return m_now; }
+    bool sleepUntil(std::int64_t deadline) noexcept override
+    {
+        m_now = deadline;
+        return true;
+    }
+
+private:
+    std::int64_t m_now = 0;
+};
+
+/// A signal that somebody has taken over, and that no node writes.
+Roster rosterWithLease(std::int64_t deadline)
+{
+    Roster roster;
+    roster.held = roster.safe = {true};
+    roster.terms = {{0, std::make_shared<LeaseTerm>(deadline)}};
+    return roster;
+}
+
 }  // namespace
 
 // The cycle of a master over a stream whose kernel takes little at a time, as on a slow network.
@@ -92,6 +117,9 @@ private Q_SLOTS:
     void aCriticalNodeThatCannotWorkStopsThePlantFromTheNextCycleOn_data();
     void aCriticalNodeThatCannotWorkStopsThePlantFromTheNextCycleOn();
     void anAbandonedSignalIsSafeWhenItsHoldIsOver();
+    void leaseEndsInTheFirstCycleAfterItsDeadline_data();
+    void leaseEndsInTheFirstCycleAfterItsDeadline();
+    void valueOfALostHolderIsNotTaken();
     void theHubForgetsTheNodesOfACycleThatIsGone();
     void aNodeThatHasLeftIsFreedAtOnceWhileNoCycleRuns();
 };
@@ -185,6 +213,63 @@ void tst_MasterCycle::anAbandonedSignalIsSafeWhenItsHoldIsOver()
     roster.abandoned = {0};
     cycle.setRoster(roster);
     QTRY_COMPARE(cycle.value(0).toReal(), 1.5);
+    cycle.stop();
+    cycle.setRoster({});
+}
+
+void tst_MasterCycle::leaseEndsInTheFirstCycleAfterItsDeadline_data()
+{
+    QTest::addColumn<QString>("slope");
+    QTest::addColumn<qint64>("deadline");
+    QTest::addColumn<double>("value");
+    constexpr qint64 lastCycle = 10'000'000;  // [ns]
+    QTest::newRow("before") << "" << lastCycle + 1 << 9.0;
+    QTest::newRow("at the deadline") << "" << lastCycle << 1.5;
+    QTest::newRow("behind it") << "" << lastCycle - 3'500'000 << 1.5;
+    QTest::newRow("with a slope, in the first cycle") << "slope = 1000 per second\n" << lastCycle << 8.0;
+    QTest::newRow("with a slope, in the fourth cycle") << "slope = 1000 per second\n" << lastCycle - 3'500'000 << 5.0;
+}
+
+/// The thread of the master does nothing meanwhile.
+void tst_MasterCycle::leaseEndsInTheFirstCycleAfterItsDeadline()
+{
+    QFETCH(QString, slope);
+    QFETCH(qint64, deadline);
+    QFETCH(double, value);
+    const QPlcSignalTable table = QPlcSignalTable::fromIni("[speed]\ntype = Real64\nsafe = 1.5\n" + slope.toUtf8());
+    CyclicHub hub;
+    SleptTime time;
+    MasterCycle cycle(table, hub, false, &time);
+    QVERIFY(cycle.setValues({{0, QPlcValue(9.0)}}));
+    cycle.setRoster(rosterWithLease(deadline));
+    MasterCycle::Phase phase;
+    phase.period = std::chrono::milliseconds(1);
+    phase.cycleLimit = 11;  // the last one begins at 10 ms
+    QVERIFY(cycle.start(phase));
+    QTRY_COMPARE(cycle.cycle(), quint64(10));
+    QCOMPARE(cycle.value(0).toReal(), value);
+    cycle.stop();
+    cycle.setRoster({});
+}
+
+void tst_MasterCycle::valueOfALostHolderIsNotTaken()
+{
+    const QPlcSignalTable table = QPlcSignalTable::fromIni("[speed]\ntype = Real64\n");
+    CyclicHub hub;
+    MasterCycle cycle(table, hub, false);
+    const Roster roster = rosterWithLease(0);
+    cycle.setRoster(roster);
+    MasterCycle::Phase phase;
+    phase.period = std::chrono::milliseconds(1);
+    QVERIFY(cycle.start(phase));
+    QTRY_VERIFY(roster.terms.at(0).term->hasEnded());
+    QVERIFY(cycle.setValues({{0, QPlcValue(9.0)}}));
+    const quint64 given = cycle.cycle();
+    QTRY_VERIFY(cycle.cycle() > given + 1);
+    QCOMPARE(cycle.value(0).toReal(), 0.0);
+    cycle.setRoster(rosterWithLease(std::numeric_limits<std::int64_t>::max()));  // somebody takes it over
+    QVERIFY(cycle.setValues({{0, QPlcValue(7.0)}}));
+    QTRY_COMPARE(cycle.value(0).toReal(), 7.0);
     cycle.stop();
     cycle.setRoster({});
 }

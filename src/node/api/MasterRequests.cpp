@@ -207,7 +207,7 @@ private:
 
 void QPlcMasterNodePrivate::receive(Connection *connection, const Message &message)
 {
-    parts->leases.renew(connection->socket);
+    parts->leases.heard(connection->socket);
     QString fault;
     switch (messages::dispatch(messages::Requests(), message, Requests(*this, connection), &fault)) {
     case messages::Dispatch::Delivered:

@@ -4,6 +4,7 @@
 #include "QSplitPrimitive.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace qplc {
 
@@ -259,6 +260,7 @@ void MasterCycle::runCycle(const CycleClock::Tick &tick) noexcept
     m_statistics.begin(tick, m_clock->period());
     m_guard.begin(tick, m_clock->period(), m_phase.clock.isLockstep() ? 0 : m_time.slept());
     takeCommands();
+    endTerms(tick);
     if (m_guard.isTripped())
         m_slopes.leaveAll();
     m_slopes.advance(double(m_phase.period.count()) * 1e-9);
@@ -293,17 +295,41 @@ void MasterCycle::takeCommands() noexcept
 
 void MasterCycle::carryOut(const SetCommand &command) noexcept
 {
-    const bool isLimited = m_slopes.isLimited(command.signal);
-    if (command.isEndOfWay || (isLimited && m_roster->isWritten(command.signal))) {  // by a node that has joined since
+    if (m_roster->isNeutral(command.signal))
+        return;  // the thread of the master has accepted it, and was then so busy that the holder was lost
+    // It may have got a writer, which has joined since.
+    const bool isOfWriter = m_slopes.isLimited(command.signal) && m_roster->isWritten(command.signal);
+    if (command.isEndOfWay || isOfWriter)
         m_slopes.leave(command.signal);
-        return;
-    }
-    if (isLimited && !m_guard.isTripped())
-        m_slopes.aim(command.signal, command.bytes.data());
     else
-        std::memcpy(m_image.data() + m_image.offset(command.signal), command.bytes.data(),
-                    std::size_t(m_image.table().at(command.signal).type.size()));
-    m_signalGuard.set(command.signal, command.quality);
+        put(command.signal, command.bytes.data(), command.quality);
+}
+
+/// Signals whose term is over get their neutral values here, however busy the thread of the master
+/// is; it finds out later. The clock is the real one also in lockstep: a person is waited for.
+void MasterCycle::endTerms(const CycleClock::Tick &tick) noexcept
+{
+    if (m_roster->terms.empty())
+        return;
+    const std::int64_t time = m_phase.clock.isLockstep() ? m_time.now() : tick.woken;
+    if (time < m_nextTerm)
+        return;
+    m_nextTerm = std::numeric_limits<std::int64_t>::max();
+    for (const Roster::HeldTerm &held : m_roster->terms) {
+        if (held.term->end(time))
+            put(held.signal, m_roster->safeImage.data() + m_image.offset(held.signal), QPlcQuality::Safe);
+        else if (!held.term->hasEnded())
+            m_nextTerm = std::min(m_nextTerm, held.term->deadline());
+    }
+}
+
+void MasterCycle::put(QPlcSignalIndex signal, const char *bytes, QPlcQuality quality) noexcept
+{
+    if (m_slopes.isLimited(signal) && !m_guard.isTripped())
+        m_slopes.aim(signal, bytes);
+    else
+        std::memcpy(m_image.data() + m_image.offset(signal), bytes, std::size_t(table().at(signal).type.size()));
+    m_signalGuard.set(signal, quality);
 }
 
 /// What a node writes is its own from the next answer on.
@@ -343,6 +369,7 @@ void MasterCycle::adopt(Roster *roster, std::int64_t last) noexcept
     }
     Roster *retired = m_roster.release();
     m_roster.reset(roster);
+    m_nextTerm = 0;
     if (m_slopes.isMoving())
         leaveSlopesToWriters();
     if (!m_retiredRosters.push(retired))

@@ -140,6 +140,8 @@ private:
     void pause() noexcept;
     void takeCommands() noexcept;
     void carryOut(const SetCommand &command) noexcept;
+    void endTerms(const CycleClock::Tick &tick) noexcept;
+    void put(QPlcSignalIndex signal, const char *bytes, QPlcQuality quality) noexcept;
     void leaveSlopesToWriters() noexcept;
     void adoptPending() noexcept;
     void adopt(Roster *roster, std::int64_t last) noexcept;
@@ -183,6 +185,7 @@ private:
     std::uint64_t m_cycleZero = 0;
     std::uint64_t m_number = 0;    // of the cycle in progress, from 0
     std::int64_t m_wallStart = 0;  // [ns since 1970]
+    std::int64_t m_nextTerm = 0;   // [ns] no term of the roster is over before
 
     // both
     std::atomic<std::uint64_t> m_cycle{0};

@@ -61,6 +61,14 @@ void Roster::arrange(const ProcessImage &image)
     safeImage = SafeImage(image, safe);
 }
 
+bool Roster::isNeutral(QPlcSignalIndex signal) const noexcept
+{
+    const auto found
+        = std::lower_bound(terms.begin(), terms.end(), signal,
+                           [](const HeldTerm &term, QPlcSignalIndex wanted) { return term.signal < wanted; });
+    return found != terms.end() && found->signal == signal && found->term->hasEnded();
+}
+
 void Roster::findContests(const QPlcSignalTable &table)
 {
     std::map<QPlcSignalIndex, SignalGuard::Contest> bySignal;

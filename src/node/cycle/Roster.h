@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "LeaseTerm.h"
 #include "NodeSlot.h"
 #include "QPlcSchedule.h"
 #include "SafeValues.h"
@@ -23,6 +24,12 @@ struct Roster
         NodeSlot *slot = nullptr;
         bool feedsLaterStage = false;
     };
+    /// A signal that somebody has taken over, until its term ends.
+    struct HeldTerm
+    {
+        QPlcSignalIndex signal = QPlcInvalidSignalIndex;
+        std::shared_ptr<LeaseTerm> term;
+    };
 
     std::vector<std::shared_ptr<NodeSlot>> nodes;
     /// By index: signals that keep the value that they have been given, whatever their writer
@@ -30,6 +37,8 @@ struct Roster
     std::vector<bool> held{};
     /// By index: signals that have their safe value while the master stops safely.
     std::vector<bool> safe{};
+    /// Of signals that are held, by index.
+    std::vector<HeldTerm> terms{};
     /// Signals whose writer has left before it was among the nodes.
     std::vector<QPlcSignalIndex> abandoned{};
 
@@ -46,6 +55,8 @@ struct Roster
     /// Puts the nodes into stages. \pre they have no algebraic loop: NodeRegistry admits none
     void arrange(const ProcessImage &image);
     bool isWritten(QPlcSignalIndex signal) const noexcept { return signal < written.size() && written[signal]; }
+    /// Whether \a signal is held, and its holder lost.
+    bool isNeutral(QPlcSignalIndex signal) const noexcept;
 
 private:
     void findContests(const QPlcSignalTable &table);

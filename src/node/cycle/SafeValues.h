@@ -27,6 +27,8 @@ public:
 
     /// \param bytes  of a process image of the same table
     void applyTo(char *bytes) const noexcept;
+    /// Of a whole image, of use where values are wanted.
+    const char *data() const noexcept { return m_bytes.data(); }
 
 private:
     void add(quint32 offset, quint32 size);

@@ -6,7 +6,7 @@ namespace qplc {
 void Leases::take(const Signals &signals, Holder holder, const QString &name, std::int64_t timeout, std::int64_t now)
 {
     for (const QPlcSignalIndex signal : signals)
-        m_leases[signal] = {holder, name, timeout, now + timeout};
+        m_leases[signal] = {holder, name, timeout, std::make_shared<LeaseTerm>(now + timeout)};
 }
 
 void Leases::release(const Signals &signals)
@@ -19,13 +19,13 @@ void Leases::renew(Holder holder, std::int64_t now)
 {
     for (auto &[signal, lease] : m_leases) {
         if (lease.holder == holder)
-            lease.deadline = now + lease.timeout;
+            lease.term->renew(now, now + lease.timeout);
     }
 }
 
 Leases::Signals Leases::loseSilent(std::int64_t now)
 {
-    return lose([now](const Lease &lease) { return lease.deadline <= now; });
+    return lose([now](const Lease &lease) { return lease.term->deadline() <= now; });
 }
 
 Leases::Signals Leases::loseAllOf(Holder holder)
@@ -78,8 +78,8 @@ std::optional<std::int64_t> Leases::nextDeadline() const
 {
     std::optional<std::int64_t> next;
     for (const auto &[signal, lease] : m_leases) {
-        if (!lease.isLost() && (!next || lease.deadline < *next))
-            next = lease.deadline;
+        if (!lease.isLost() && (!next || lease.term->deadline() < *next))
+            next = lease.term->deadline();
     }
     return next;
 }
@@ -92,6 +92,15 @@ std::vector<bool> Leases::mask() const
     for (const auto &[signal, lease] : m_leases)
         held[signal] = true;
     return held;
+}
+
+std::vector<Roster::HeldTerm> Leases::terms() const
+{
+    std::vector<Roster::HeldTerm> terms;
+    terms.reserve(m_leases.size());
+    for (const auto &[signal, lease] : m_leases)
+        terms.push_back({signal, lease.term});
+    return terms;
 }
 
 }  // namespace qplc

@@ -3,6 +3,7 @@
 
 #include "QPlcSignalDefinition.h"
 #include "QPlcSignalTable.h"
+#include "node/cycle/Roster.h"
 #include "protocol/messages/Leases.h"
 
 #include <cstdint>
@@ -22,10 +23,10 @@ public:
 
     struct Lease
     {
-        Holder holder = nullptr;    // null: lost
-        QString name;               // of the holder, of a lost lease that of the last one
-        std::int64_t timeout = 0;   // longest silence of the holder
-        std::int64_t deadline = 0;  // when it is lost without a word of the holder
+        Holder holder = nullptr;          // null: lost
+        QString name;                     // of the holder, of a lost lease that of the last one
+        std::int64_t timeout = 0;         // longest silence of the holder
+        std::shared_ptr<LeaseTerm> term;  // its end without a word of the holder; cycles keep it, too
         bool isLost() const { return holder == nullptr; }
         messages::LeaseState state() const
         {
@@ -36,7 +37,7 @@ public:
     /// Gives \a signals to \a holder, whoever had them.
     void take(const Signals &signals, Holder holder, const QString &name, std::int64_t timeout, std::int64_t now);
     void release(const Signals &signals);
-    /// \a holder was heard of.
+    /// \a holder was heard of. What is over by then stays over.
     void renew(Holder holder, std::int64_t now);
     /// Loses the leases whose holder was silent for too long. \return their signals
     Signals loseSilent(std::int64_t now);
@@ -53,6 +54,8 @@ public:
     std::optional<std::int64_t> nextDeadline() const;
     /// By index, up to the last one that is taken; lost ones too.
     std::vector<bool> mask() const;
+    /// For the cycles.
+    std::vector<Roster::HeldTerm> terms() const;
     const std::map<QPlcSignalIndex, Lease> &all() const { return m_leases; }
 
 private:

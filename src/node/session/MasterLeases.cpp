@@ -38,8 +38,7 @@ MasterLeases::MasterLeases(Leases &leases, NodeRegistry &registry, MasterCycle &
 {
     m_timer.setSingleShot(true);
     m_timer.setTimerType(Qt::PreciseTimer);
-    connect(&m_timer, &QTimer::timeout, this,
-            [this] { lose(m_leases.loseSilent(monotonicNow()), QStringLiteral("has been silent for too long")); });
+    connect(&m_timer, &QTimer::timeout, this, &MasterLeases::loseSilent);
 }
 
 // ---- taking ----
@@ -180,10 +179,20 @@ bool MasterLeases::release(const MasterConnection &asker, const messages::Releas
     return true;
 }
 
-void MasterLeases::renew(const QObject *holder)
+void MasterLeases::heard(const QObject *sender)
 {
-    if (m_holders.count(holder))
-        m_leases.renew(holder, monotonicNow());  // the timer finds out by itself that it is early
+    if (!m_next)
+        return;
+    const std::int64_t now = monotonicNow();
+    if (now >= *m_next)
+        loseSilent();
+    if (m_holders.count(sender))
+        m_leases.renew(sender, now);  // the timer finds out by itself that it is early
+}
+
+void MasterLeases::loseSilent()
+{
+    lose(m_leases.loseSilent(monotonicNow()), QStringLiteral("has been silent for too long"));
 }
 
 void MasterLeases::listenToTheEndOf(const QObject *holder)
@@ -223,9 +232,10 @@ void MasterLeases::tellLost(const QString &name, const Leases::Signals &indices,
 
 void MasterLeases::waitForNext()
 {
-    const std::optional<std::int64_t> next = m_leases.nextDeadline();
-    if (next)
-        m_timer.start(int(std::max<std::int64_t>(*next - monotonicNow(), 0) / 1'000'000 + 1));
+    const std::int64_t now = monotonicNow();
+    m_next = m_leases.nextDeadline();
+    if (m_next)
+        m_timer.start(int((std::max(*m_next, now) - now) / 1'000'000 + 1));
     else
         m_timer.stop();
 }

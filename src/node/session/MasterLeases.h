@@ -33,8 +33,9 @@ public:
     bool take(const MasterConnection &asker, const messages::TakeLease &request, Refusal *refusal);
     /// Carries out ReleaseLease.
     bool release(const MasterConnection &asker, const messages::ReleaseLease &request, Refusal *refusal);
-    /// A message of \a holder came.
-    void renew(const QObject *holder);
+    /// A message of \a sender came. Before anything is done with it, leases end that are over:
+    /// their timer may be late.
+    void heard(const QObject *sender);
 
     QVector<QPlcLease> list() const;
     /// For the messages Leases and LeasesChanged.
@@ -60,6 +61,7 @@ private:
     bool readValues(const QMap<QString, QString> &texts, Wish *wish, Refusal *refusal) const;
     Leases::Signals keptSignals(const QObject *holder, const Wish &wish) const;
     bool mayTake(const QObject *holder, const Leases::Signals &indices, bool takeOver, Refusal *refusal) const;
+    void loseSilent();
     void lose(const Leases::Signals &indices, const QString &why);
     void tellLost(const QString &name, const Leases::Signals &indices, const QString &why);
     QString othersText(const QObject *holder, const Leases::Signals &indices) const;
@@ -74,6 +76,7 @@ private:
     const QPlcSignalTable &m_table;
     std::set<const QObject *> m_holders;  // whose end is listened to
     QTimer m_timer;
+    std::optional<std::int64_t> m_next;  // [ns] no lease is over before
 };
 
 }  // namespace qplc

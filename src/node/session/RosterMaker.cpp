@@ -47,6 +47,7 @@ Roster RosterMaker::make()
             roster.nodes.push_back(slot);
     }
     roster.held = m_leases.mask();
+    roster.terms = m_leases.terms();
     roster.safe = safeSignals(roster);
     for (const QPlcSignalIndex signal : m_abandoned) {
         if (m_registry.writer(signal).isEmpty())
