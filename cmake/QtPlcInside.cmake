@@ -2,6 +2,11 @@
 # The shared libraries export the public API alone. A program of this repository that calls more of
 # them has the property QTPLC_INSIDE (or the variable of that name, for all programs of a folder).
 # It contains the objects of the libraries that it links: docs/design/abi.md.
+# Where one library has all symbols for everybody (a static one, or QTPLC_EXPORT_ALL), it is that one.
+set(QTPLC_INSIDE_ARCHIVES ${BUILD_SHARED_LIBS})
+if(QTPLC_EXPORT_ALL)
+    set(QTPLC_INSIDE_ARCHIVES OFF)
+endif()
 define_property(TARGET PROPERTY QTPLC_INSIDE INITIALIZE_FROM_VARIABLE QTPLC_INSIDE
     BRIEF_DOCS "The program contains the libraries of QtPLC that it links"
     FULL_DOCS "It links each library of QtPLC as an archive of all its objects, and not as a shared library.")
@@ -17,7 +22,7 @@ endfunction()
 # qtplc_use_common(library objects): a shared library has a copy of its own, which no other library
 # sees. So these sources have no state that libraries would have to share. An archive needs no copy.
 function(qtplc_use_common library objects)
-    if(BUILD_SHARED_LIBS)
+    if(QTPLC_INSIDE_ARCHIVES)
         target_sources(${library} PRIVATE $<TARGET_OBJECTS:${objects}>)
     endif()
 endfunction()
@@ -28,7 +33,7 @@ function(qtplc_add_inside name)
     set(library QtPlc${name})
     add_library(${library}Choice INTERFACE)
     add_library(QtPlc::${name} ALIAS ${library}Choice)
-    if(NOT BUILD_SHARED_LIBS)
+    if(NOT QTPLC_INSIDE_ARCHIVES)
         target_link_libraries(${library}Choice INTERFACE ${library})
         return()
     endif()

@@ -35,7 +35,7 @@ if(QTPLC_BUILD_GUI)
 endif()
 if(TARGET QtPlcTest)
     qtplc_install_library(QtPlcTest QtPlcTestTargets libqtplc-test)
-    if(BUILD_SHARED_LIBS)
+    if(QTPLC_INSIDE_ARCHIVES)
         install(TARGETS QtPlcCoreInside EXPORT QtPlcTestTargets
             ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT libqtplc-test-dev)
     endif()

@@ -360,14 +360,14 @@ void tst_DriverRunner::cycleAndThreadNeverCallTheDriverTogether()
             runner.write(monotonicNow());
             runner.read(monotonicNow());
         }
-        bench.set("torque", -1.0, true);
+        bench.set("torque", -1.0 - phase, true);  // a value of its own: no older one comes after it
         runner.leave(monotonicNow());
         bench.device->isBroken = phase == 150;
     }
     QVERIFY(!bench.device->hasMet);
     bench.device->isBroken = false;
     QTRY_VERIFY(bench.isOnline());
-    QTRY_COMPARE(bench.device->torque.load(), -1.0);
+    QTRY_COMPARE(bench.device->torque.load(), -200.0);
     runner.stop();
     QVERIFY(!bench.device->hasMet);
 }

@@ -143,7 +143,11 @@ void tst_PlotSources::aLegendGetsALineMoreWhenItsValuesGetWider()
     window.plot->resize(280, 240);
     QVERIFY(window.run(0.3));
     const auto *legend = window.part<PlotLegend>();
-    QTRY_VERIFY(legend->entries().at(1).value.size() > 7);
+    QTRY_VERIFY2(legend->entries().at(1).value.size() > 7,
+                 qPrintable(QStringLiteral("'%1' after %2 s, %3 pictures")
+                                .arg(legend->entries().at(1).value)
+                                .arg(window.past())
+                                .arg(window.plot->drawnPictures())));
     QTRY_VERIFY(legend->entryRect(2).bottom() <= legend->parentWidget()->height());
     QVERIFY(legend->entryRect(2).top() > legend->entryRect(0).top());
 }
