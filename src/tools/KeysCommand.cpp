@@ -62,8 +62,17 @@ struct KeyFile
     {
         return SecretFile::read(name, SecretFile::Secret, &text, error) && keys.parse(text, name, error);
     }
-    bool write(const QByteArray &content, QString *error) const { return SecretFile::write(name, content, error); }
 };
+
+/// Tells what is wrong. \return whether the file is written
+bool write(const QString &fileName, const QByteArray &content)
+{
+    QString problem;
+    const bool isWritten = SecretFile::write(fileName, content, &problem);
+    if (!problem.isEmpty())
+        QPlcCoreApplication::printError(problem);
+    return isWritten;
+}
 
 int failure(const QString &text)
 {
@@ -92,8 +101,8 @@ int newOne(const CommandCall &call, KeyFile &file, const QString &identity)
     const QByteArray section = sectionOf(identity, newKey(), *role);
     const QByteArray rest = known ? without(file.text, known->firstLine) : file.text;
     const QByteArray gap = rest.isEmpty() || rest.endsWith('\n') ? QByteArray() : QByteArrayLiteral("\n");
-    if (!file.write(rest + gap + section, &error) || (!copy.isEmpty() && !SecretFile::write(copy, section, &error)))
-        return failure(error);
+    if (!write(file.name, rest + gap + section) || (!copy.isEmpty() && !write(copy, section)))
+        return QPlcCoreApplication::Failure;
     printText(QStringLiteral("%1: key of '%2' with role %3%4\n")
                   .arg(file.name, identity, qplc::roleName(*role),
                        copy.isEmpty() ? QString() : QStringLiteral("; alone in %1").arg(copy)));
@@ -130,8 +139,8 @@ int revoke(KeyFile &file, const QString &identity)
     const Keyring::Entry *entry = file.keys.find(identity);
     if (!entry)
         return failure(QStringLiteral("%1 has no key of '%2'").arg(file.name, printable(identity)));
-    if (!file.write(without(file.text, entry->firstLine), &error))
-        return failure(error);
+    if (!write(file.name, without(file.text, entry->firstLine)))
+        return QPlcCoreApplication::Failure;
     printText(
         QStringLiteral("%1: the key of '%2' is revoked; who is connected with it stays until the connection ends\n")
             .arg(file.name, identity));

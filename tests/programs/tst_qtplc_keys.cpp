@@ -12,7 +12,10 @@ class tst_qtplc_keys : public QObject
 private Q_SLOTS:
     void init() { m_folder.reset(new QTemporaryDir); }
     void keysAreMadeShownAndRevoked();
+    void keysSurviveALossOfPower_data();
     void keysSurviveALossOfPower();
+    void filesThatCannotBeSyncedAreReported_data();
+    void filesThatCannotBeSyncedAreReported();
     void otherLinesOfTheFileStay();
     void mistakesAreReportedInOneSentence_data();
     void mistakesAreReportedInOneSentence();
@@ -34,8 +37,24 @@ private:
         QFile file(path(name));
         return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray("none");
     }
+    /// Makes a key of `Model` while strace, with these options, writes `trace`.
+    Outcome tracedKey(const QStringList &options, const QStringList &arguments) const
+    {
+        return runProgram("strace",
+                          QStringList{"-f", "-qq", "-y", "-o", path("trace")} + options
+                              + QStringList{programPath("qtplc"), "keys", "new", "Model"} + arguments);
+    }
     QScopedPointer<QTemporaryDir> m_folder;
 };
+
+namespace {
+
+bool canTrace()
+{
+    return runProgram("strace", {"-f", "-qq", "-o", "/dev/null", "true"}).exitCode == 0;
+}
+
+}  // namespace
 
 void tst_qtplc_keys::keysAreMadeShownAndRevoked()
 {
@@ -66,22 +85,62 @@ void tst_qtplc_keys::keysAreMadeShownAndRevoked()
     QCOMPARE(keys({"list"}).exitCode, 0);
 }
 
+void tst_qtplc_keys::keysSurviveALossOfPower_data()
+{
+    QTest::addColumn<QString>("name");
+    QTest::newRow("file") << "keys.ini";
+    QTest::newRow("link to a file of another folder") << "link.ini";
+}
+
 void tst_qtplc_keys::keysSurviveALossOfPower()
 {
-    const QString trace = path("trace");
-    const QStringList options{"-f", "-qq", "-y", "-e", "trace=fsync,fdatasync,linkat,rename,renameat,renameat2",
-                              "-o", trace};
-    if (runProgram("strace", options + QStringList{"true"}).exitCode != 0)
+    QFETCH(QString, name);
+    if (!canTrace())
         QSKIP("strace is not there, or may not trace");
-    const Outcome made = runProgram(
-        "strace", options + QStringList{programPath("qtplc"), "keys", "new", "Model", "--keys", path("keys.ini")});
+    const QString folder = path(name == "link.ini" ? "real" : ".");
+    QVERIFY(QDir().mkpath(folder) && QFile::link("real/keys.ini", path("link.ini")));
+    const Outcome made = tracedKey({"-e", "trace=fsync,fdatasync,linkat,rename,renameat,renameat2"},
+                                   {"--keys", m_folder->filePath(name)});
     QCOMPARE(made.errors, QString());
     const QStringList calls = QString::fromUtf8(content("trace")).split('\n').filter(m_folder->path());
     const int named = calls.indexOf(QRegularExpression(".*(link|rename).*keys\\.ini.*"));
     QVERIFY2(named > 0, qPrintable(calls.join('\n')));
     QVERIFY2(calls.at(named - 1).contains("sync("), qPrintable(calls.join('\n')));  // the keys
-    QVERIFY2(calls.value(named + 1).contains(QRegularExpression("fsync\\(\\d+<" + m_folder->path() + ">")),
+    QVERIFY2(calls.value(named + 1).contains(QRegularExpression("fsync\\(\\d+<" + QDir::cleanPath(folder) + ">")),
              qPrintable(calls.join('\n')));  // their name
+}
+
+void tst_qtplc_keys::filesThatCannotBeSyncedAreReported_data()
+{
+    QTest::addColumn<QStringList>("fault");
+    QTest::addColumn<QString>("report");
+    QTest::addColumn<bool>("isWritten");
+    const QString notSynced = "is written, but may not survive a loss of power: ";
+    QTest::newRow("file system without sync") << QStringList{"inject=fsync:error=EINVAL"} << "" << true;
+    QTest::newRow("disk fails") << QStringList{"inject=fsync:error=EIO"} << "cannot write %1: Input/output error"
+                                << false;
+    QTest::newRow("disk fails at the folder")
+        << QStringList{"inject=fsync:error=EIO", "-P", "FOLDER"} << "%1 " + notSynced + "Input/output error" << true;
+    // Each file opens its folder twice: for a file without a name, and to sync.
+    QTest::newRow("folder of mode 0300") << QStringList{"inject=openat:error=EACCES:when=2+2", "-P", "FOLDER"}
+                                         << "%1 " + notSynced + "Permission denied" << true;
+}
+
+void tst_qtplc_keys::filesThatCannotBeSyncedAreReported()
+{
+    QFETCH(QStringList, fault);
+    QFETCH(QString, report);
+    QFETCH(bool, isWritten);
+    if (!canTrace())
+        QSKIP("strace is not there, or may not trace");
+    const Outcome made = tracedKey(QStringList{"-e"} + fault.replaceInStrings("FOLDER", m_folder->path()),
+                                   {"--keys", path("keys.ini"), "--copy", path("model.ini")});
+    QCOMPARE(made.exitCode, isWritten ? 0 : 1);
+    for (const char *name : {"keys.ini", "model.ini"})
+        QCOMPARE(content(name).contains("[Model]"), isWritten);
+    QVERIFY2(made.errors.contains(QString(report).replace("%1", path("keys.ini"))), qPrintable(made.errors));
+    QCOMPARE(made.errors.count("may not survive"), report.contains("may not survive") ? 2 : 0);
+    QCOMPARE(made.errors.isEmpty(), report.isEmpty());
 }
 
 void tst_qtplc_keys::otherLinesOfTheFileStay()

@@ -38,14 +38,21 @@ QString weakness(const QString &fileName, SecretFile::Need need, const struct st
     return {};
 }
 
-/// So that a new name in the folder of a file survives a loss of power.
+/// \return false, with errno, if data may be lost; file systems that cannot sync are no error
+bool sync(int descriptor)
+{
+    return ::fsync(descriptor) == 0 || errno == EINVAL || errno == EROFS;
+}
+
+/// So that the new name of a file survives a loss of power. A link stays: the name is new in the
+/// folder of the file that it leads to.
 bool syncFolderOf(const QString &fileName)
 {
-    const QByteArray folder = QFile::encodeName(QFileInfo(fileName).absolutePath());
+    const QByteArray folder = QFile::encodeName(QFileInfo(fileName).canonicalPath());
     const int descriptor = ::open(folder.constData(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (descriptor < 0)
         return false;
-    const bool isDone = ::fsync(descriptor) == 0 || errno == EINVAL || errno == EROFS;  // a file system that cannot
+    const bool isDone = sync(descriptor);
     const int error = errno;
     ::close(descriptor);
     errno = error;
@@ -72,21 +79,20 @@ bool SecretFile::read(const QString &fileName, Need need, QByteArray *content, Q
     return true;
 }
 
-bool SecretFile::write(const QString &fileName, const QByteArray &content, QString *error)
+bool SecretFile::write(const QString &fileName, const QByteArray &content, QString *problem)
 {
     QSaveFile file(fileName);
     file.setDirectWriteFallback(false);
+    // commit() syncs, too, but replaces the old content even if that fails.
     if (!file.open(QIODevice::WriteOnly) || !file.setPermissions(QFileDevice::ReadOwner | QFileDevice::WriteOwner)
-        || file.write(content) != content.size() || !file.flush() || ::fsync(file.handle()) != 0 || !file.commit()) {
+        || file.write(content) != content.size() || !file.flush() || !sync(file.handle()) || !file.commit()) {
         const QString reason = file.error() == QFileDevice::NoError ? systemErrorText() : file.errorString();
-        *error = QStringLiteral("cannot write %1: %2").arg(fileName, reason);
+        *problem = QStringLiteral("cannot write %1: %2").arg(fileName, reason);
         return false;
     }
-    if (!syncFolderOf(fileName)) {
-        *error
+    if (!syncFolderOf(fileName))
+        *problem
             = QStringLiteral("%1 is written, but may not survive a loss of power: %2").arg(fileName, systemErrorText());
-        return false;
-    }
     return true;
 }
 

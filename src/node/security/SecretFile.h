@@ -20,7 +20,8 @@ public:
     /// \return false, with file and remedy in \a error, when it is not such a file
     static bool read(const QString &fileName, Need need, QByteArray *content, QString *error);
     /// Writes the file as a whole, or leaves it as it was; its mode becomes 0600.
-    static bool write(const QString &fileName, const QByteArray &content, QString *error);
+    /// \return whether it is written; \a problem says if it then may not survive a loss of power
+    static bool write(const QString &fileName, const QByteArray &content, QString *problem);
 };
 
 }  // namespace qplc
