@@ -32,7 +32,7 @@ public:
     explicit QPlcFrameRateLimiter(QPlcIOBufferSlaveNode *node, QObject *parent = nullptr);
 
     /// Sets the number of batches per second; default 50. The interval is rounded to 1 ms.
-    /// \param framesPerSecond  1 to 1000; a value outside becomes the nearest limit
+    /// \param framesPerSecond  1 to 1000; a value outside becomes the nearest limit, and NaN 1
     void setFrameRateLimit(double framesPerSecond);
     /// Returns the number of batches per second.
     double frameRateLimit() const;

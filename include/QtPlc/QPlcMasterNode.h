@@ -146,8 +146,8 @@ public:
     ///     statistics show it
     /// \return false when the period is out of range (IntervalError)
     bool setInterval(std::chrono::nanoseconds period);
-    /// Sets the period in seconds, as above.
-    bool setInterval(double seconds) { return setInterval(std::chrono::nanoseconds(qRound64(seconds * 1e9))); }
+    /// Sets the period in seconds, rounded to 1 ns, as above. NaN and infinity are out of range.
+    bool setInterval(double seconds);
     /// Returns the period.
     std::chrono::nanoseconds interval() const;
     /// Sets how the cycles follow each other; default QPlcClock::realTime(). Takes effect at the

@@ -275,11 +275,9 @@ public:
     /// \return false when \a time is out of range: error() is then OptionError, and nothing has
     ///     changed
     bool activateWatchdog(std::chrono::nanoseconds time);
-    /// Sets the watchdog time in seconds, as above.
-    bool activateWatchdog(double seconds)
-    {
-        return activateWatchdog(std::chrono::nanoseconds(qRound64(seconds * 1e9)));
-    }
+    /// Sets the watchdog time in seconds, rounded to 1 ns, as above. NaN and infinity are out of
+    /// range.
+    bool activateWatchdog(double seconds);
     /// Returns the watchdog time of this phase or the last one; before the first phase the one that
     /// was set. 0: no watchdog.
     std::chrono::nanoseconds watchdog() const;

@@ -79,7 +79,7 @@ public:
     void show(Time begin, Time end);
     /// Zooms, while \a about keeps its place. A live axis that is zoomed at its right end stays
     /// live.
-    /// \param factor  less than 1 shows less
+    /// \param factor  less than 1 shows less; the span stays within its limits, whatever the factor
     /// \param about  time that keeps its place
     void zoom(double factor, Time about);
     /// Moves the range, and freezes.

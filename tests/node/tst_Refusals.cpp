@@ -27,6 +27,8 @@ private Q_SLOTS:
     void limitsOfAMasterHaveRanges();
     void aFunctionThatSucceedsSetsTheErrorBack();
     void aWatchdogTimeHasARange();
+    void secondsThatDoNotFitAreRefused_data();
+    void secondsThatDoNotFitAreRefused();
 
 private:
     QScopedPointer<TestMaster> m_master;
@@ -378,6 +380,41 @@ void tst_Refusals::aWatchdogTimeHasARange()
     QVERIFY(!node.activateWatchdog(24h + 1s));
     QCOMPARE(node.watchdog(), std::chrono::nanoseconds(24h));
     QVERIFY(node.activateWatchdog(0s));
+}
+
+void tst_Refusals::secondsThatDoNotFitAreRefused_data()
+{
+    QTest::addColumn<double>("seconds");
+    QTest::addColumn<QString>("text");
+    QTest::newRow("not a number") << qQNaN() << "nan";
+    QTest::newRow("infinity") << qInf() << "inf";
+    QTest::newRow("minus infinity") << -qInf() << "-inf";
+    QTest::newRow("more than 64 bits") << 1e10 << "1e+10";
+    QTest::newRow("more than a duration") << 1e300 << "1e+300";
+    QTest::newRow("less than 64 bits") << -1e300 << "-1e+300";
+}
+
+void tst_Refusals::secondsThatDoNotFitAreRefused()
+{
+    using namespace std::chrono_literals;
+    QFETCH(double, seconds);
+    QFETCH(QString, text);
+    TestMaster master;
+    QVERIFY(master.setInterval(0.010));
+    QVERIFY(!master.setInterval(seconds));
+    QCOMPARE(master.error(), QPlcMasterNode::IntervalError);
+    QCOMPARE(master.errorString(), "a period of " + text + " s is out of range; use 0.00001 ... 10 s");
+    QVERIFY(master.interval() == 10ms);
+
+    CounterNode node;
+    QVERIFY(node.activateWatchdog(0.5));
+    const QString report
+        = "node 'Counter': a watchdog time of " + text + " s is out of range; use 0 (none) ... 86400 s";
+    QTest::ignoreMessage(QtWarningMsg, qPrintable(report));
+    QVERIFY(!node.activateWatchdog(seconds));
+    QCOMPARE(node.error(), QPlcSlaveNode::OptionError);
+    QCOMPARE(node.errorString(), report);
+    QVERIFY(node.watchdog() == 500ms);
 }
 
 QTEST_GUILESS_MAIN(tst_Refusals)

@@ -338,6 +338,8 @@ void tst_SignalListNodes::frameRateLimitIsClampedToItsRange()
     QCOMPARE(limiter.frameRateLimit(), 1.0);
     limiter.setFrameRateLimit(1e9);
     QCOMPARE(limiter.frameRateLimit(), 1000.0);
+    limiter.setFrameRateLimit(qQNaN());
+    QCOMPARE(limiter.frameRateLimit(), 1.0);
     delete viewer;
     QTest::qWait(20);  // the limiter has nobody to ask any more
 }

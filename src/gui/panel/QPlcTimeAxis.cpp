@@ -15,8 +15,8 @@ void QPlcTimeAxis::show(Time begin, Time end)
 
 void QPlcTimeAxis::zoom(double factor, Time about)
 {
-    const double wanted = std::fmin(double(m_span) * factor, double(longestSpan));
-    const Time span = std::max(Time(wanted), shortestSpan);
+    // These also give NaN a place in the range.
+    const Time span = Time(std::fmax(std::fmin(double(m_span) * factor, double(longestSpan)), double(shortestSpan)));
     const double share = double(end() - about) / double(m_span);
     change(m_isLive && about >= end(), about + Time(std::llround(share * double(span))), span);
 }

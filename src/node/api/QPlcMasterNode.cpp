@@ -23,6 +23,12 @@ bool isClaimed(QPlcMasterNodePrivate &master, const QString &fault)
     return fault.isEmpty() ? master.succeed() : master.setError(QPlcMasterNode::SignalError, fault);
 }
 
+bool refusePeriod(QPlcMasterNodePrivate &master, double seconds)
+{
+    return master.setError(QPlcMasterNode::IntervalError,
+                           QStringLiteral("a period of %1 s is out of range; use 0.00001 ... 10 s").arg(seconds));
+}
+
 /// Whether \a time may be a limit; if not, tells what may.
 /// \param limit  "an initialization timeout"
 bool isLimit(QPlcMasterNodePrivate &master, std::chrono::nanoseconds time, std::chrono::nanoseconds shortest,
@@ -106,11 +112,15 @@ bool QPlcMasterNode::activateStatisticSignal(QPlcStatisticFigure figure, const Q
 bool QPlcMasterNode::setInterval(std::chrono::nanoseconds period)
 {
     if (period < qplc::ShortestPeriod || period > qplc::LongestPeriod)
-        return d->setError(IntervalError,
-                           QStringLiteral("a period of %1 s is out of range; use 0.00001 ... 10 s")
-                               .arg(double(period.count()) * 1e-9));
+        return refusePeriod(*d, double(period.count()) * 1e-9);
     d->phaseSettings.interval = period;
     return d->succeed();
+}
+
+bool QPlcMasterNode::setInterval(double seconds)
+{
+    const std::optional<std::chrono::nanoseconds> period = qplc::nanosecondsOf(seconds);
+    return period ? setInterval(*period) : refusePeriod(*d, seconds);
 }
 
 std::chrono::nanoseconds QPlcMasterNode::interval() const

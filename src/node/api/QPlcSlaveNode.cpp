@@ -4,6 +4,7 @@
 #include "IndexListCode.h"
 #include "QPlcSignalIndexTable.h"
 #include "QPlcSlaveNodePrivate.h"
+#include "node/cycle/PeriodRange.h"
 #include "transport/FaultPlan.h"
 
 #include <QtCore/QEventLoop>
@@ -11,6 +12,19 @@
 #include <QtCore/QTimer>
 
 #include <stdexcept>
+
+namespace {
+
+bool refuseWatchdog(QPlcSlaveNodePrivate &node, double seconds)
+{
+    node.setError(QPlcSlaveNode::OptionError,
+                  QStringLiteral("node '%1': a watchdog time of %2 s is out of range; use 0 (none) ... 86400 s")
+                      .arg(node.name)
+                      .arg(seconds));
+    return false;
+}
+
+}  // namespace
 
 /// The code of a node whose program works with lists of values.
 class QPlcSlaveNode::ListCode : public qplc::IndexListCode
@@ -241,15 +255,16 @@ bool QPlcSlaveNode::isSecured() const
 bool QPlcSlaveNode::activateWatchdog(std::chrono::nanoseconds time)
 {
     constexpr std::chrono::hours longest{24};
-    if (time < std::chrono::nanoseconds(0) || time > longest) {
-        d->setError(OptionError,
-                    QStringLiteral("node '%1': a watchdog time of %2 s is out of range; use 0 (none) ... 86400 s")
-                        .arg(d->name)
-                        .arg(double(time.count()) * 1e-9));
-        return false;
-    }
+    if (time < std::chrono::nanoseconds(0) || time > longest)
+        return refuseWatchdog(*d, double(time.count()) * 1e-9);
     setDefaultWatchdog(time, 0);
     return true;
+}
+
+bool QPlcSlaveNode::activateWatchdog(double seconds)
+{
+    const std::optional<std::chrono::nanoseconds> time = qplc::nanosecondsOf(seconds);
+    return time ? activateWatchdog(*time) : refuseWatchdog(*d, seconds);
 }
 
 void QPlcSlaveNode::setDefaultWatchdog(std::chrono::nanoseconds time, int periods)

@@ -109,6 +109,8 @@ void tst_QPlcTimeAxis::spansHaveLimits()
     QCOMPARE(m_view->span(), QPlcTimeAxis::longestSpan);
     m_view->zoom(std::numeric_limits<double>::quiet_NaN(), 0);
     QVERIFY(m_view->span() >= QPlcTimeAxis::shortestSpan);
+    m_view->zoom(-1e300, 0);
+    QCOMPARE(m_view->span(), QPlcTimeAxis::shortestSpan);
 }
 
 void tst_QPlcTimeAxis::liveNobodyHasToLookAtAnotherTime()
