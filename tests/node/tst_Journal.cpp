@@ -21,8 +21,23 @@ private Q_SLOTS:
     void eachReportOfOverrunsHasItsOwnNumbers();
     void alarmsAreToldOnceAndCleared();
     void alarmsThatNobodyClearsHaveABound();
+    void theLeastSevereAlarmIsDroppedFirst();
+    void aWarningDropsNoError();
 
 private:
+    static void raise(Journal *journal, const QString &alarm, JournalEvent::Severity severity)
+    {
+        journal->raise(alarm, severity, JournalEvent::Node, alarm, "node is lost");
+    }
+    static void raiseMany(Journal *journal, int count)
+    {
+        for (int i = 0; i < count; ++i)
+            raise(journal, QStringLiteral("node %1").arg(i, 4, 10, QLatin1Char('0')), JournalEvent::Warning);
+    }
+    static std::vector<JournalEvent> newest(const Journal &journal, int count)
+    {
+        return journal.events().after(journal.events().newest() - quint64(count), std::size_t(count));
+    }
     static QStringList texts(const Journal &journal)
     {
         QStringList texts;
@@ -114,19 +129,48 @@ void tst_Journal::alarmsAreToldOnceAndCleared()
 void tst_Journal::alarmsThatNobodyClearsHaveABound()
 {
     Journal journal;
-    for (int i = 0; i < Journal::mostAlarms; ++i)
-        journal.raise(QStringLiteral("node %1").arg(i), JournalEvent::Warning, JournalEvent::Node, QString::number(i),
-                      "node is lost");
-    journal.raise("node of a stranger", JournalEvent::Warning, JournalEvent::Node, "stranger", "node is lost");
-    const std::vector<JournalEvent> last = journal.events().after(journal.events().newest() - 2, 2);
-    QCOMPARE(last[0].alarm, QString("node 0"));
-    QVERIFY(!last[0].isActive);
-    QVERIFY2(last[0].text.startsWith("node 0: forgotten, because "), qPrintable(last[0].text));
-    QCOMPARE(last[1].alarm, QString("node of a stranger"));
-    QVERIFY(last[1].isActive);
-    journal.raise("node 1", JournalEvent::Warning, JournalEvent::Node, "1", "node is lost again");  // it is one of them
-    QCOMPARE(journal.events().after(journal.events().newest() - 1, 1)[0].text, QString("node is lost again"));
-    QCOMPARE(journal.events().after(journal.events().newest() - 2, 1)[0].alarm, QString("node of a stranger"));
+    raiseMany(&journal, int(Journal::mostAlarms));
+    raise(&journal, "node of a stranger", JournalEvent::Warning);
+    const std::vector<JournalEvent> last = newest(journal, 2);
+    QCOMPARE(last[0].alarm, QString("node of a stranger"));
+    QVERIFY(last[0].isActive);
+    QCOMPARE(last[1].alarm, QString("node 0000"));
+    QVERIFY(!last[1].isActive);
+    QCOMPARE(
+        last[1].text,
+        QString("node 0000: this condition may still last; the master keeps 1000 alarms and will not report its end"));
+    QCOMPARE(last[1].severity, JournalEvent::Warning);
+    raise(&journal, "node 0001", JournalEvent::Warning);  // it is one of them
+    QCOMPARE(newest(journal, 1)[0].alarm, QString("node 0001"));
+    QCOMPARE(newest(journal, 2)[0].alarm, QString("node 0000"));
+}
+
+void tst_Journal::theLeastSevereAlarmIsDroppedFirst()
+{
+    Journal journal;
+    raise(&journal, "oldest error", JournalEvent::Error);
+    pass(1s);
+    raise(&journal, "became an error", JournalEvent::Warning);
+    raise(&journal, "became an error", JournalEvent::Error);
+    pass(1s);
+    raise(&journal, "warning", JournalEvent::Warning);
+    pass(1s);
+    raiseMany(&journal, int(Journal::mostAlarms) - 3);
+    raise(&journal, "error", JournalEvent::Error);
+    QCOMPARE(newest(journal, 1)[0].alarm, QString("warning"));
+    raise(&journal, "another error", JournalEvent::Error);
+    QCOMPARE(newest(journal, 1)[0].alarm, QString("node 0000"));
+}
+
+void tst_Journal::aWarningDropsNoError()
+{
+    Journal journal;
+    for (std::size_t i = 0; i < Journal::mostAlarms; ++i)
+        raise(&journal, QStringLiteral("error %1").arg(i), JournalEvent::Error);
+    raise(&journal, "warning", JournalEvent::Warning);
+    for (const JournalEvent &event : newest(journal, 2))
+        QCOMPARE(event.alarm, QString("warning"));
+    QCOMPARE(newest(journal, 1)[0].isActive, false);
 }
 
 QTPLC_VIRTUAL_TIME_MAIN(tst_Journal)

@@ -6,6 +6,7 @@
 #include "realtime/TimeSource.h"
 
 #include <algorithm>
+#include <tuple>
 
 namespace qplc {
 
@@ -63,19 +64,26 @@ void Journal::raise(const QString &alarm, JournalEvent::Severity severity, Journ
                     const QString &source, const QString &text)
 {
     const JournalEvent event{severity, kind, source, text, alarm, true};
-    if (m_alarms.count(alarm) == 0 && m_alarms.size() >= mostAlarms)
-        forgetOldest();
-    m_alarms.try_emplace(alarm, Alarm{event, monotonicNow()});
+    m_alarms.try_emplace(alarm, Alarm{event, monotonicNow()}).first->second.event = event;
     append(event);
+    if (m_alarms.size() > mostAlarms)
+        dropLeastSevere();
 }
 
-void Journal::forgetOldest()
+void Journal::dropLeastSevere()
 {
-    const auto oldest = std::min_element(m_alarms.begin(), m_alarms.end(), [](const auto &one, const auto &other) {
-        return one.second.since < other.second.since;
+    const auto dropped = std::min_element(m_alarms.begin(), m_alarms.end(), [](const auto &one, const auto &other) {
+        return std::tie(one.second.event.severity, one.second.since)
+            < std::tie(other.second.event.severity, other.second.since);
     });
-    const QString alarm = oldest->first;
-    clear(alarm, QStringLiteral("%1: forgotten, because more than %2 conditions last").arg(alarm).arg(mostAlarms));
+    JournalEvent event = dropped->second.event;
+    event.text
+        = QStringLiteral("%1: this condition may still last; the master keeps %2 alarms and will not report its end")
+              .arg(event.alarm)
+              .arg(mostAlarms);
+    event.isActive = false;
+    m_alarms.erase(dropped);
+    append(event);
 }
 
 void Journal::clear(const QString &alarm, const QString &text)

@@ -22,7 +22,7 @@ class Journal : public QObject
 {
     Q_OBJECT
 public:
-    static constexpr int mostAlarms = 1000;  // that last
+    static constexpr std::size_t mostAlarms = 1000;  // that last
 
     Journal();
 
@@ -31,8 +31,9 @@ public:
     /// \param source  name of a node, or of the master
     void tell(JournalEvent::Severity severity, JournalEvent::Kind kind, const QString &source, const QString &text);
     /// Tells that something abnormal begins, and lasts until it is cleared; its duration counts
-    /// from the first time on. If mostAlarms last already, the one that began first is over:
-    /// strangers may bring names without an end.
+    /// from the first time on. Strangers may bring names without an end: if more than mostAlarms
+    /// last, the least severe one, and of these the oldest, is dropped, which is told with its
+    /// severity.
     /// \param alarm  what: "node Winch"
     void raise(const QString &alarm, JournalEvent::Severity severity, JournalEvent::Kind kind, const QString &source,
                const QString &text);
@@ -74,7 +75,7 @@ private:
     };
 
     void append(const JournalEvent &event);
-    void forgetOldest();
+    void dropLeastSevere();
     void tellLimited(const QString &thing, const QString &begin, const JournalEvent &event);
     void tellDue();
     void waitForNext();
