@@ -101,6 +101,10 @@ void PanelTable::choose(int column, bool isShown)
         m_chosen.insert(column);
     else
         m_chosen.remove(column);
+    if (isShown && !m_columns.at(column).isShown)
+        m_kept.insert(column);
+    else
+        m_kept.remove(column);
     setColumnHidden(column, !isShown);
 }
 
@@ -183,6 +187,8 @@ void PanelTable::stretch()
     for (const int column : qAsConst(m_dispensable)) {
         if (others + m_leastWidth <= viewport()->width())
             break;
+        if (m_kept.contains(column))
+            continue;
         others -= columnWidth(column);
         setColumnHidden(column, true);
     }
@@ -217,6 +223,8 @@ void PanelTable::writeSettings(PanelSettings *settings) const
 void PanelTable::showColumn(int column, bool isShown)
 {
     choose(column, isShown);
+    if (isShown)
+        m_kept.insert(column);
     grow();
     stretch();
     Q_EMIT settingsEdited();
@@ -249,9 +257,9 @@ QMenu *PanelTable::createColumnMenu(QWidget *parent)
         QAction *action = menu->addAction(model()->headerData(column, Qt::Horizontal).toString());
         action->setCheckable(true);
         connect(menu, &QMenu::aboutToShow, action,
-                [this, action, column] { action->setChecked(m_chosen.contains(column)); });
-        action->setChecked(m_chosen.contains(column));
-        connect(action, &QAction::triggered, this, [this, column](bool isOn) { showColumn(column, isOn); });
+                [this, action, column] { action->setChecked(!isColumnHidden(column)); });
+        action->setChecked(!isColumnHidden(column));
+        connect(action, &QAction::triggered, this, [this, column] { showColumn(column, isColumnHidden(column)); });
     }
     return menu;
 }

@@ -39,8 +39,8 @@ public:
     /// This column takes the space that the others leave, and is always there. \param characters at
     /// least so much
     void setStretchedColumn(int column, int characters);
-    /// A panel that is too narrow for all chosen columns leaves these out, the first one first.
-    /// Without them the stretched column has what is left.
+    /// A panel that is too narrow for all chosen columns leaves these out, the first one first. A
+    /// column that a person has added stays. The stretched column has what is left.
     void setDispensable(const QVector<int> &columns) { m_dispensable = columns; }
     /// Names that are too long lose their middle: many differ at their ends.
     void setNameColumn(int column);
@@ -80,6 +80,7 @@ private:
     Sorting m_sorting;
     QVector<Column> m_columns;
     QSet<int> m_chosen;  // columns that are shown if there is room
+    QSet<int> m_kept;    // those of them that a person has added: shown in any case
     QVector<int> m_dispensable;
     QHash<int, int> m_widest;  // [px], of all texts so far, of each column that grows
     int m_stretched = -1;

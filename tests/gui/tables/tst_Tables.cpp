@@ -109,6 +109,7 @@ private Q_SLOTS:
     void signalsAreAddedOnceAndRemoved();
     void aSignalIsAddedByKeys();
     void missingSignalsAndStaleValuesAreMarked();
+    void addedColumnsStayInANarrowTable();
     void valuesAreSortedAsNumbersAndDoNotJump();
     void selectedRowsAreCopiedWithTabs();
     void pastValuesShowTheirTime();
@@ -287,6 +288,37 @@ void tst_Tables::narrowTablesLeaveOutTheLessImportantColumns()
     QVERIFY(values.view->isColumnHidden(ValueTableModel::Minimum));
     QCOMPARE(log.panel.settings(), QJsonObject());  // the columns are chosen as before
     log.panel.resize(1400, 200);
+void tst_Tables::addedColumnsStayInANarrowTable()
+{
+    Bench<QPlcValueTable> bench;
+    QVERIFY(bench.panel.addSignals({"count"}));
+    bench.panel.resize(300, 200);
+    QTRY_VERIFY(bench.view->isColumnHidden(ValueTableModel::Minimum));
+    QMenu *menu = bench.panel.actions().last()->menu();
+    const auto choose = [&](int column) {
+        Q_EMIT menu->aboutToShow();
+        const QString title = bench.view->model()->headerData(column, Qt::Horizontal).toString();
+        for (QAction *action : menu->actions()) {
+            if (action->text() == title)
+                action->trigger();
+        }
+    };
+    for (const int column : {ValueTableModel::Rate, ValueTableModel::Minimum}) {
+        choose(column);
+        QVERIFY(!bench.view->isColumnHidden(column));
+    }
+    bench.panel.resize(290, 200);
+    QVERIFY(!bench.view->isColumnHidden(ValueTableModel::Rate));
+    QVERIFY(!bench.view->isColumnHidden(ValueTableModel::Minimum));
+    QVERIFY(bench.view->isColumnHidden(ValueTableModel::Maximum));
+    const QJsonObject settings = bench.panel.settings();
+
+    choose(ValueTableModel::Rate);
+    QVERIFY(bench.view->isColumnHidden(ValueTableModel::Rate));
+    bench.panel.applySettings(settings);  // as a window does after a start, or an undo
+    QVERIFY(!bench.view->isColumnHidden(ValueTableModel::Rate));
+}
+
     values.panel.resize(1400, 200);
     QVERIFY(!log.view->isColumnHidden(EventLogModel::Source));
     QVERIFY(!values.view->isColumnHidden(ValueTableModel::Minimum));
