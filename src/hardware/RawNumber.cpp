@@ -48,6 +48,13 @@ quint64 nearestInteger(double value, double lowest, double beyond, RawNumber::Fi
 
 }  // namespace
 
+double RawNumber::scaled(double value, double factor, double offset) noexcept
+{
+    const double number = (value - offset) / factor;
+    return std::isinf(number) && std::isfinite(value) ? std::copysign(std::numeric_limits<double>::max(), number)
+                                                      : number;
+}
+
 qint64 RawNumber::decodeSigned(quint64 value) const noexcept
 {
     const bool isNegative = (value >> (bits - 1)) & 1;

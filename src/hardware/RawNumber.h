@@ -18,6 +18,9 @@ struct RawNumber
     Kind kind = Unsigned;
     int bits = 16;  // 1 ... 64; of a float 32 or 64
 
+    /// The number of a device for \a value = number * factor + offset; finite if the value is.
+    static double scaled(double value, double factor, double offset) noexcept;
+
     /// \param value  bits above those of the number do not count
     double decode(quint64 value) const noexcept;
     /// \return the bits of the nearest number, halves away from 0; those above may be set

@@ -20,6 +20,7 @@ private Q_SLOTS:
     void valueIsTheNearestNumberOfItsBits_data();
     void valueIsTheNearestNumberOfItsBits();
     void bitsAboveTheNumberDoNotCount();
+    void finiteValueHasAFiniteNumber();
 };
 
 void tst_RawNumber::valueIsTheNearestNumberOfItsBits_data()
@@ -77,6 +78,17 @@ void tst_RawNumber::bitsAboveTheNumberDoNotCount()
     QCOMPARE((RawNumber{RawNumber::Signed, 4}.decode(0xFFF7)), 7.0);
     QCOMPARE((RawNumber{RawNumber::Signed, 4}.decode(0x0008)), -8.0);
     QCOMPARE((RawNumber{RawNumber::Float, 32}.decode(0xFFFF'FFFF'3F80'0000)), 1.0);
+}
+
+void tst_RawNumber::finiteValueHasAFiniteNumber()
+{
+    constexpr double largest = std::numeric_limits<double>::max();
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    QCOMPARE(RawNumber::scaled(-35.5, 0.1, -40.0), 45.0);
+    QCOMPARE(RawNumber::scaled(1e300, 1e-10, 0.0), largest);
+    QCOMPARE(RawNumber::scaled(1e300, -1e-10, 0.0), -largest);
+    QCOMPARE(RawNumber::scaled(largest, 1.0, -largest), largest);
+    QCOMPARE(RawNumber::scaled(-infinity, 2.0, 0.0), -infinity);
 }
 
 QTEST_APPLESS_MAIN(tst_RawNumber)

@@ -113,7 +113,7 @@ double DbcSignal::decode(const quint8 *data) const noexcept
 
 DbcSignal::Fit DbcSignal::encode(quint8 *data, double value) const noexcept
 {
-    return encodeRaw(data, (value - offset) / factor);
+    return encodeRaw(data, RawNumber::scaled(value, factor, offset));
 }
 
 DbcSignal::Fit DbcSignal::encodeRaw(quint8 *data, double raw) const noexcept

@@ -105,7 +105,7 @@ double I2cRegister::valueOf(const quint8 *bytes) const
 
 void I2cRegister::bytesOf(double value, quint8 *bytes) const
 {
-    const quint64 number = registerNumber(*this).encode((value - offset) / factor);
+    const quint64 number = registerNumber(*this).encode(RawNumber::scaled(value, factor, offset));
     for (int i = 0; i < size; ++i)
         bytes[isBigEndian ? size - 1 - i : i] = quint8(number >> (8 * i));
 }

@@ -183,7 +183,7 @@ double ModbusRegister::decode(const quint16 *words) const
 
 void ModbusRegister::encode(double value, quint16 *words) const
 {
-    const double raw = (value - offset) / factor;
+    const double raw = RawNumber::scaled(value, factor, offset);
     quint64 bits = type == Bit ? quint64(raw >= 0.5) : modbusNumbers[type].encode(raw);
     const int count = size();
     for (int i = 0; i < count; ++i, bits >>= 16)

@@ -194,6 +194,10 @@ void tst_ModbusRegister::valuesOutOfRangeAreSaturated_data()
     QTest::newRow("above int32") << "holding 0, int32" << 1e12 << 2147483647.0;
     QTest::newRow("above int64") << "holding 0, int64" << 1e30 << 9223372036854775807.0;
     QTest::newRow("above float32") << "holding 0, float32" << 1e300 << double(std::numeric_limits<float>::max());
+    QTest::newRow("above float32, scaled")
+        << "holding 0, float32, factor 1e-10" << 1e300 << double(std::numeric_limits<float>::max()) * 1e-10;
+    QTest::newRow("below float64, scaled")
+        << "holding 0, float64, factor 1e-10" << -1e300 << -std::numeric_limits<double>::max() * 1e-10;
     QTest::newRow("coil, nearly on") << "coil 0" << 0.5 << 1.0;
     QTest::newRow("coil, off") << "coil 0" << -7.0 << 0.0;
 }
