@@ -143,11 +143,11 @@ public:
     void quitOnSignals(std::function<void()> onSignal = {});
 
 protected:
-    /// From here on, a thread of its own writes the messages of Qt (qWarning(), qCInfo()) to the
-    /// standard error output, so that a reader that stands still does not stop the program. Up to
-    /// 1 MiB of lines wait for their reader; a line in the place of dropped ones tells how many.
-    /// A message handler of the program stays. Both application classes call this.
-    void writeMessagesAside();
+    /// Starts a thread that writes the messages of Qt (qWarning(), qCInfo()) to the standard error
+    /// output, so that a reader that stands still does not stop the program. Up to 1 MiB of lines
+    /// wait for their reader; a line in the place of dropped ones tells how many. If the program
+    /// has a message handler of its own, it stays. Both application classes call this.
+    void startAsynchronousLogging();
 
 private:
     struct Q_DECL_HIDDEN Private;

@@ -19,17 +19,52 @@
 
 namespace qplc {
 
+namespace {
+
+/// Whether \a descriptor is the journal of systemd: systemd.exec(5), $JOURNAL_STREAM.
+bool isJournal(int descriptor)
+{
+    struct stat status = {};
+    if (::fstat(descriptor, &status) != 0)
+        return false;
+    return qgetenv("JOURNAL_STREAM")
+        == QByteArray::number(quint64(status.st_dev)) + ':' + QByteArray::number(quint64(status.st_ino));
+}
+
+/// The severities of syslog, as sd-daemon(3) writes them before a line.
+const char *severityOf(QtMsgType type)
+{
+    switch (type) {
+    case QtDebugMsg:
+        return "<7>";
+    case QtInfoMsg:
+        return "<6>";
+    case QtWarningMsg:
+        return "<4>";
+    case QtCriticalMsg:
+        return "<2>";
+    case QtFatalMsg:
+        return "<1>";
+    }
+    return "";
+}
+
+}  // namespace
+
 struct LogWriter::State
 {
     explicit State(int output)
         : descriptor(output)
+        , toJournal(isJournal(output))
     {
     }
+    QByteArray linesOf(QtMsgType type, QByteArray text) const;
     void push(const QByteArray &line);
     void tellDropped();
     void run();
 
     const int descriptor;
+    const bool toJournal;
     mutable std::mutex mutex;
     std::condition_variable changed;
     std::deque<QByteArray> lines;
@@ -96,6 +131,14 @@ bool LogWriter::startThread(const std::shared_ptr<State> &state)
     return isStarted;
 }
 
+/// The journal takes each line as a message of its own.
+QByteArray LogWriter::State::linesOf(QtMsgType type, QByteArray text) const
+{
+    if (toJournal)
+        text = severityOf(type) + text.replace('\n', QByteArray(1, '\n') + severityOf(type));
+    return text + '\n';
+}
+
 void LogWriter::State::push(const QByteArray &line)
 {
     bytes += line.size();
@@ -104,7 +147,8 @@ void LogWriter::State::push(const QByteArray &line)
 
 void LogWriter::State::tellDropped()
 {
-    push("... " + QByteArray::number(untold) + " lines are missing here: nobody has read them in time\n");
+    push(linesOf(QtWarningMsg,
+                 "... " + QByteArray::number(untold) + " lines are missing here: the reader of this log was too slow"));
     untold = 0;
 }
 
@@ -160,6 +204,11 @@ void LogWriter::write(const QByteArray &line)
     d->changed.notify_all();
 }
 
+void LogWriter::write(QtMsgType type, const QByteArray &text)
+{
+    write(d->linesOf(type, text));
+}
+
 bool LogWriter::flush(int milliseconds)
 {
     std::unique_lock<std::mutex> lock(d->mutex);
@@ -181,40 +230,11 @@ LogWriter &LogWriter::ofStandardError()
 
 namespace {
 
-/// Whether the standard error output is the journal of systemd: systemd.exec(5), $JOURNAL_STREAM.
-bool isJournal()
-{
-    struct stat status = {};
-    if (::fstat(STDERR_FILENO, &status) != 0)
-        return false;
-    return qgetenv("JOURNAL_STREAM")
-        == QByteArray::number(quint64(status.st_dev)) + ':' + QByteArray::number(quint64(status.st_ino));
-}
-
-/// The severities of syslog, as sd-daemon(3) writes them before a line.
-const char *severityOf(QtMsgType type)
-{
-    switch (type) {
-    case QtDebugMsg:
-        return "<7>";
-    case QtInfoMsg:
-        return "<6>";
-    case QtWarningMsg:
-        return "<4>";
-    case QtCriticalMsg:
-        return "<2>";
-    case QtFatalMsg:
-        return "<1>";
-    }
-    return "";
-}
-
 void writeMessage(QtMsgType type, const QMessageLogContext &context, const QString &text)
 {
-    static const bool toJournal = isJournal();
-    const QString line = qFormatLogMessage(type, context, text);
-    if (!line.isNull())
-        LogWriter::ofStandardError().write((toJournal ? severityOf(type) : "") + line.toLocal8Bit() + '\n');
+    const QString message = qFormatLogMessage(type, context, text);
+    if (!message.isNull())
+        LogWriter::ofStandardError().write(type, message.toLocal8Bit());
     if (type == QtFatalMsg)
         LogWriter::ofStandardError().flush(LogWriter::patience);  // the program ends behind this
 }

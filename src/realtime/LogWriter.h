@@ -33,6 +33,9 @@ public:
 
     /// Takes a line with its end. Never waits for the reader.
     void write(const QByteArray &line);
+    /// Takes a message of one or more lines, without the last end of line. If the descriptor is the
+    /// journal of systemd, each line gets the severity.
+    void write(QtMsgType type, const QByteArray &text);
     /// Waits until all has been written. \return false: it took longer than \a milliseconds
     bool flush(int milliseconds);
     /// Lines that were dropped since the beginning.
@@ -41,8 +44,7 @@ public:
     /// The writer of the process for its standard error output: it lives as long as the process.
     static LogWriter &ofStandardError();
     /// From here on, ofStandardError() writes the messages of Qt (qWarning(), qCInfo()). A message
-    /// handler that somebody else has installed stays. The journal of systemd gets the severity of
-    /// each line.
+    /// handler that somebody else has installed stays.
     static void takeMessages();
     /// Waits for what has not been written, and lets Qt write messages itself again.
     static void releaseMessages();

@@ -4,6 +4,7 @@
 #include <QtTest/QtTest>
 
 #include <array>
+#include <sys/stat.h>
 #include <thread>
 #include <unistd.h>
 
@@ -69,6 +70,8 @@ private Q_SLOTS:
     void linesArriveInTheirOrder();
     void readerThatStandsStillStopsNobody();
     void missingLinesAreCountedWhereTheyAreMissing();
+    void everyLineOfTheJournalHasItsSeverity();
+    void otherOutputHasNoSeverity();
     void lineThatIsLongerThanTheRoomArrives();
     void writerEndsWhileItsReaderStandsStill();
     void closedDescriptorLosesLinesOnly();
@@ -108,8 +111,9 @@ void tst_LogWriter::readerThatStandsStillStopsNobody()
     std::thread reader([&] {
         while (missingIn(m_pipe->readLine()) == 0) {}
     });
-    QVERIFY(writer.flush(60000));
+    const bool isAllRead = writer.flush(60000);
     reader.join();
+    QVERIFY(isAllRead);
 }
 
 void tst_LogWriter::missingLinesAreCountedWhereTheyAreMissing()
@@ -119,9 +123,9 @@ void tst_LogWriter::missingLinesAreCountedWhereTheyAreMissing()
     for (int i = 0; i < lines / 2; ++i)
         writer.write(lineOf(i));
     QVERIFY(writer.dropped() > 0);
+    int number = 0;
+    int notices = 0;
     std::thread reader([&] {
-        int number = 0;
-        int notices = 0;
         while (number < lines) {
             const QByteArray line = m_pipe->readLine();
             const int missing = missingIn(line);
@@ -130,13 +134,47 @@ void tst_LogWriter::missingLinesAreCountedWhereTheyAreMissing()
             number += missing == 0 ? 1 : missing;
             notices += missing == 0 ? 0 : 1;
         }
-        QCOMPARE(number, lines);  // each was read or counted
-        QVERIFY(notices >= 1);
     });
     for (int i = lines / 2; i < lines; ++i)
         writer.write(lineOf(i));
-    QVERIFY(writer.flush(60000));
+    const bool isAllRead = writer.flush(60000);
     reader.join();
+    QVERIFY(isAllRead);
+    QCOMPARE(number, lines);  // each was read or counted
+    QVERIFY(notices >= 1);
+}
+
+void tst_LogWriter::everyLineOfTheJournalHasItsSeverity()
+{
+    struct stat status = {};
+    QCOMPARE(::fstat(m_pipe->input(), &status), 0);
+    qputenv("JOURNAL_STREAM", QStringLiteral("%1:%2").arg(status.st_dev).arg(status.st_ino).toLatin1());
+    LogWriter writer(m_pipe->input());
+    qunsetenv("JOURNAL_STREAM");
+    writer.write(QtWarningMsg, "first\nsecond");
+    writer.write(QtCriticalMsg, "third");
+    for (const char *line : {"<4>first\n", "<4>second\n", "<2>third\n"})
+        QCOMPARE(m_pipe->readLine(), QByteArray(line));
+    for (int i = 0; i < 50'000; ++i)
+        writer.write(lineOf(i));
+    QByteArray line;
+    std::thread reader([&] {
+        do
+            line = m_pipe->readLine();
+        while (!line.contains("missing"));
+    });
+    const bool isAllRead = writer.flush(60000);
+    reader.join();
+    QVERIFY(isAllRead);
+    QVERIFY2(line.startsWith("<4>... "), line.constData());
+}
+
+void tst_LogWriter::otherOutputHasNoSeverity()
+{
+    LogWriter writer(m_pipe->input());
+    writer.write(QtWarningMsg, "first\nsecond");
+    QCOMPARE(m_pipe->readLine(), QByteArray("first\n"));
+    QCOMPARE(m_pipe->readLine(), QByteArray("second\n"));
 }
 
 void tst_LogWriter::lineThatIsLongerThanTheRoomArrives()

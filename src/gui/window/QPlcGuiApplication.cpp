@@ -52,7 +52,7 @@ QPlcGuiApplication::QPlcGuiApplication(int &argc, char **argv)
     : QApplication(prepared(argc, argv), argv)
 {
     qInstallMessageHandler(handlerBefore);
-    writeMessagesAside();
+    startAsynchronousLogging();
     if (!qEnvironmentVariableIsSet("QT_STYLE_OVERRIDE"))
         setStyle(QStyleFactory::create(QStringLiteral("Fusion")));
     quitOnSignals([] { closeAllWindows(), quit(); });

@@ -333,13 +333,12 @@ bool QPlcApplicationOptions::readFaultPlan(QString *plan)
 
 void QPlcApplicationOptions::printError(const QString &text)
 {
-    const QString line = QStringLiteral("%1: %2\n").arg(QCoreApplication::applicationName(), text);
     qplc::LogWriter &output = qplc::LogWriter::ofStandardError();
-    output.write(line.toUtf8());
+    output.write(QtCriticalMsg, QStringLiteral("%1: %2").arg(QCoreApplication::applicationName(), text).toUtf8());
     output.flush(qplc::LogWriter::patience);
 }
 
-void QPlcApplicationOptions::writeMessagesAside()
+void QPlcApplicationOptions::startAsynchronousLogging()
 {
     qplc::LogWriter::takeMessages();
 }

@@ -4,7 +4,7 @@
 QPlcCoreApplication::QPlcCoreApplication(int &argc, char **argv)
     : QCoreApplication(argc, argv)
 {
-    writeMessagesAside();
+    startAsynchronousLogging();
 }
 
 QPlcCoreApplication::~QPlcCoreApplication() = default;
