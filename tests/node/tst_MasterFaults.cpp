@@ -71,6 +71,8 @@ private Q_SLOTS:
     void aSafeStopInAnInitializationSaysSo();
     void aNodeThatIsLateIsInTheWayOfAReset();
     void aLostCriticalNodeMustComeBack();
+    void aNodeThatTrippedIsNeededOnlyIfItWasSafe_data();
+    void aNodeThatTrippedIsNeededOnlyIfItWasSafe();
     void theFirstFaultIsTheOneToRepair();
     void aSafeStopByAPersonHasNoCause();
 };
@@ -147,6 +149,11 @@ void tst_MasterFaults::eachLimitNamesItsCause_data()
     QTest::newRow("waited for") << int(CycleEvent::TrippedByWait) << ofNode
                                 << "node 'Winch' did not answer cycle 12 within 34 ms";
     QTest::newRow("wanted") << int(CycleEvent::TrippedByNode) << ofNode << "node 'Winch' asked for it in cycle 12";
+    const QString fault = "node error fault of Winch";
+    QTest::newRow("failed") << int(CycleEvent::TrippedByFailure) << fault
+                            << "the code of critical node 'Winch' failed in cycle 12";
+    QTest::newRow("safe") << int(CycleEvent::TrippedBySafeNode) << fault
+                          << "critical node 'Winch' is in its safe state since cycle 12";
     QTest::newRow("gap") << int(CycleEvent::TrippedByGap) << ofMaster
                          << "the master stood still for 34 ms before cycle 12";
     QTest::newRow("overruns") << int(CycleEvent::TrippedByOverruns) << ofMaster
@@ -231,6 +238,30 @@ void tst_MasterFaults::aLostCriticalNodeMustComeBack()
     const auto viewer = bench.add("Winch", Answers::Later, "", "sum", true);
     QCOMPARE(bench.faults.remainingCause(), QString("node 'Winch' is not back; start it again"));
     bench.remove(viewer);
+    bench.add("Winch", Answers::Later, "sum");
+    QCOMPARE(bench.faults.remainingCause(), QString());
+}
+
+void tst_MasterFaults::aNodeThatTrippedIsNeededOnlyIfItWasSafe_data()
+{
+    QTest::addColumn<int>("kind");
+    QTest::addColumn<QString>("cause");
+    QTest::newRow("safe") << int(CycleEvent::TrippedBySafeNode) << "node 'Winch' is not back; start it again";
+    QTest::newRow("failed") << int(CycleEvent::TrippedByFailure) << "";
+}
+
+void tst_MasterFaults::aNodeThatTrippedIsNeededOnlyIfItWasSafe()
+{
+    QFETCH(int, kind);
+    QFETCH(QString, cause);
+    FaultBench bench;
+    const auto winch = bench.add("Winch", Answers::Later, "sum");
+    winch->slot()->critical = true;
+    QVERIFY(bench.start());
+    bench.faults.tripped(happened(CycleEvent::Kind(kind), winch), 0);
+    bench.remove(winch);
+    bench.control.now = QPlcMasterNode::SafeStop;
+    QCOMPARE(bench.faults.remainingCause(), cause);
     bench.add("Winch", Answers::Later, "sum");
     QCOMPARE(bench.faults.remainingCause(), QString());
 }
