@@ -3,6 +3,9 @@
 
 #include <QtCore/QDir>
 #include <QtCore/QRandomGenerator>
+#include <QtCore/QTimer>
+#include <QtNetwork/QTcpServer>
+#include <QtNetwork/QTcpSocket>
 #include <QtTest/QtTest>
 
 #include <netinet/in.h>
@@ -10,6 +13,46 @@
 #include <unistd.h>
 
 using namespace std::chrono_literals;
+
+namespace {
+
+/// A network that brings what a client sends byte by byte, each in a segment of its own.
+class ByteByByte
+{
+public:
+    explicit ByteByByte(quint16 master)
+    {
+        m_server.listen(QHostAddress::LocalHost);
+        QObject::connect(&m_server, &QTcpServer::newConnection, &m_server, [this, master] {
+            m_client.reset(m_server.nextPendingConnection());
+            m_master.connectToHost(QHostAddress::LocalHost, master);
+            m_master.setSocketOption(QAbstractSocket::LowDelayOption, 1);
+            QObject::connect(&m_master, &QIODevice::readyRead, m_client.get(),
+                             [this] { m_client->write(m_master.readAll()); });
+            QObject::connect(&m_master, &QAbstractSocket::disconnected, m_client.get(), &QAbstractSocket::close);
+            m_pace.start(0);
+        });
+        QObject::connect(&m_pace, &QTimer::timeout, &m_server, [this] {
+            char byte = 0;
+            if (m_master.state() != QAbstractSocket::ConnectedState || m_client->read(&byte, 1) != 1)
+                return;
+            m_master.write(&byte, 1);
+            m_master.flush();
+            ++bytes;
+        });
+    }
+    quint16 port() const { return m_server.serverPort(); }
+
+    int bytes = 0;  // that were brought
+
+private:
+    QTcpServer m_server;
+    QTcpSocket m_master;
+    std::unique_ptr<QTcpSocket> m_client;
+    QTimer m_pace;
+};
+
+}  // namespace
 
 // What strangers may send to sockets of the machine, and to OpenSSL: see tst_Strangers.
 class tst_HostileBytes : public QObject
@@ -20,6 +63,8 @@ private Q_SLOTS:
     void thousandsOfConnectionsLeaveNoResources_data() { addSecurities(); }
     void thousandsOfConnectionsLeaveNoResources();
     void slowTlsGreetingIsClosed();
+    void greetingInSingleBytesIsAccepted_data() { addSecurities(); }
+    void greetingInSingleBytesIsAccepted();
     void garbageEndsItsOwnConnectionOnly_data() { addSecurities(); }
     void garbageEndsItsOwnConnectionOnly();
 
@@ -126,6 +171,18 @@ void tst_HostileBytes::slowTlsGreetingIsClosed()
     ::close(descriptor);
     QVERIFY(qplc::monotonicNow() < last);
     QVERIFY(lets("Counter"));
+}
+
+void tst_HostileBytes::greetingInSingleBytesIsAccepted()
+{
+    QFETCH(bool, isSecured);
+    QVERIFY(listen(isSecured));
+    ByteByByte network(m_master->serverPort());
+    QVERIFY(network.port() != 0);
+    SecuredTool tool(isSecured ? m_files.anna() : QPlcSecurity());
+    QVERIFY(tool.greetAt(network.port()));
+    QCOMPARE(tool.ask(QPlcMessage::GetState).kind(), QPlcMessage::State);
+    QVERIFY(network.bytes > 50);
 }
 
 void tst_HostileBytes::garbageEndsItsOwnConnectionOnly()
