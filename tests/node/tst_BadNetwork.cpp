@@ -89,6 +89,24 @@ quint64 cleanDigest(quint64 cycles)
     return master.addLocalNode(&echo) && master.addLocalNode(&counter) ? digestAfter(master, cycles) : 0;
 }
 
+/// A master, with its counter and Echo outside of its process, as a network has them.
+struct DistantPlant
+{
+    ~DistantPlant()
+    {
+        counter.disconnectFromMaster();
+        echo.disconnectFromMaster();
+    }
+    bool connect(const QPlcUnderlyingProtocol &address)
+    {
+        return echo.connectToMasterAndWaitForConnected(address) && counter.connectToMasterAndWaitForConnected(address);
+    }
+
+    TestMaster master;
+    CounterNode counter;
+    EchoNode echo;
+};
+
 }  // namespace
 
 void tst_BadNetwork::wrongPlansAreRefused()
@@ -176,26 +194,19 @@ void tst_BadNetwork::lockstepGivesTheSameBitsOnABadNetwork()
     QFETCH(QString, ofNode);
     const quint64 cycles = kind == "sim" ? 2000 : 50;
     const auto fly = [&] {
-        TestMaster master;
-        CounterNode counter;
-        EchoNode echo;
-        const auto end = qScopeGuard([&] {
-            counter.disconnectFromMaster();
-            echo.disconnectFromMaster();
-        });
-        QVERIFY(master.setFaultPlan(ofMaster));
-        QVERIFY(counter.setFaultPlan(ofNode) && echo.setFaultPlan(ofNode));
-        QVERIFY(master.listen());
+        DistantPlant plant;
+        QVERIFY(plant.master.setFaultPlan(ofMaster));
+        QVERIFY(plant.counter.setFaultPlan(ofNode) && plant.echo.setFaultPlan(ofNode));
+        QVERIFY(plant.master.listen());
         const QPlcUnderlyingProtocol address = kind == "local"
-            ? QPlcUnderlyingProtocol::fromString(QStringLiteral("local://%1").arg(master.serverPort()))
-            : master.protocol(kind);
-        QVERIFY(echo.connectToMasterAndWaitForConnected(address));
-        QVERIFY(counter.connectToMasterAndWaitForConnected(address));
-        QCOMPARE(digestAfter(master, cycles), cleanDigest(cycles));
-        QCOMPARE(echo.counters().cycles, cycles);
-        QCOMPARE(counter.counters().cycles, cycles);
+            ? QPlcUnderlyingProtocol::fromString(QStringLiteral("local://%1").arg(plant.master.serverPort()))
+            : plant.master.protocol(kind);
+        QVERIFY(plant.connect(address));
+        QCOMPARE(digestAfter(plant.master, cycles), cleanDigest(cycles));
+        QCOMPARE(plant.echo.counters().cycles, cycles);
+        QCOMPARE(plant.counter.counters().cycles, cycles);
         if (kind == "udp" || kind == "sim")
-            QVERIFY(master.nodes().at(0).resent > 0);  // else this test has shown nothing
+            QVERIFY(plant.master.nodes().at(0).resent > 0);  // else this test has shown nothing
     };
     if (kind == "sim")
         runInVirtualTime(fly);
@@ -310,15 +321,9 @@ void tst_BadNetwork::aFloodOfStrangersChangesNoResult()
 {
     constexpr quint64 cycles = 2000;
     const quint64 expected = cleanDigest(cycles);
-    TestMaster master;
-    CounterNode counter;
-    EchoNode echo;
-    const auto end = qScopeGuard([&] {
-        counter.disconnectFromMaster();
-        echo.disconnectFromMaster();
-    });
-    QVERIFY(master.listen() && master.admit(echo, "udp") && master.admit(counter, "udp"));
-    const quint16 port = master.serverPort();
+    DistantPlant plant;
+    QVERIFY(plant.master.listen() && plant.connect(plant.master.protocol("udp")));
+    const quint16 port = plant.master.serverPort();
     std::atomic<bool> stop{false};
     std::thread flood([&stop, port] {
         QUdpSocket stranger;
@@ -329,12 +334,12 @@ void tst_BadNetwork::aFloodOfStrangersChangesNoResult()
             std::this_thread::sleep_for(1ms);
         }
     });
-    const quint64 digest = digestAfter(master, cycles);
+    const quint64 digest = digestAfter(plant.master, cycles);
     stop = true;
     flood.join();
     QCOMPARE(digest, expected);
-    QVERIFY(master.statistics().strangers > 0);
-    QCOMPARE(master.nodes().at(0).rejected, quint64(0));
+    QVERIFY(plant.master.statistics().strangers > 0);
+    QCOMPARE(plant.master.nodes().at(0).rejected, quint64(0));
 }
 
 void tst_BadNetwork::aFloodOfBadFramesOfANodeChangesNoResult()

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "../../common/Waiting.h"
 #include "PlantFixtures.h"
+#include "TableText.h"
 #include "gui/models/EventLogModel.h"
 #include "gui/models/NodeTableModel.h"
 
@@ -31,10 +32,7 @@ PlantEvent alarmOf(PlantEvent::Stage stage, const char *alarm, int time)
 
 QStringList namesOf(const NodeTableModel &table)
 {
-    QStringList names;
-    for (int row = 0; row < table.rowCount(); ++row)
-        names << table.index(row, NodeTableModel::Name).data().toString();
-    return names;
+    return columnTexts(table, NodeTableModel::Name);
 }
 
 }  // namespace
@@ -78,10 +76,10 @@ void tst_PlantModels::nodeTableFollowsRegistrations()
     echo->setSignalTable(testTable());
     QVERIFY(echo->connectToMasterAndWaitForConnected(north.protocol("udp")));
     QTRY_COMPARE(namesOf(table).indexOf(QStringLiteral("north/Echo")), 3);
-    QCOMPARE(table.index(3, NodeTableModel::Transport).data().toString(), QStringLiteral("udp"));
-    QCOMPARE(table.index(3, NodeTableModel::Policy).data().toString(), QStringLiteral("ErrorZeroOrderHold"));
-    QCOMPARE(table.index(2, NodeTableModel::State).data().toString(), QStringLiteral("Listens"));
-    QCOMPARE(table.index(3, NodeTableModel::Late).data().toString(), QStringLiteral("0"));
+    QCOMPARE(cellText(table, 3, NodeTableModel::Transport), QStringLiteral("udp"));
+    QCOMPARE(cellText(table, 3, NodeTableModel::Policy), QStringLiteral("ErrorZeroOrderHold"));
+    QCOMPARE(cellText(table, 2, NodeTableModel::State), QStringLiteral("Listens"));
+    QCOMPARE(cellText(table, 3, NodeTableModel::Late), QStringLiteral("0"));
     plants.remove(first);
     QCOMPARE(namesOf(table), (QStringList{"Master", "Counter", "Window"}));  // one plant needs no name
 }
@@ -94,7 +92,7 @@ void tst_PlantModels::missingNodeKeepsItsRow()
     NodeTableModel table(&plants);
     const QAbstractItemModelTester tester(&table, fatal);
     Plant *plant = plants.add(address, QStringLiteral("kite"), QStringLiteral("Window"));
-    const auto cell = [&](int row, int column) { return table.index(row, column).data().toString(); };
+    const auto cell = [&](int row, int column) { return cellText(table, row, column); };
     EchoNode echo;
     echo.setSignalTable(testTable());
     QVERIFY(echo.connectToMasterAndWaitForConnected(master->protocol("udp")));
@@ -130,12 +128,7 @@ void tst_PlantModels::safeStopIsAnErrorUntilReset()
     NodeTableModel table(&plants);
     const QAbstractItemModelTester tester(&table, fatal);
     plants.add(master.address(), QStringLiteral("kite"), QStringLiteral("Window"));
-    const auto cells = [&](int column) {
-        QStringList texts;
-        for (int row = 0; row < table.rowCount(); ++row)
-            texts << table.index(row, column).data().toString();
-        return texts;
-    };
+    const auto cells = [&](int column) { return columnTexts(table, column); };
     QVERIFY(master.startRealTime());
     QTRY_COMPARE(cells(NodeTableModel::State), (QStringList{"Real time", "Real time", "Real time", "Listens"}));
     QTRY_COMPARE(cells(NodeTableModel::Health), (QStringList{"OK", "OK", "OK", "OK"}));
@@ -195,9 +188,9 @@ void tst_PlantModels::figuresOfNodesAreDurationsAndCounters()
         = [&](int row, int column) { return table.index(row, column).data(NodeTableModel::SortRole).toDouble(); };
     QTRY_VERIFY_WITH_TIMEOUT(number(1, NodeTableModel::ExecutionP99) > 0.0, 10000);
     QTRY_VERIFY_WITH_TIMEOUT(number(0, NodeTableModel::LatenessP99) > 0.0, 10000);
-    QVERIFY(table.index(0, NodeTableModel::LatenessP99).data().toString().endsWith(QStringLiteral("s")));
-    QCOMPARE(table.index(1, NodeTableModel::LatenessP99).data().toString(), QString());
-    QCOMPARE(table.index(1, NodeTableModel::Lost).data().toString(), QStringLiteral("0"));
+    QVERIFY(cellText(table, 0, NodeTableModel::LatenessP99).endsWith(QStringLiteral("s")));
+    QCOMPARE(cellText(table, 1, NodeTableModel::LatenessP99), QString());
+    QCOMPARE(cellText(table, 1, NodeTableModel::Lost), QStringLiteral("0"));
     QTRY_VERIFY_WITH_TIMEOUT(number(1, NodeTableModel::ExecutionMaximum) >= 40e6, 10000);
     const auto isOverrun = [](const QList<QVariant> &call) {
         return qvariant_cast<PlantEvent>(call.at(0)).text.contains(QStringLiteral("began a period or more late"));
@@ -217,10 +210,10 @@ void tst_PlantModels::eventsAreShownAndAcknowledged()
     log.append(eventOf(PlantEvent::Warning, QStringLiteral("late")));
     log.append(eventOf(PlantEvent::Error, QStringLiteral("lost")));
     QCOMPARE(log.unacknowledged(), 2);
-    QCOMPARE(log.index(1, EventLogModel::Time).data().toString(), QStringLiteral("12:00:01.250"));
-    QCOMPARE(log.index(1, EventLogModel::Severity).data().toString(), QStringLiteral("Warning"));
-    QCOMPARE(log.index(1, EventLogModel::Source).data().toString(), QStringLiteral("kite"));
-    QCOMPARE(log.index(1, EventLogModel::Text).data().toString(), QStringLiteral("late"));
+    QCOMPARE(cellText(log, 1, EventLogModel::Time), QStringLiteral("12:00:01.250"));
+    QCOMPARE(cellText(log, 1, EventLogModel::Severity), QStringLiteral("Warning"));
+    QCOMPARE(cellText(log, 1, EventLogModel::Source), QStringLiteral("kite"));
+    QCOMPARE(cellText(log, 1, EventLogModel::Text), QStringLiteral("late"));
     log.acknowledge(log.index(1, 2));
     log.acknowledge(log.index(1, 2));
     log.acknowledge(log.index(0, 0));
@@ -274,7 +267,7 @@ void tst_PlantModels::anAlarmIsActiveUntilItEndsAcknowledgedOrNot()
     EventFilterModel open;
     open.setSourceModel(&log);
     open.setOnlyOpen(true);
-    const auto state = [&](int row) { return log.index(row, EventLogModel::State).data().toString(); };
+    const auto state = [&](int row) { return cellText(log, row, EventLogModel::State); };
     log.append(alarmOf(PlantEvent::Begins, "hot", 0));
     log.append(eventOf(PlantEvent::Warning, QStringLiteral("late")));
     QCOMPARE(state(0), QStringLiteral("Active"));
@@ -314,15 +307,15 @@ void tst_PlantModels::anAlarmThatBeginsAgainIsActiveOnce()
     log.append(alarmOf(PlantEvent::Begins, "hot", 0));
     log.append(alarmOf(PlantEvent::Begins, "hot", 1000));
     QCOMPARE(log.active(), 1);
-    QCOMPARE(log.index(0, EventLogModel::State).data().toString(), QStringLiteral("Cleared"));
-    QCOMPARE(log.index(1, EventLogModel::State).data().toString(), QStringLiteral("Active"));
+    QCOMPARE(cellText(log, 0, EventLogModel::State), QStringLiteral("Cleared"));
+    QCOMPARE(cellText(log, 1, EventLogModel::State), QStringLiteral("Active"));
 }
 
 void tst_PlantModels::firstAlarmOfABurstIsMarked()
 {
     EventLogModel log;
     const QAbstractItemModelTester tester(&log, fatal);
-    const auto state = [&](int row) { return log.index(row, EventLogModel::State).data().toString(); };
+    const auto state = [&](int row) { return cellText(log, row, EventLogModel::State); };
     log.append(alarmOf(PlantEvent::Begins, "node Winch", 0));
     QCOMPARE(state(0), QStringLiteral("Active"));  // alone it is the first of nothing
     log.append(eventOf(PlantEvent::Warning, QStringLiteral("late")));

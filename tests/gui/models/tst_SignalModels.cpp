@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "../../common/Waiting.h"
 #include "PlantFixtures.h"
+#include "TableText.h"
 #include "QPlcWidget.h"
 #include "gui/models/SignalFilterModel.h"
 #include "gui/models/SignalTreeModel.h"
@@ -31,11 +32,6 @@ QStringList linesOf(const QAbstractItemModel &model, const QModelIndex &parent =
 SignalReference reference(const char *text)
 {
     return SignalReference::fromString(QString(text));
-}
-
-QString cell(const QAbstractItemModel &model, int row, int column)
-{
-    return model.index(row, column).data().toString();
 }
 
 struct PanelInWindow
@@ -245,33 +241,33 @@ void tst_SignalModels::chosenSignalsShowRangeQualityAndRate()
     const QAbstractItemModelTester tester(&table, fatal);
     table.setReferences({reference("count"), reference("setpoint"), reference("time"), reference("vector")});
     Plant *plant = plants.add(master.address());
-    QTRY_COMPARE(cell(table, 0, ValueTableModel::QualityColumn), QStringLiteral("at rest"));
-    QCOMPARE(cell(table, 0, ValueTableModel::Minimum), QStringLiteral("–"));
+    QTRY_COMPARE(cellText(table, 0, ValueTableModel::QualityColumn), QStringLiteral("at rest"));
+    QCOMPARE(cellText(table, 0, ValueTableModel::Minimum), QStringLiteral("–"));
     QVERIFY(master.startRealTime());
-    QTRY_COMPARE(cell(table, 0, ValueTableModel::QualityColumn), QStringLiteral("good"));
-    QTRY_VERIFY(cell(table, 0, ValueTableModel::Maximum).toInt() > 50);
-    QVERIFY(cell(table, 0, ValueTableModel::Minimum).toInt() < 5);
-    QTRY_VERIFY(cell(table, 0, ValueTableModel::Rate).endsWith(QStringLiteral(" Hz")));
-    QCOMPARE(cell(table, 2, ValueTableModel::Minimum), QString());
-    QCOMPARE(cell(table, 3, ValueTableModel::Minimum), QString());
-    QCOMPARE(cell(table, 3, ValueTableModel::Value), QStringLiteral("[0, 0, 0]"));
-    QCOMPARE(cell(table, 1, ValueTableModel::QualityColumn), QStringLiteral("not written"));
-    QCOMPARE(cell(table, 1, ValueTableModel::Age), QString());
+    QTRY_COMPARE(cellText(table, 0, ValueTableModel::QualityColumn), QStringLiteral("good"));
+    QTRY_VERIFY(cellText(table, 0, ValueTableModel::Maximum).toInt() > 50);
+    QVERIFY(cellText(table, 0, ValueTableModel::Minimum).toInt() < 5);
+    QTRY_VERIFY(cellText(table, 0, ValueTableModel::Rate).endsWith(QStringLiteral(" Hz")));
+    QCOMPARE(cellText(table, 2, ValueTableModel::Minimum), QString());
+    QCOMPARE(cellText(table, 3, ValueTableModel::Minimum), QString());
+    QCOMPARE(cellText(table, 3, ValueTableModel::Value), QStringLiteral("[0, 0, 0]"));
+    QCOMPARE(cellText(table, 1, ValueTableModel::QualityColumn), QStringLiteral("not written"));
+    QCOMPARE(cellText(table, 1, ValueTableModel::Age), QString());
     QVERIFY(table.index(1, 0).data(Qt::ForegroundRole).isValid());
     // A spike of few cycles between two looks at the table counts.
     QVERIFY(master.setSignalValue(QStringLiteral("setpoint"), 9.0));
     QTest::qWait(40);
     QVERIFY(master.setSignalValue(QStringLiteral("setpoint"), 1.0));
-    QTRY_COMPARE(cell(table, 1, ValueTableModel::Value), QStringLiteral("1"));
-    QTRY_COMPARE(cell(table, 1, ValueTableModel::Maximum), QStringLiteral("9"));
-    QTRY_COMPARE(cell(table, 1, ValueTableModel::QualityColumn), QStringLiteral("good"));
+    QTRY_COMPARE(cellText(table, 1, ValueTableModel::Value), QStringLiteral("1"));
+    QTRY_COMPARE(cellText(table, 1, ValueTableModel::Maximum), QStringLiteral("9"));
+    QTRY_COMPARE(cellText(table, 1, ValueTableModel::QualityColumn), QStringLiteral("good"));
     table.reset();
-    QCOMPARE(cell(table, 1, ValueTableModel::Maximum), QStringLiteral("1"));
+    QCOMPARE(cellText(table, 1, ValueTableModel::Maximum), QStringLiteral("1"));
     plant->close();
-    QTRY_COMPARE(cell(table, 0, ValueTableModel::QualityColumn), QStringLiteral("stale"));
+    QTRY_COMPARE(cellText(table, 0, ValueTableModel::QualityColumn), QStringLiteral("stale"));
     QVERIFY(table.index(0, 0).data(Qt::ForegroundRole).isValid());
     plants.remove(plant);
-    QCOMPARE(cell(table, 0, ValueTableModel::QualityColumn), QStringLiteral("not there"));
+    QCOMPARE(cellText(table, 0, ValueTableModel::QualityColumn), QStringLiteral("not there"));
 }
 
 void tst_SignalModels::placeholderShowsItsSignalWhenItAppears()
@@ -282,11 +278,11 @@ void tst_SignalModels::placeholderShowsItsSignalWhenItAppears()
     ValueTableModel table(bench.panel.context());
     const QAbstractItemModelTester tester(&table, fatal);
     table.setReferences({reference("kite/count"), reference("kite/nowhere")});
-    QCOMPARE(cell(table, 0, ValueTableModel::QualityColumn), QStringLiteral("not there"));
+    QCOMPARE(cellText(table, 0, ValueTableModel::QualityColumn), QStringLiteral("not there"));
     plants.add(master.address(), QStringLiteral("kite"));
-    QTRY_COMPARE(cell(table, 0, ValueTableModel::QualityColumn), QStringLiteral("at rest"));
-    QCOMPARE(cell(table, 1, ValueTableModel::Name), QStringLiteral("kite/nowhere"));
-    QCOMPARE(cell(table, 1, ValueTableModel::QualityColumn), QStringLiteral("not there"));
+    QTRY_COMPARE(cellText(table, 0, ValueTableModel::QualityColumn), QStringLiteral("at rest"));
+    QCOMPARE(cellText(table, 1, ValueTableModel::Name), QStringLiteral("kite/nowhere"));
+    QCOMPARE(cellText(table, 1, ValueTableModel::QualityColumn), QStringLiteral("not there"));
     QCOMPARE(table.references().at(1), reference("kite/nowhere"));
 }
 

@@ -2,6 +2,7 @@
 #include "../../common/Waiting.h"
 #include "PlantFixtures.h"
 #include "QPlcValueTable.h"
+#include "TableText.h"
 #include "gui/panel/WindowContext.h"
 #include "gui/tables/ValueTableModel.h"
 
@@ -27,13 +28,7 @@ struct TableBench
         panel.show();
         view = panel.findChild<QTreeView *>();
     }
-    QStringList names() const
-    {
-        QStringList texts;
-        for (int row = 0; row < view->model()->rowCount(); ++row)
-            texts << view->model()->index(row, ValueTableModel::Name).data().toString();
-        return texts;
-    }
+    QStringList names() const { return columnTexts(*view->model(), ValueTableModel::Name); }
 
     RunningMaster master;
     WindowContext context;

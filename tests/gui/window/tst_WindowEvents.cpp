@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "../../common/Waiting.h"
 #include "QPlcEventLog.h"
+#include "TableText.h"
 #include "WindowFixtures.h"
 #include "gui/plant/PlantLeases.h"
 #include "gui/window/EventLine.h"
@@ -16,14 +17,6 @@ PlantEvent eventAt(int second, const char *text, PlantEvent::Severity severity =
 {
     return {QDateTime(QDate(2026, 1, 31), QTime(12, 0, second)), severity, QStringLiteral("kite"),
             QString::fromLatin1(text), false};
-}
-
-QStringList textsOf(const EventLogModel &events)
-{
-    QStringList texts;
-    for (int row = 0; row < events.rowCount(); ++row)
-        texts << events.at(row).text;
-    return texts;
 }
 
 }  // namespace
@@ -71,13 +64,9 @@ void tst_WindowEvents::theLogIsInTheOrderOfTime()
     events->append(eventAt(5, "five again"));
     events->append(eventAt(20, "twenty"));
     auto *table = fixture.part<QPlcEventLog>()->findChild<QTreeView *>();
-    QStringList seen;
-    for (int row = 0; row < table->model()->rowCount(); ++row) {
-        const QString text = table->model()->index(row, EventLogModel::Text).data().toString();
-        if (QStringList{"ten", "five", "five again", "twenty"}.contains(text))
-            seen << text;
-    }
-    QCOMPARE(seen, (QStringList{"five", "five again", "ten", "twenty"}));
+    const QRegularExpression ours("^(five|five again|ten|twenty)$");
+    QCOMPARE(columnTexts(*table->model(), EventLogModel::Text).filter(ours),
+             (QStringList{"five", "five again", "ten", "twenty"}));
 }
 
 void tst_WindowEvents::startsAndStopsAreOnTheBottomLine()
@@ -113,12 +102,12 @@ void tst_WindowEvents::eventsAndLeasesUseTheSamePersonName()
     fixture.plant()->setValues({{QStringLiteral("setpoint"), QPlcValue(1.0)}});
     const EventLogModel &events = *fixture.window.context()->events();
     const QString set = QStringLiteral("'%1' has set setpoint").arg(name);
-    QTRY_COMPARE_WITH_TIMEOUT(textsOf(events).filter(set).size(), 1, patience);
+    QTRY_COMPARE_WITH_TIMEOUT(columnTexts(events, EventLogModel::Text).filter(set).size(), 1, patience);
     // The window is a node, too: nodes have names of their own, which begin with that of the
     // person.
-    QVERIFY2(!textsOf(events).filter(QStringLiteral("node %1-").arg(name)).isEmpty(),
-             qPrintable(textsOf(events).join('\n')));
-    QVERIFY(textsOf(events).filter(QStringLiteral("ControlCenter")).isEmpty());
+    QVERIFY2(!columnTexts(events, EventLogModel::Text).filter(QStringLiteral("node %1-").arg(name)).isEmpty(),
+             qPrintable(columnTexts(events, EventLogModel::Text).join('\n')));
+    QVERIFY(columnTexts(events, EventLogModel::Text).filter(QStringLiteral("ControlCenter")).isEmpty());
     master.stop();
 }
 
