@@ -95,6 +95,7 @@ private Q_SLOTS:
     void aWayEndsWithItsPhase();
     void thereIsNoWayFromInfinity();
     void theNeighbourOfAMovingSignalStays();
+    void onlySignalsThatAreLeftStop();
 
 private:
     bool set(const QString &name, const QString &value)
@@ -372,6 +373,26 @@ void tst_Slopes::theNeighbourOfAMovingSignalStays()
     slopes.advance(0.1);
     QCOMPARE(image.value(speed).toReal(), 0.5);
     QCOMPARE(image.value(drive).toReal(), 7.0);
+}
+
+void tst_Slopes::onlySignalsThatAreLeftStop()
+{
+    const QPlcSignalTable table = slopeTable();
+    qplc::ProcessImage image(table);
+    qplc::SlopeLimits slopes(image);
+    const QPlcSignalIndex speed = table.indexOf(QString("speed"));
+    const QPlcSignalIndex far = table.indexOf(QString("far"));
+    for (const QPlcSignalIndex signal : {speed, far})
+        slopes.aim(signal, QPlcValue(1.0).toBytes().constData());
+    std::vector<bool> written(std::size_t(std::min(speed, far)) + 1, true);  // the other one is beyond its end
+    slopes.leaveAll(written);
+    QVERIFY(slopes.isMoving());
+    slopes.advance(0.001);
+    QCOMPARE(image.value(std::min(speed, far)).toReal(), 0.0);
+    QVERIFY(image.value(std::max(speed, far)).toReal() > 0.0);
+    written.assign(std::size_t(table.size()), true);
+    slopes.leaveAll(written);
+    QVERIFY(!slopes.isMoving());
 }
 
 QTPLC_VIRTUAL_TIME_MAIN(tst_Slopes)

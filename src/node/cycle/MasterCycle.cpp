@@ -332,15 +332,6 @@ void MasterCycle::put(QPlcSignalIndex signal, const char *bytes, QPlcQuality qua
     m_signalGuard.set(signal, quality);
 }
 
-/// What a node writes is its own from the next answer on.
-void MasterCycle::leaveSlopesToWriters() noexcept
-{
-    for (std::size_t signal = 0; signal < m_roster->written.size(); ++signal) {
-        if (m_roster->written[signal])
-            m_slopes.leave(QPlcSignalIndex(signal));
-    }
-}
-
 /// \param last  the newest cycle that has ended
 void MasterCycle::adopt(Roster *roster, std::int64_t last) noexcept
 {
@@ -371,7 +362,7 @@ void MasterCycle::adopt(Roster *roster, std::int64_t last) noexcept
     m_roster.reset(roster);
     m_nextTerm = 0;
     if (m_slopes.isMoving())
-        leaveSlopesToWriters();
+        m_slopes.leaveAll(m_roster->written);  // what a node writes is its own from the next answer on
     if (!m_retiredRosters.push(retired))
         delete retired;  // 64 changes of the roster between two looks of the owner: better a slow cycle than a leak
 }

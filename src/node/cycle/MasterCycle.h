@@ -142,7 +142,6 @@ private:
     void carryOut(const SetCommand &command) noexcept;
     void endTerms(const CycleClock::Tick &tick) noexcept;
     void put(QPlcSignalIndex signal, const char *bytes, QPlcQuality quality) noexcept;
-    void leaveSlopesToWriters() noexcept;
     void adoptPending() noexcept;
     void adopt(Roster *roster, std::int64_t last) noexcept;
     void leave(NodeSlot &slot) noexcept;

@@ -21,6 +21,7 @@ SlopeLimits::SlopeLimits(ProcessImage &image)
         m_places[index] = quint16(m_signals.size());
         Signal signal;
         signal.offset = image.offset(index);
+        signal.index = index;
         signal.first = m_present.size();
         signal.count = std::size_t(definition.type.count());
         signal.slope = definition.slope;
@@ -78,6 +79,14 @@ void SlopeLimits::leaveAll() noexcept
     for (Signal &signal : m_signals)
         signal.isMoving = false;
     m_moving = 0;
+}
+
+void SlopeLimits::leaveAll(const std::vector<bool> &which) noexcept
+{
+    for (const Signal &signal : m_signals) {
+        if (signal.index < which.size() && which[signal.index])
+            leave(signal.index);
+    }
 }
 
 /// \return whether the target is reached

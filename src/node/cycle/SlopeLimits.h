@@ -27,6 +27,8 @@ public:
     /// \a signal keeps the value that it has, or gets one from elsewhere.
     void leave(QPlcSignalIndex signal) noexcept;
     void leaveAll() noexcept;
+    /// As leave(), for all that are true. \param which  by index; the last ones may be missing
+    void leaveAll(const std::vector<bool> &which) noexcept;
     /// Moves all signals for \a seconds.
     void advance(double seconds) noexcept;
     /// Gives all signals the values to which they move.
@@ -38,6 +40,7 @@ private:
     struct Signal
     {
         quint32 offset = 0;  // [byte] in the image
+        QPlcSignalIndex index = 0;
         std::size_t first = 0;
         std::size_t count = 0;  // of elements
         double slope = 0.0;     // per second
