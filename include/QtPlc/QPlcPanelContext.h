@@ -218,18 +218,22 @@ public:
     void stop(const QString &name = QString());
     /// Asks a master for the durations of its cycles and its nodes, with histograms.
     /// \param receiver  while it exists, \a answered may be called
-    /// \param answered  gets the durations, in the event loop
+    /// \param answered  gets the durations, in the event loop; nothing if the connection ends
     /// \param name  plant; empty: the plant of references without a plant
-    /// \return false if nothing was asked, because there is no connection or an earlier answer has
-    ///     not come yet
+    /// \return false if nothing was asked, as ask() does
     bool askDurations(QObject *receiver, const std::function<void(const QVector<Duration> &)> &answered,
                       const QString &name = QString());
-    /// Asks a master for anything else that is not a signal.
+    /// Asks a master for anything else that is not a signal. Commands are not possible: to stop a
+    /// plant, call stop(); to set signals, use QPlcSignalControl.
+    /// \param question  of the kind GetState, GetSignals, GetStatistics, GetSchedule, GetLeases or
+    ///     GetEvents (docs/protocol.md, section 5)
     /// \param receiver  while it exists, \a answered may be called
-    /// \param answered  gets the answer, in the event loop
+    /// \param answered  gets the answer once, in the event loop: of the kind Failed, with `error`
+    ///     and `text`, if the master refuses or the connection ends before. If a master does not
+    ///     answer within 5 s, the window ends the connection
     /// \param name  plant; empty: the plant of references without a plant
-    /// \return false if nothing was asked, because there is no connection or an earlier answer has
-    ///     not come yet
+    /// \return false if nothing was asked: the kind is another one, there is no connection, a
+    ///     command of the window waits for its answer, or 16 questions of panels do
     bool ask(const QPlcMessage &question, QObject *receiver, const std::function<void(const QPlcMessage &)> &answered,
              const QString &name = QString());
     /// Writes a line into the event log of the window.

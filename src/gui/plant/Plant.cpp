@@ -330,13 +330,18 @@ void Plant::refresh()
 
 bool Plant::ask(const QPlcMessage &question, const ControlClient::RawHandler &handler)
 {
-    const bool isPossible = isConnected() && !m_connection.control().isBusy();
-    if (isPossible)
-        m_connection.control().send(question, [handler](const QPlcMessage &answer) {
-            const bool isLost = answer.kind() == QPlcMessage::Invalid;
-            handler(isLost ? messages::toMessage(ControlClient::failureOf(answer)) : answer);
-        });
-    return isPossible;
+    ControlClient &control = m_connection.control();
+    // Not greeted, but connected: the connection is about to end, and fails its questions.
+    if (!isConnected() || !control.isGreeted() || !ControlClient::isQuestion(question.kind()) || control.isBusy()
+        || m_questions == MostQuestions)
+        return false;
+    ++m_questions;
+    control.send(question, [this, handler](const QPlcMessage &answer) {
+        --m_questions;
+        const bool isLost = answer.kind() == QPlcMessage::Invalid;
+        handler(isLost ? messages::toMessage(ControlClient::failureOf(answer)) : answer);
+    });
+    return true;
 }
 
 /// A question to which a refusal is no answer: the next poll asks again.

@@ -132,19 +132,21 @@ public:
     /// Gives signals back to the nodes that write them; also those of a lost holder.
     int releaseLease(const QStringList &signalNames);
 
+    static constexpr int MostQuestions = 16;  // of ask() that wait for their answers
+
     /// Asks for more than the plant does by itself: GetStatistics with histograms, ... \a handler
-    /// gets a ControlClient::Reply, if the connection lasts so long.
-    /// \return false: nothing was asked, as there is no connection, or a command waits for its
-    ///         answer
+    /// gets a ControlClient::Reply.
+    /// \return false: nothing was asked, as there is no connection, a command waits for its answer,
+    ///         or MostQuestions do
     template<typename Question, typename Handler, typename = typename Question::Answer>
     bool ask(const Question &question, const Handler &handler)
     {
-        const bool isPossible = isConnected() && !m_connection.control().isBusy();
-        if (isPossible)
-            m_connection.control().request(question, handler);
-        return isPossible;
+        return ask(messages::toMessage(question), [handler](const QPlcMessage &answer) {
+            handler(ControlClient::replyOf<typename Question::Answer>(answer));
+        });
     }
-    /// As above, for a message that is passed on as it is.
+    /// As above, for a message that is passed on as it is. \a handler gets `Failed` if there is no
+    /// answer. \return false also if the message is no question
     bool ask(const QPlcMessage &question, const ControlClient::RawHandler &handler);
     /// Asks the master for its state now; the plant does so twice a second anyway.
     void refresh();
@@ -205,6 +207,7 @@ private:
 
     QString m_name;
     int m_number = 0;
+    int m_questions = 0;  // of ask() without an answer
     PlantConnection m_connection;
     std::optional<messages::Hex64> m_token;  // that permits a start
     PlantFeed *m_feed = nullptr;

@@ -216,6 +216,12 @@ void ControlClient::deliver(const QPlcMessage &message)
     handler(message);
 }
 
+bool ControlClient::isQuestion(QPlcMessage::Kind kind)
+{
+    const QPlcMessage::Kind answer = answerTo(messages::Requests(), kind);
+    return answer != QPlcMessage::Invalid && answer != QPlcMessage::Done && kind != QPlcMessage::Arm;
+}
+
 messages::Failed ControlClient::failureOf(const QPlcMessage &message, const QString &error)
 {
     if (message.kind() == QPlcMessage::Invalid)

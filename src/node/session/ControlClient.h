@@ -119,6 +119,17 @@ public:
     void send(const QPlcMessage &message, const RawHandler &handler);
     /// Sends \a message, greeted or not, and waits for nothing: an answer comes as unasked().
     void tell(const QPlcMessage &message);
+    /// Whether a message of this kind is a request that changes nothing: it is answered with data.
+    static bool isQuestion(QPlcMessage::Kind kind);
+    /// \a message as the answer that was wanted, or why it is not.
+    template<typename Answer>
+    static std::variant<Answer, messages::Failed> replyOf(const QPlcMessage &message)
+    {
+        QString error;
+        if (auto answer = messages::readAs<Answer>(message, &error))
+            return *answer;
+        return failureOf(message, error);
+    }
     /// Why \a message is not the answer that was wanted. \param error  what could not be read of it
     static messages::Failed failureOf(const QPlcMessage &message, const QString &error = QString());
 
@@ -151,15 +162,6 @@ private:
             return message.kind() == QPlcMessage::InitializeAllStates || message.kind() == QPlcMessage::StartRealTime;
         }
     };
-
-    template<typename Answer>
-    static std::variant<Answer, messages::Failed> replyOf(const QPlcMessage &message)
-    {
-        QString error;
-        if (auto answer = messages::readAs<Answer>(message, &error))
-            return *answer;
-        return failureOf(message, error);
-    }
 
     void greet();
     void receive(const QPlcMessage &message);

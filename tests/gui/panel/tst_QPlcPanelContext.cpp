@@ -70,6 +70,33 @@ public:
     Plant *kite;
 };
 
+/// A panel in a window with a master that it asks.
+class AskingPanel
+{
+public:
+    AskingPanel()
+        : kite(window.plants()->add(master.address(), QStringLiteral("kite"), QStringLiteral("Window")))
+    {
+        panel.setContext(&window);
+    }
+    bool ask(const QPlcMessage &question, const QString &plant = QString())
+    {
+        const auto take = [this](const QPlcMessage &answer) {
+            answers << answer;
+            if (answered)
+                answered();
+        };
+        return panel.context()->ask(question, &panel, take, plant);
+    }
+
+    RunningMaster master;
+    WindowContext window;
+    Plant *const kite;
+    Panel panel;
+    QVector<QPlcMessage> answers;
+    std::function<void()> answered;  // after each answer
+};
+
 }  // namespace
 
 class tst_QPlcPanelContext : public QObject
@@ -90,6 +117,11 @@ private Q_SLOTS:
     void aPastOutlivesItsPlant();
     void aPanelMovesTheTimeAxisOfItsWindow();
     void aPanelAsksForTheDurationsOfAMaster();
+    void aPanelAsksForTheStateOfAMaster();
+    void aPanelSendsNoCommands_data();
+    void aPanelSendsNoCommands();
+    void aPanelHasFewQuestionsOpen();
+    void aLostConnectionFailsTheQuestionsOfAPanel();
     void aPanelWritesIntoTheEventLog();
     void aPanelAcknowledgesEvents();
     void tablesOfAPanelAreModels();
@@ -320,6 +352,74 @@ void tst_QPlcPanelContext::aPanelAsksForTheDurationsOfAMaster()
         return found.contains(QLatin1String(key));
     };
     QTRY_VERIFY(isAnswered("Master.lateness") && isAnswered("Master.execution") && isAnswered("Counter.execution"));
+}
+
+void tst_QPlcPanelContext::aPanelAsksForTheStateOfAMaster()
+{
+    AskingPanel asking;
+    QVERIFY(!asking.ask(QPlcMessage::GetState, QStringLiteral("nowhere")));
+    QTRY_VERIFY(asking.kite->isConnected());
+    QVERIFY(asking.ask(QPlcMessage::GetState));
+    QVERIFY(asking.answers.isEmpty());  // the event loop brings it
+    QTRY_COMPARE(asking.answers.size(), 1);
+    QCOMPARE(asking.answers.at(0).kind(), QPlcMessage::State);
+    QCOMPARE(asking.answers.at(0).text("state"), QStringLiteral("Off"));
+    QVERIFY(asking.ask(QPlcMessage(QPlcMessage::GetSignals, {{"names", 7}})));
+    QTRY_COMPARE(asking.answers.size(), 2);
+    QCOMPARE(asking.answers.at(1).kind(), QPlcMessage::Failed);
+    QVERIFY(!asking.answers.at(1).text("text").isEmpty());
+}
+
+void tst_QPlcPanelContext::aPanelSendsNoCommands_data()
+{
+    QTest::addColumn<int>("kind");
+    for (const QPlcMessage::Kind kind :
+         {QPlcMessage::Invalid, QPlcMessage::Hello, QPlcMessage::Register, QPlcMessage::InitializeAllStates,
+          QPlcMessage::StartRealTime, QPlcMessage::Stop, QPlcMessage::SafeStop, QPlcMessage::Reset, QPlcMessage::Arm,
+          QPlcMessage::SetSignals, QPlcMessage::TakeLease, QPlcMessage::ReleaseLease, QPlcMessage::State,
+          QPlcMessage::Done})
+        QTest::newRow(qPrintable(QPlcMessage(kind).kindName())) << int(kind);
+}
+
+void tst_QPlcPanelContext::aPanelSendsNoCommands()
+{
+    QFETCH(int, kind);
+    AskingPanel asking;
+    QVERIFY(asking.master.startRealTime());
+    QTRY_VERIFY(asking.kite->isConnected());
+    QVERIFY(asking.ask(QPlcMessage::GetState));
+    QTRY_COMPARE(asking.answers.size(), 1);
+    QVERIFY(!asking.ask(QPlcMessage::Kind(kind)));
+    QVERIFY(asking.ask(QPlcMessage::GetState));
+    QTRY_COMPARE(asking.answers.size(), 2);
+    QCOMPARE(asking.answers.at(1).text("state"), QStringLiteral("RealTime"));
+}
+
+void tst_QPlcPanelContext::aPanelHasFewQuestionsOpen()
+{
+    AskingPanel asking;
+    QTRY_VERIFY(asking.kite->isConnected());
+    QVERIFY(asking.ask(QPlcMessage::GetState));
+    int asked = 1;
+    while (asked < 1000 && asking.ask(QPlcMessage::GetSchedule))
+        ++asked;
+    QCOMPARE(asked, 16);
+    QTRY_COMPARE(asking.answers.size(), asked);
+    QVERIFY(asking.ask(QPlcMessage::GetState));
+}
+
+void tst_QPlcPanelContext::aLostConnectionFailsTheQuestionsOfAPanel()
+{
+    AskingPanel asking;
+    bool isAskedAgain = false;
+    asking.answered = [&] { isAskedAgain = asking.ask(QPlcMessage::GetState); };  // as one that polls
+    QTRY_VERIFY(asking.kite->isConnected());
+    QVERIFY(asking.ask(QPlcMessage::GetState));
+    QTRY_VERIFY(isAskedAgain);
+    asking.master.stopServer();
+    QTRY_VERIFY(!isAskedAgain);
+    QCOMPARE(asking.answers.last().kind(), QPlcMessage::Failed);
+    QCOMPARE(asking.answers.last().text("error"), QStringLiteral("Lost"));
 }
 
 void tst_QPlcPanelContext::aPanelWritesIntoTheEventLog()
