@@ -3,7 +3,7 @@
 import struct
 import sys
 
-from wire import INPUTS, OUTPUTS, GROUP_INPUTS, FAULT, PART, RESENT, SAFE_STOP, SESSION, Channel, check_aead, crc32c, fnv1a64, hex64, layout
+from wire import HEADER, INPUTS, OUTPUTS, GROUP_INPUTS, FAULT, PART, RESENT, SAFE_STOP, SESSION, Channel, check_aead, crc32c, fnv1a64, hex64, layout
 
 
 def make_layouts():
@@ -47,9 +47,9 @@ def make_layouts():
             "values": [{"type": t, "text": text, "hex": value.hex()} for t, text, value in values]}
 
 
-def good_frame(name, channel, cycle, info, payload, flags=0):
-    return {"name": name, "channel": channel.json(), "flags": flags, "cycle": cycle, "info": info,
-            "payload": payload.hex(), "frames": [frame.hex() for frame in channel.parts(cycle, info, payload, flags)]}
+def good_frame(name, channel, cycle, info, payload, flags=0, before=0):
+    return {"name": name, "channel": channel.json(), "flags": flags, "cycle": cycle, "info": info, "before": before,
+            "payload": payload.hex(), "frames": [frame.hex() for frame in channel.parts(cycle, info, payload, flags, before)]}
 
 
 def make_refused(channel, payload):
@@ -66,16 +66,16 @@ def make_refused(channel, payload):
     ]
     rows = [
         ("no byte", b"", "WrongLength"),
-        ("a header alone", good[:12], "WrongLength"),
+        ("a header alone", good[:HEADER], "WrongLength"),
         ("one byte short", good[:-1], "WrongLength"),
         ("one byte long", good + b"\0", "WrongLength"),
         ("two frames in one datagram", good + good, "WrongLength"),
-        ("the length of part 1 in part 0", sealed(good[:12] + long_part[12:-4]), "WrongLength"),
+        ("the length of part 1 in part 0", sealed(good[:HEADER] + long_part[HEADER:-4]), "WrongLength"),
         ("part number 0", sealed(good[:1] + bytes([PART]) + good[2:8] + struct.pack("<I", 0) + good[12:-4]), "WrongLength"),
         ("a part number beyond the last", sealed(long_part[:8] + struct.pack("<I", 2) + long_part[12:-4]), "WrongLength"),
         ("part number 2^32 - 1", sealed(long_part[:8] + b"\xff" * 4 + long_part[12:-4]), "WrongLength"),
         ("version 0", channel.part(0, 42, 1000, payload, version=0), "WrongVersion"),
-        ("version 2", channel.part(0, 42, 1000, payload, version=2), "WrongVersion"),
+        ("version 1", channel.part(0, 42, 1000, payload, version=1), "WrongVersion"),
         ("the kind of the other direction", Channel(OUTPUTS, channel.node, channel.layout_hash, channel.borders)
             .part(0, 42, 1000, payload), "WrongVersion"),
         ("other low 16 bits of the session", Channel(INPUTS, channel.node, channel.layout_hash, channel.borders, SESSION + 1)
@@ -116,7 +116,7 @@ def make_sequences(single, double):
         return cycle, values(channel, cycle)
 
     broken = bytearray(whole(8))
-    broken[13] ^= 4
+    broken[HEADER + 1] ^= 4
     one, two, wrap = (lambda c: seen(single, c)), (lambda c: seen(double, c)), 1 << 32
     return [
         sequence("cycles in order", single, 0, [(whole(c), "Complete", one(c)) for c in range(3)]),
@@ -151,18 +151,20 @@ def make_cyclic():
     example = Channel(INPUTS, 7, layout_hash, [0, 12])
     answer = Channel(OUTPUTS, 7, fnv1a64(b"tetherForce:Real64@0\n"), [0, 8])
     split = Channel(INPUTS, 2, 0x1122334455667788, [0, 8, 13])
-    largest = Channel(OUTPUTS, 65535, 0xFFFFFFFFFFFFFFFF, [0, 1456, 2912, 2920], 0xFFFFFFFFFFFFFFFF)
+    largest = Channel(OUTPUTS, 65535, 0xFFFFFFFFFFFFFFFF, [0, 1452, 2904, 2920], 0xFFFFFFFFFFFFFFFF)
     largest_payload = bytes((i * 7 + i // 256) & 0xFF for i in range(2920))
     frames = [
         good_frame("the worked example", example, 42, 1000, payload),
         good_frame("the same, resent", example, 42, 1000, payload, RESENT),
-        good_frame("the answer", answer, 42, 25000, struct.pack("<d", 1234.5)),
-        good_frame("the answer of a node with a fault", answer, 43, 0, struct.pack("<d", 1234.5), FAULT),
+        good_frame("three cycles were not sent before", example, 46, 1000, payload, before=3),
+        good_frame("the answer, after that to cycle 39", answer, 42, 25000, struct.pack("<d", 1234.5), before=39),
+        good_frame("the first answer of a phase", answer, 42, 25000, struct.pack("<d", 1234.5), before=42),
+        good_frame("the answer of a node with a fault", answer, 43, 0, struct.pack("<d", 1234.5), FAULT, before=42),
         good_frame("the master stops safely", example, 44, 1000, bytes(12), SAFE_STOP),
         good_frame("the answer of a node in its safe state", answer, 44, 0, bytes(8), SAFE_STOP),
         good_frame("the answer of a node in its safe state, with a fault", answer, 45, 0, bytes(8), SAFE_STOP | FAULT),
         good_frame("no signal", Channel(OUTPUTS, 1, fnv1a64(b""), [0, 0], 1), 0, 0, b""),
-        good_frame("largest numbers", example, 0xFFFFFFFF, 0xFFFFFFFF, b"\xff" * 12, 0x7F),
+        good_frame("largest numbers", example, 0xFFFFFFFF, 0xFFFFFFFF, b"\xff" * 12, 0x7F, before=0xFFFFFFFF),
         good_frame("one byte", Channel(INPUTS, 3, 5, [0, 1]), 1, 2, b"\x5a"),
         good_frame("two parts", split, 9, 77, bytes(range(13)), RESENT),
         good_frame("three datagrams of the largest size", largest, 1, 5, largest_payload),
@@ -185,12 +187,12 @@ def make_sealed_refused(channel, payload):
 
     plain = by(key=None).part(0, 42, 1000, payload)
     rows = [
-        ("a header alone", good[:12], "WrongLength"),
+        ("a header alone", good[:HEADER], "WrongLength"),
         ("a tag cut short", good[:-1], "WrongLength"),
         ("one byte long", good + b"\0", "WrongLength"),
         ("a frame that is not sealed", plain, "WrongLength"),
         ("a frame that is not sealed, of the right length", plain + bytes(12), "Forged"),
-        ("version 2", channel.part(0, 42, 1000, payload, version=2), "WrongVersion"),
+        ("version 1", channel.part(0, 42, 1000, payload, version=1), "WrongVersion"),
         ("the kind of the other direction", by(kind=OUTPUTS).part(0, 42, 1000, payload), "WrongVersion"),
         ("other low 16 bits of the session", by(session=SESSION + 1).part(0, 42, 1000, payload), "WrongSession"),
         ("another session with the same low 16 bits", by(session=SESSION ^ 0x10000).part(0, 42, 1000, payload), "Forged"),
@@ -201,10 +203,11 @@ def make_sealed_refused(channel, payload):
         ("the cycle changed on the way", good[:4] + bytes([43]) + good[5:], "Forged"),
         ("a flag set on the way", good[:1] + bytes([RESENT]) + good[2:], "Forged"),
         ("the time changed on the way", good[:8] + bytes([good[8] ^ 1]) + good[9:], "Forged"),
-        ("a bit of the payload", good[:12] + bytes([good[12] ^ 1]) + good[13:], "Forged"),
+        ("the number of cycles before it changed on the way", good[:12] + bytes([good[12] ^ 1]) + good[13:], "Forged"),
+        ("a bit of the payload", good[:HEADER] + bytes([good[HEADER] ^ 1]) + good[HEADER + 1:], "Forged"),
         ("a bit of the tag", good[:-1] + bytes([good[-1] ^ 0x80]), "Forged"),
         ("a tag of zeros", good[:-16] + bytes(16), "Forged"),
-        ("part 1 as part 0", good[:12] + channel.part(1, 42, 0, payload)[12:], "Forged"),
+        ("part 1 as part 0", good[:HEADER] + channel.part(1, 42, 0, payload)[HEADER:], "Forged"),
     ]
     return {"channel": channel.json(), "frames": [{"name": n, "hex": f.hex(), "status": s} for n, f, s in rows]}
 
@@ -218,14 +221,14 @@ def make_sealed():
     example = Channel(INPUTS, 7, layout_hash, [0, 12], key=key)
     answer = Channel(OUTPUTS, 7, fnv1a64(b"tetherForce:Real64@0\n"), [0, 8], key=bytes(range(0xC0, 0xE0)))
     split = Channel(INPUTS, 2, 0x1122334455667788, [0, 8, 13], key=key)
-    largest = Channel(OUTPUTS, 65535, 0xFFFFFFFFFFFFFFFF, [0, 1444, 2888, 2900], 0xFFFFFFFFFFFFFFFF, key=bytes([0xFF]) * 32)
+    largest = Channel(OUTPUTS, 65535, 0xFFFFFFFFFFFFFFFF, [0, 1440, 2880, 2900], 0xFFFFFFFFFFFFFFFF, key=bytes([0xFF]) * 32)
     largest_payload = bytes((i * 7 + i // 256) & 0xFF for i in range(2900))
     frames = [
         good_frame("the worked example, sealed", example, 42, 1000, payload),
         good_frame("the same, resent", example, 42, 1000, payload, RESENT),
         good_frame("the next cycle", example, 43, 1000, payload),
-        good_frame("the answer", answer, 42, 25000, struct.pack("<d", 1234.5)),
-        good_frame("the answer of a node with a fault", answer, 43, 0, struct.pack("<d", 1234.5), FAULT),
+        good_frame("the answer, after that to cycle 39", answer, 42, 25000, struct.pack("<d", 1234.5), before=39),
+        good_frame("the answer of a node with a fault", answer, 43, 0, struct.pack("<d", 1234.5), FAULT, before=42),
         good_frame("no signal", Channel(OUTPUTS, 1, fnv1a64(b""), [0, 0], 1, key=key), 0, 0, b""),
         good_frame("two parts", split, 9, 77, bytes(range(13)), RESENT),
         good_frame("three datagrams of the largest size", largest, 1, 5, largest_payload),

@@ -4,7 +4,8 @@ import struct
 
 INPUTS, OUTPUTS, GROUP_INPUTS = 1, 2, 3
 RESENT, FAULT, SAFE_STOP, PART = 0x01, 0x02, 0x04, 0x80
-VERSION = 1
+VERSION = 2
+HEADER = 16
 SESSION = 0x8F3A61C2D4E5B097
 
 
@@ -97,7 +98,7 @@ def size_of(type_name):
     return SIZES[type_name]
 
 
-def layout(name, fields, table=None, maximum=1456, qualities=False):
+def layout(name, fields, table=None, maximum=1452, qualities=False):
     """fields: (signal, canonical type); table: type names as written in the signal table, where they differ; qualities: they follow the values."""
     table = table or {}
     offset, lines, placed, borders = 0, [], [], [0]
@@ -130,18 +131,18 @@ class Channel:
         self.kind, self.node, self.layout_hash, self.borders, self.session, self.key = kind, node, layout_hash, borders, session, key
         self.seed = crc32c(struct.pack("<QHQ", session, node, layout_hash))
 
-    def part(self, number, cycle, info, payload, flags=0, version=VERSION):
+    def part(self, number, cycle, info, payload, flags=0, version=VERSION, before=0):
         if number > 0:
             flags, info = flags | PART, number
-        body = struct.pack("<BBHII", version << 4 | self.kind, flags, self.session & 0xFFFF, cycle & 0xFFFFFFFF, info)
+        body = struct.pack("<BBHIII", version << 4 | self.kind, flags, self.session & 0xFFFF, cycle & 0xFFFFFFFF, info, before & 0xFFFFFFFF)
         if self.key:
             nonce = struct.pack("<QH", cycle ^ self.session, number ^ self.node) + body[:2]
             return body + aead(self.key, nonce, payload[self.borders[number]:self.borders[number + 1]], body)
         body += payload[self.borders[number]:self.borders[number + 1]]
         return body + struct.pack("<I", crc32c(body, self.seed))
 
-    def parts(self, cycle, info, payload, flags=0):
-        return [self.part(i, cycle, info, payload, flags) for i in range(len(self.borders) - 1)]
+    def parts(self, cycle, info, payload, flags=0, before=0):
+        return [self.part(i, cycle, info, payload, flags, before=before) for i in range(len(self.borders) - 1)]
 
     def json(self):
         return {"kind": {INPUTS: "Inputs", OUTPUTS: "Outputs", GROUP_INPUTS: "GroupInputs"}[self.kind], "session": hex64(self.session),

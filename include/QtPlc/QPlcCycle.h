@@ -50,8 +50,9 @@ public:
     /// Returns the period [s].
     constexpr double dt() const { return double(m_period.count()) * 1e-9; }
     /// Returns the number of cycles between the last step and this one that the node did not get,
-    /// because of an overrun of the master or lost frames; 0 in normal operation. Cycles that a
-    /// listener skips on purpose (QPlcSlaveNode::setListeningInterval()) do not count.
+    /// because of an overrun of the master or lost frames (QPlcSlaveNode::Counters tells which); 0
+    /// in normal operation. Cycles that a listener skips on purpose
+    /// (QPlcSlaveNode::setListeningInterval()) do not count.
     constexpr quint64 missedCycles() const { return m_missed; }
 
 private:

@@ -197,7 +197,7 @@ public:
     /// or a slow reader. The node gets the first frame at once, and then the first one of each
     /// group of \a cycles cycles, counted from cycle 0 of the phase. The master does not send the
     /// others: a peak between two frames is not seen. QPlcCycle::missedCycles() and
-    /// Counters::missed count groups then. An older master sends every cycle.
+    /// Counters::skipped count groups then.
     /// \param cycles  1 (every cycle, the default) to 1 000 000. With more than 1 the registration
     ///     fails (RegistrationError) for a node that is not a listener, has outputs, or uses
     ///     multicast
@@ -315,8 +315,13 @@ public:
     struct Counters
     {
         quint64 cycles = 0;  ///< cycles that were computed
-        /// Cycles that never arrived; with setListeningInterval() groups of cycles.
+        /// Cycles that the master has sent to the node, and that the node did not compute: lost on
+        /// the way, or too old when they came. Until the end of the phase, if its master has told
+        /// the end.
         quint64 missed = 0;
+        /// Cycles that the master did not send: it had an overrun. With setListeningInterval()
+        /// groups of cycles.
+        quint64 skipped = 0;
         /// Requests that came twice; the node answers and does not compute again.
         quint64 duplicated = 0;
         quint64 outdated = 0;  ///< requests of older cycles than the newest one

@@ -17,6 +17,7 @@ constexpr std::size_t FlagsAt = 1;
 constexpr std::size_t SessionAt = 2;
 constexpr std::size_t CycleAt = 4;
 constexpr std::size_t InfoAt = 8;
+constexpr std::size_t BeforeAt = 12;
 
 constexpr std::size_t PartsPerWord = 64;
 
@@ -93,6 +94,7 @@ bool FrameEncoder::encode(std::size_t part, FrameHeader header, const char *payl
     storeLittle(m_session, head + SessionAt);
     storeLittle(std::uint32_t(header.cycle), head + CycleAt);
     storeLittle(header.info, head + InfoAt);
+    storeLittle(header.before, head + BeforeAt);
     if (m_seal)
         return m_seal->seal(header.cycle, std::uint16_t(part), head, payload + begin, size, target);
     std::memcpy(target, head, CyclicHeaderSize);
@@ -145,6 +147,7 @@ FrameHeader FrameDecoder::readHeader(const char *bytes) const noexcept
     header.flags = loadLittle<std::uint8_t>(bytes + FlagsAt);
     header.cycle = extendCycle(loadLittle<std::uint32_t>(bytes + CycleAt), m_newest);
     header.info = loadLittle<std::uint32_t>(bytes + InfoAt);
+    header.before = loadLittle<std::uint32_t>(bytes + BeforeAt);
     return header;
 }
 

@@ -12,13 +12,14 @@
 namespace qplc {
 
 /// The frames that carry values in every cycle: little-endian,
-///   u8 version << 4 | kind, u8 flags, u16 session, u32 cycle, u32 info, payload, u32 CRC-32C
-/// = 16 bytes + payload. The CRC is seeded with session id, node id and layout hash. A sealed frame
-/// has a sealed payload, and a tag of 16 bytes in the place of the CRC: 28 bytes + payload. See
+///   u8 version << 4 | kind, u8 flags, u16 session, u32 cycle, u32 info, u32 before, payload, u32
+///   CRC-32C
+/// = 20 bytes + payload. The CRC is seeded with session id, node id and layout hash. A sealed frame
+/// has a sealed payload, and a tag of 16 bytes in the place of the CRC: 32 bytes + payload. See
 /// docs/protocol.md.
-constexpr std::uint8_t CyclicVersion = 1;
-constexpr std::size_t CyclicHeaderSize = 12;
-constexpr std::size_t CyclicOverhead = 16;
+constexpr std::uint8_t CyclicVersion = 2;
+constexpr std::size_t CyclicHeaderSize = 16;
+constexpr std::size_t CyclicOverhead = CyclicHeaderSize + sizeof(std::uint32_t);
 /// Longest frame: an Ethernet MTU without IPv4 and UDP headers.
 constexpr std::size_t MaximumCyclicFrame = 1472;
 constexpr std::size_t MaximumCyclicPayload = MaximumCyclicFrame - CyclicOverhead;
@@ -49,10 +50,13 @@ struct FrameHeader
     FrameKind kind = FrameKind::Inputs;
     std::uint8_t flags = 0;
     std::uint64_t cycle = 0;  ///< the wire carries its low 32 bits
-    std::uint32_t info
-        /// inputs: lateness of the cycle [ns]; outputs: execution time [ns]; saturated. Parts > 0:
-        /// number of the part
-        = 0;
+    /// Inputs: lateness of the cycle [ns]; outputs: execution time [ns]; saturated. Parts > 0:
+    /// number of the part.
+    std::uint32_t info = 0;
+    /// Inputs: how many cycles before this one, from the first one of the node on, the master has
+    /// not sent to it, modulo 2^32. Outputs: low 32 bits of the cycle that the node has computed
+    /// before this one in this phase; of this cycle if there is none.
+    std::uint32_t before = 0;
 };
 
 /// What binds a frame to one session, one node and one layout; mixed into the CRC, never sent.

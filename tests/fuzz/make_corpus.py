@@ -98,7 +98,7 @@ def message(who, kind, **fields):
 
 
 def hello(who, name, role="node", **more):
-    return record(CONNECT) + message(who, "Hello", protocol=1, name=name, uuid=f"6f1f6f5a-7a5e-4b57-9d0c-3a2f4cf0b1d{who}", role=role,
+    return record(CONNECT) + message(who, "Hello", protocol=2, name=name, uuid=f"6f1f6f5a-7a5e-4b57-9d0c-3a2f4cf0b1d{who}", role=role,
                                      features=["sameCycle", "leases", "events"], **more)
 
 
@@ -143,7 +143,7 @@ def sessions():
         "joins while others run": winch + start + other + give_outputs(1, "AAAAAAAAAAAAAAAA") + message(1, "Initialized") + message(1, "RealTimeReady"),
         "a node that does not answer": winch + message(0, "InitializeAllStates") + record(TIME_OUT),
         "outputs of a wrong size": winch + message(0, "InitializeAllStates") + give_outputs(0, "AAAA"),
-        "the same node again": winch + record(CONNECT) + message(1, "Hello", protocol=1, name="Winch", uuid="6f1f6f5a-7a5e-4b57-9d0c-3a2f4cf0b1d0", role="node", features=[])
+        "the same node again": winch + record(CONNECT) + message(1, "Hello", protocol=2, name="Winch", uuid="6f1f6f5a-7a5e-4b57-9d0c-3a2f4cf0b1d0", role="node", features=[])
                                + register(1, "Winch", uuid="6f1f6f5a-7a5e-4b57-9d0c-3a2f4cf0b1d0"),
         "the same output": winch + hello(1, "Model") + register(1, "Model"),
         "a loop": winch + hello(1, "Model") + message(1, "Register", name="Model", policy="SilentWait", listener=False, cyclic="udp", udpPort=4, twoPhase=True,
@@ -155,7 +155,7 @@ def sessions():
         "every message before hello": every,
         "every message of a tool": hello(0, "Anna", "tool") + every[:3000],
         "an observer": record(BECOME, 1) + winch + start + commands + settings,
-        "every role": b"".join(record(BECOME, 8 * role + 1) + record(CONNECT) + message(role, "Hello", protocol=1, name="Winch", role="node", features=[])
+        "every role": b"".join(record(BECOME, 8 * role + 1) + record(CONNECT) + message(role, "Hello", protocol=2, name="Winch", role="node", features=[])
                                + message(role, "Stop") + message(role, "SetSignals", values=dict(tetherSpeed="1", mode="2")) for role in range(4)),
         "garbage": record(RAW, 0, b"GET / HTTP/1.1\r\n\r\n") + record(CONNECT) + record(RAW, 1, b"\xff" * 64),
     }

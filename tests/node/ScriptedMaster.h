@@ -55,6 +55,7 @@ public:
     QVector<QPlcMessage> messages;  // of all connections
     QVector<Answer> answers;
     quint64 first = 100;  // number on the wire of cycle 0
+    quint32 before = 0;   // of its frames: cycles that it has not sent
 
     /// Where frames travel one by one.
     QPlcUnderlyingProtocol place() const { return over(datagrams()); }
@@ -85,7 +86,7 @@ public:
     }
     QJsonObject helloFields() const
     {
-        return {{QStringLiteral("protocol"), 1},
+        return {{QStringLiteral("protocol"), 2},
                 {QStringLiteral("name"), QStringLiteral("Master")},
                 {QStringLiteral("session"), QPlcMessage::fromHex64(Session)},
                 {QStringLiteral("table"), QString::fromUtf8(table.toIni())}};
@@ -148,6 +149,7 @@ public:
         qplc::FrameHeader header;
         header.flags = flags;
         header.cycle = quint32(first + cycle);
+        header.before = before;
         for (std::size_t part = 0; part < m_encoder.partCount(); ++part) {
             frames << QByteArray(int(m_encoder.partSize(part)), '\0');
             m_encoder.encode(part, header, values.constData(), frames.last().data());

@@ -107,7 +107,7 @@ public:
     }
     QJsonObject helloFields() const
     {
-        return {{QStringLiteral("protocol"), 1},
+        return {{QStringLiteral("protocol"), 2},
                 {QStringLiteral("name"), name},
                 {QStringLiteral("uuid"), uuid},
                 {QStringLiteral("role"), QStringLiteral("node")}};
@@ -219,6 +219,11 @@ public:
     bool beginWith(TestMaster &master)
     {
         return master.listen() && registerAt(master.serverPort()) && master.startRealTime() && waitForRequests(1);
+    }
+    /// Frames of any kind, also those that it was not ready for.
+    bool waitForFrames(int count)
+    {
+        return waitUntil([&] { return frames.size() >= count; });
     }
     bool waitForRequests(int count)
     {

@@ -87,7 +87,7 @@ void tst_ControlClient::clientGreetsTheMaster()
     m_client->connectToMaster(m_master->tcp());
     const QPlcMessage hello = m_master->next();
     QCOMPARE(hello.kind(), QPlcMessage::Hello);
-    QCOMPARE(hello.fields().value("protocol").toInt(), 1);
+    QCOMPARE(hello.fields().value("protocol").toInt(), 2);
     QCOMPARE(hello.text("name"), QString("anna@lab"));
     QCOMPARE(hello.text("role"), QString("tool"));
     QCOMPARE(hello.fields().value("features").toArray(), (QJsonArray{"events", "leases"}));
@@ -342,9 +342,9 @@ void tst_ControlClient::otherProtocolVersionEndsTheConnection()
 {
     m_client->connectToMaster(m_master->tcp());
     QCOMPARE(m_master->next().kind(), QPlcMessage::Hello);
-    m_master->send(QPlcMessage::Hello, {{"protocol", 2}});
+    m_master->send(QPlcMessage::Hello, {{"protocol", 3}});
     QVERIFY(isLost());
-    QCOMPARE(m_losses.at(0), qMakePair(ControlClient::Loss::OtherVersion, QString("2")));
+    QCOMPARE(m_losses.at(0), qMakePair(ControlClient::Loss::OtherVersion, QString("3")));
     QVERIFY(!m_client->isGreeted());
 }
 

@@ -240,10 +240,15 @@ void tst_ListeningInterval::lostIntervalsCountAsMissed()
     ScriptedMaster master;
     Viewer viewer;
     QVERIFY(master.beginWith(viewer));
-    for (const quint64 cycle : {0, 10, 23, 30, 60})
-        master.request(cycle);
+    quint64 sent = 0;
+    for (const quint64 cycle : {0, 10, 23, 30, 40, 50, 60}) {
+        master.before = quint32(cycle - sent++);
+        if (cycle != 40 && cycle != 50)  // those are lost
+            master.request(cycle);
+    }
     QVERIFY(master.waitForAnswers(5));
     QCOMPARE(viewer.counters().missed, quint64(2));
+    QCOMPARE(viewer.counters().skipped, quint64(0));
     QCOMPARE(viewer.takeCycles(), (QVector<quint64>{0, 10, 23, 30, 60}));
     viewer.disconnectFromMaster();
 }

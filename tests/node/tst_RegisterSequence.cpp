@@ -37,7 +37,7 @@ void tst_RegisterSequence::masterAnswersANodeStepByStep()
     node.send(QPlcMessage::Hello, node.helloFields());
     const QPlcMessage hello = node.next();
     QCOMPARE(hello.kind(), QPlcMessage::Hello);
-    QCOMPARE(hello.fields().value("protocol").toInt(), 1);
+    QCOMPARE(hello.fields().value("protocol").toInt(), 2);
     QCOMPARE(hello.text("name"), QString("Master"));
     QCOMPARE(hello.text("state"), QString("Off"));
     QVERIFY(!QUuid(hello.text("uuid")).isNull());
@@ -179,10 +179,10 @@ void tst_RegisterSequence::slaveRefusesAnotherProtocolVersion()
     node.connectToMaster(master.tcp());
     QCOMPARE(master.next().kind(), QPlcMessage::Hello);
     QJsonObject fields = master.helloFields();
-    fields.insert("protocol", 2);
+    fields.insert("protocol", 3);
     master.send(QPlcMessage::Hello, fields);
     QTRY_COMPARE(node.error(), QPlcSlaveNode::ProtocolError);
-    QVERIFY2(node.errorString().contains("version 2"), qPrintable(node.errorString()));
+    QVERIFY2(node.errorString().contains("version 3"), qPrintable(node.errorString()));
 }
 
 void tst_RegisterSequence::slaveReportsARejection()

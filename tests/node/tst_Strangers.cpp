@@ -88,7 +88,7 @@ void tst_Strangers::slowGreetingIsClosed()
 {
     const auto socket = connected();
     const QByteArray begin = m_isSecured ? QByteArray("\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03", 11)
-                                         : qplc::encodeControlFrame(QPlcMessage(QPlcMessage::Hello, {{"protocol", 1}}));
+                                         : qplc::encodeControlFrame(QPlcMessage(QPlcMessage::Hello, {{"protocol", 2}}));
     constexpr int bytes = 8;
     for (int i = 0; i < bytes; ++i) {
         QVERIFY(!isClosed(socket));

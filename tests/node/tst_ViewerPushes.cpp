@@ -62,7 +62,7 @@ public:
     {
         QObject::connect(m_socket.get(), &QTcpSocket::connected, m_socket.get(), [this, features] {
             m_socket->write(encodeControlFrame(
-                QPlcMessage(QPlcMessage::Hello, {{"protocol", 1}, {"name", "Viewer"}, {"features", features}})));
+                QPlcMessage(QPlcMessage::Hello, {{"protocol", 2}, {"name", "Viewer"}, {"features", features}})));
         });
         m_socket->connectToHost(QHostAddress(QHostAddress::LocalHost), port);
         return waitUntil([this] { return next().kind() == QPlcMessage::Hello; });

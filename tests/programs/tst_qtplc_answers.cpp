@@ -44,7 +44,7 @@ private:
     {
         if (message.kind() == QPlcMessage::Hello) {
             socket->sendMessage(QPlcMessage(
-                QPlcMessage::Hello, {{"protocol", 1}, {"name", "Master"}, {"table", "[power]\ntype = Real32\n"}}));
+                QPlcMessage::Hello, {{"protocol", 2}, {"name", "Master"}, {"table", "[power]\ntype = Real32\n"}}));
             return;
         }
         requests << message;

@@ -61,6 +61,7 @@ static FrameHeader headerOf(const QJsonObject &row)
     header.flags = std::uint8_t(row[QStringLiteral("flags")].toInt());
     header.cycle = std::uint64_t(row[QStringLiteral("cycle")].toDouble());
     header.info = std::uint32_t(row[QStringLiteral("info")].toDouble());
+    header.before = std::uint32_t(row[QStringLiteral("before")].toDouble());
     return header;
 }
 
@@ -105,6 +106,7 @@ void tst_CyclicFrame::decoderAcceptsTheValidVectors()
     QCOMPARE(decoder.header().flags, header.flags);
     QCOMPARE(decoder.header().cycle, header.cycle);
     QCOMPARE(decoder.header().info, header.info);
+    QCOMPARE(decoder.header().before, header.before);
 }
 
 void tst_CyclicFrame::decoderRefusesTheInvalidVectors_data()
@@ -210,7 +212,7 @@ void tst_CyclicFrame::headerOfAnotherChannelHasNoSize()
     const FrameDecoder decoder(FrameKind::Inputs, seed, {0, 8, 12});
     QByteArray frame
         = vectors::encode(FrameEncoder(FrameKind::Inputs, seed, {0, 8, 12}), 1, FrameHeader(), QByteArray(12, 'x'));
-    QCOMPARE(decoder.frameSize(frame.constData()), std::size_t(20));
+    QCOMPARE(decoder.frameSize(frame.constData()), std::size_t(24));
 
     for (const int bit : {0, 1, 4, 7, 16, 31}) {  // kind, version, session
         QByteArray strange = frame;

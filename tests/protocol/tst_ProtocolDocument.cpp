@@ -82,7 +82,7 @@ void tst_ProtocolDocument::documentContainsTheSealedExampleOfTheVectors()
     const QJsonObject example
         = vectors::file(QStringLiteral("sealed_frames.json"))[QStringLiteral("frames")].toArray().at(0).toObject();
     const QString frame = example[QStringLiteral("frames")].toArray().at(0).toString();
-    const int header = 2 * 12;
+    const int header = 2 * int(qplc::CyclicHeaderSize);
     const int tag = frame.size() - 2 * 16;
     for (const QString &hex : {frame.left(header), frame.mid(header, tag - header), frame.mid(tag)})
         QVERIFY2(m_text.contains(hex), qPrintable(hex));

@@ -109,7 +109,7 @@ void Intruder::enterAsObserver()
     connect(&m_observer, &QPlcAbstractSocket::connected, this, [this] {
         m_observer.sendMessage(
             Message(Message::Hello,
-                    {{QStringLiteral("protocol"), 1},
+                    {{QStringLiteral("protocol"), 2},
                      {QStringLiteral("name"), QStringLiteral("Observer")},
                      {QStringLiteral("uuid"), QStringLiteral("5704ed00-0000-4000-8000-000000000001")},
                      {QStringLiteral("role"), QStringLiteral("tool")}}));

@@ -32,7 +32,7 @@ sockaddr_in loopback(quint16 port)
 QPlcMessage StrangerWords::greeting()
 {
     return QPlcMessage(QPlcMessage::Hello,
-                       {{QStringLiteral("protocol"), 1},
+                       {{QStringLiteral("protocol"), 2},
                         {QStringLiteral("name"), QStringLiteral("Stranger")},
                         {QStringLiteral("uuid"), QStringLiteral("5704ed00-0000-4000-8000-000000000000")},
                         {QStringLiteral("role"), QStringLiteral("tool")},

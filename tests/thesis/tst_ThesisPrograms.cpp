@@ -134,7 +134,7 @@ bool tst_ThesisPrograms::connectTool()
     m_tool->connectToMaster(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, m_port));
     return connected.wait(Program::patience)
         && ask(QPlcMessage::Hello,
-               {{QStringLiteral("protocol"), 1},
+               {{QStringLiteral("protocol"), 2},
                 {QStringLiteral("name"), QStringLiteral("tst_ThesisPrograms")},
                 {QStringLiteral("uuid"), QUuid::createUuid().toString(QUuid::WithoutBraces)},
                 {QStringLiteral("role"), QStringLiteral("tool")},

@@ -16,6 +16,8 @@ namespace messages = qplc::messages;
 
 namespace {
 
+constexpr int lookAgain = 5;  // [ms] whether the rest of a phase is there
+
 bool hasCycles(QPlcMasterNode::State state)
 {
     return state == QPlcMasterNode::RealTime || state == QPlcMasterNode::WaitingForLateSlaves
@@ -54,6 +56,7 @@ QPlcSlaveNodePrivate::QPlcSlaveNodePrivate(QPlcSlaveNode *node, const QString &n
     , control({}, q)
     , m_retryTimer(q)
     , m_patience(q)
+    , m_rest(q)
     , m_uuid(qplc::newUuid())
 {
     name = nodeName;
@@ -65,6 +68,8 @@ QPlcSlaveNodePrivate::QPlcSlaveNodePrivate(QPlcSlaveNode *node, const QString &n
         masterLost(QPlcAbstractSocket::NoError,
                    QStringLiteral("no answer within %1 s").arg(m_patience.interval() / 1000));
     });
+    m_rest.setInterval(lookAgain);
+    QObject::connect(&m_rest, &QTimer::timeout, q, [this] { lookForRest(); });
     using qplc::ControlClient;
     control.setAnswerTimes({}, {});  // an attempt has its own patience
     QObject::connect(&control, &ControlClient::connected, q, [this] { apply(SlaveEvent::Connected); });
@@ -287,10 +292,10 @@ public:
         d.apply(SlaveEvent::InitializationFailed);
     }
     void operator()(const messages::RealTimeStarted &start) const { d.apply(SlaveEvent::PhaseStarted, start); }
-    void operator()(const messages::RealTimeStopped &) const
+    void operator()(const messages::RealTimeStopped &stop) const
     {
         d.m_outputsAwaited.reset();
-        d.apply(SlaveEvent::PhaseStopped);
+        d.stopPhase(stop);
     }
 
 private:
@@ -304,6 +309,8 @@ void QPlcSlaveNodePrivate::handle(const Message &message)
         m_outputsAwaited = message;  // it overtook CyclicChannelAttached, which comes on the other connection
         return;
     }
+    if (eventOf(message))
+        endRest();  // the master goes on: the phase that it has stopped is over
     if (!isExpected(message)) {
         qCWarning(lcSlave).noquote() << "node" << name << "ignores" << message.kindName()
                                      << "of the master: not possible now";

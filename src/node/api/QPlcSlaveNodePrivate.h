@@ -43,7 +43,8 @@ public:
 
     /// What a master tells with an event, for the function that belongs to it.
     using Told = std::variant<std::monostate, qplc::messages::Registered, qplc::messages::SendYourInitialOutputStates,
-                              qplc::messages::InitializeWithValues, qplc::messages::RealTimeStarted>;
+                              qplc::messages::InitializeWithValues, qplc::messages::RealTimeStarted,
+                              qplc::messages::RealTimeStopped>;
     /// Something has happened: the node goes to the next state as qplc::slaveStates() says, and
     /// does what belongs to it.
     void apply(qplc::SlaveEvent event, const Told &told = {});
@@ -83,7 +84,11 @@ private:
     void closeConnection(QPlcSlaveNode::SafeStateReason reason);
     void closeAfterWatchdog();
     void retryLater(qplc::SlaveEvent event);
-    void haltCycles();
+    static std::optional<qplc::SentCycles::Last> lastSent(const Told &told);
+    void stopPhase(const qplc::messages::RealTimeStopped &stop);
+    void lookForRest();
+    void endRest();
+    void haltCycles(const std::optional<qplc::SentCycles::Last> &last = std::nullopt);
     void endPhase(QPlcSlaveNode::SafeStateReason reason);
     void codeFailed(const QString &text);
     class FromMaster;
@@ -140,6 +145,8 @@ private:
     QSocketNotifier *m_cycleNotifier = nullptr;  // child of the node: it goes with it into another thread
     QTimer m_retryTimer;                         // children of the node: they go with it into another thread
     QTimer m_patience;                           // with an attempt to connect again
+    QTimer m_rest;                               // runs while frames are taken that a stop has overtaken
+    qplc::messages::RealTimeStopped m_stopTold;  // that stop
     qplc::BackOff m_backOff;
     bool m_wasRegistered = false;  // since connectToMaster()
     bool m_inPhase = false;        // from startCycles() to endPhase(); not for a node in the process of its master

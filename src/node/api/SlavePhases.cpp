@@ -171,12 +171,42 @@ void QPlcSlaveNodePrivate::applyProfile(qplc::SlaveCycle::Phase *phase)
     phase->usualHold = defaults.hold;
 }
 
-void QPlcSlaveNodePrivate::haltCycles()
+/// \param last  what the master has sent; none: it is not known
+void QPlcSlaveNodePrivate::haltCycles(const std::optional<qplc::SentCycles::Last> &last)
 {
     if (!m_inPhase)
         return;
-    cycle->stop();
+    m_rest.stop();
+    cycle->stop(last);
     takeReports();
+}
+
+/// A listener without devices has nothing to bring to rest: it takes what the master has sent, which
+/// the stop may have overtaken, and ends its phase then.
+void QPlcSlaveNodePrivate::stopPhase(const messages::RealTimeStopped &stop)
+{
+    if (!m_inPhase || !listener || hardware || !stop.lastCycle) {
+        apply(SlaveEvent::PhaseStopped, stop);
+        return;
+    }
+    m_stopTold = stop;
+    m_rest.start();
+    lookForRest();
+}
+
+void QPlcSlaveNodePrivate::lookForRest()
+{
+    if (cycle->hasEnded())
+        endRest();
+    else
+        cycle->finish(*lastSent(m_stopTold));
+}
+
+/// Ends the phase that the master has stopped, whatever is there of its rest.
+void QPlcSlaveNodePrivate::endRest()
+{
+    if (m_rest.isActive())
+        apply(SlaveEvent::PhaseStopped, m_stopTold);
 }
 
 /// \pre haltCycles()

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "SentCycles.h"
 #include "protocol/CyclicFrame.h"
 #include "transport/CyclicHub.h"
 
@@ -25,6 +26,7 @@ struct MulticastPart
     quint32 payloadSize = sizeof(std::uint16_t);  // [byte]
     std::vector<char> frame;                      // its nodes write their inputs into it
     bool toBeSent = false;
+    SentCycles sentCycles;
 
     char *payload() { return frame.data() + CyclicHeaderSize; }
     /// Sends the payload as it is now. The bytes have to stay until the hub is flushed.

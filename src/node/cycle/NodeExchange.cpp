@@ -83,6 +83,8 @@ void NodeExchange::cutInputs() noexcept
         slot->request.cycle = m_cycleZero + m_cycle.number;
         slot->request.info
             = std::uint32_t(std::min<std::int64_t>(m_cycle.lateness, std::numeric_limits<std::uint32_t>::max()));
+        const SentCycles &sent = slot->multicast ? slot->multicast->sentCycles : slot->sentCycles;
+        slot->request.before = sent.unsentBefore(slot->request.cycle);
     }
 }
 
@@ -121,6 +123,7 @@ void NodeExchange::askNodes(const Stage &stage) noexcept
         slot.awaited = turn.feedsLaterStage && !slot.listener;
         slot.statistics.asked(m_cycle.number, m_statistics.stageBegin(), m_statistics.deadline());
         sendRequest(slot, 0);
+        slot.sentCycles.note(slot.request);
     }
     sendMulticast(0);
     if (m_roster->anyRemote) {
@@ -153,6 +156,8 @@ void NodeExchange::sendMulticast(std::uint8_t flags) noexcept
         FrameHeader header = slot->request;
         header.flags = m_isSafe ? flags | SafeStopFlag : flags;
         slot->multicast->send(m_hub, header);
+        if (!(flags & ResentFlag))
+            slot->multicast->sentCycles.note(header);
         m_reports.tap(TappedFrame::Sent, 0, slot->multicast->frame.data(), slot->multicast->frame.size());
     }
 }

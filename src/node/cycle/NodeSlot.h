@@ -5,6 +5,7 @@
 #include "MulticastParts.h"
 #include "NodeRuntime.h"
 #include "NodeStatistics.h"
+#include "SentCycles.h"
 #include "SignalGuard.h"
 #include "protocol/CyclicFrame.h"
 #include "signals/ProcessImage.h"
@@ -58,6 +59,7 @@ struct NodeSlot
         = nullptr;  // payload of this cycle: where it lies in a frame of one part that is not sealed, else inputBytes
     std::vector<char> inputBytes;
     FrameHeader request;
+    SentCycles sentCycles;         // of this phase; restarted before the slot is adopted
     std::size_t partsEncoded = 0;  // of the request; those stay as they are until it changes
     std::size_t partsSent = 0;     // of the request: a stream takes what the kernel has room for
     std::size_t bytesSent = 0;

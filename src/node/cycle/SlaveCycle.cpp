@@ -12,6 +12,8 @@ namespace qplc {
 namespace {
 
 constexpr int UselessFrames = 256;  // that are read before a computation at most: a flood keeps no node from its work
+constexpr std::int64_t LongestRest = 1'000'000'000;  // [ns] for what is left at the end
+constexpr std::int64_t LongestQuiet = 50'000'000;    // [ns] then nothing more is on its way
 
 void count(std::atomic<quint64> &counter, quint64 n = 1) noexcept
 {
@@ -72,23 +74,35 @@ bool SlaveCycle::start(const Phase &phase)
     m_endOfTime = phase.cycleZero + mostCycles(phase.period);
     m_runtime.beginPhase(phase.clock.isLockstep(), TimeSource::monotonic(), phase.usualHold);
     for (std::atomic<quint64> *counter :
-         {&m_counters.cycles, &m_counters.missed, &m_counters.duplicated, &m_counters.outdated, &m_counters.rejected,
-          &m_counters.forged, &m_counters.watchdog, &m_counters.finished})
+         {&m_counters.cycles, &m_counters.missed, &m_counters.skipped, &m_counters.duplicated, &m_counters.outdated,
+          &m_counters.rejected, &m_counters.forged, &m_counters.watchdog, &m_counters.finished})
         counter->store(0);
     m_statistics.restart(phase.clock.isLockstep() ? 0 : lasting(phase.period));
     m_computedAny = m_faulted = false;
     m_lastCycle = phase.firstCycle;
+    m_lastBefore = 0;
+    m_last.reset();
     m_watchdog.start(watchdogTime() == 0 ? 0 : std::max(watchdogTime(), std::int64_t(m_phase.longestStart.count())),
                      monotonicNow());
-    m_stop = m_ended = false;
+    m_stop = m_finish = m_ended = false;
     if (m_thread.start(m_runtime.traits().name, phase.realTimeOptions, [this] { run(); }))
         return true;
     m_ended = true;
     return false;
 }
 
-void SlaveCycle::stop()
+void SlaveCycle::finish(const SentCycles::Last &last)
 {
+    if (!m_finish)
+        m_last = last;
+    m_finish = true;
+    m_thread.interrupt();
+}
+
+void SlaveCycle::stop(const std::optional<SentCycles::Last> &last)
+{
+    if (!m_finish)
+        m_last = last;
     m_stop = true;
     while (!m_ended) {  // an interruption just before a wait ends none
         m_thread.interrupt();
@@ -102,6 +116,7 @@ QPlcSlaveNode::Counters SlaveCycle::counters() const
     QPlcSlaveNode::Counters counters;
     counters.cycles = m_counters.cycles;
     counters.missed = m_counters.missed;
+    counters.skipped = m_counters.skipped;
     counters.duplicated = m_counters.duplicated;
     counters.outdated = m_counters.outdated;
     counters.rejected = m_counters.rejected;
@@ -123,7 +138,7 @@ void SlaveCycle::run() noexcept
     const char *frame = nullptr;
     std::size_t size = 0;
     bool open = true;
-    while (open && !m_stop.load(std::memory_order_relaxed)) {
+    while (open && !m_stop.load(std::memory_order_relaxed) && !m_finish.load(std::memory_order_relaxed)) {
         switch (receive(&frame, &size)) {
         case CyclicLink::Received:
             handle(frame, size);
@@ -137,6 +152,10 @@ void SlaveCycle::run() noexcept
             break;
         }
     }
+    if (m_finish && open)
+        takeRest();
+    if (m_finish || m_stop)
+        countMissing();
     m_statistics.fold();
     m_waits.reset();
     m_ended = true;
@@ -239,13 +258,53 @@ void SlaveCycle::skipToNewest(std::int64_t now) noexcept
     }
 }
 
+/// How many cycles between the last one that was computed and \a cycle were sent to the node.
+/// \param before  as in the frames of \a cycle. A number that cannot be counts as none
+std::uint64_t SlaveCycle::lostBefore(std::uint64_t cycle, std::uint32_t before) const noexcept
+{
+    const std::uint64_t between = m_computedAny ? cycle - m_lastCycle - 1 : cycle - m_phase.firstCycle;
+    return between - std::min<std::uint64_t>(between, before - m_lastBefore);
+}
+
+/// What was sent until the end and is there, or comes now: the master has sent its last frame.
+void SlaveCycle::takeRest() noexcept
+{
+    const auto isAllThere = [this] { return m_computedAny && m_lastCycle >= m_last->cycle; };
+    const std::int64_t end = monotonicNow() + LongestRest;
+    std::int64_t quiet = monotonicNow() + LongestQuiet;
+    while (!m_stop && !isAllThere() && monotonicNow() < std::min(end, quiet)) {
+        const char *frame = nullptr;
+        std::size_t size = 0;
+        const CyclicLink::Status status = m_link->poll(&frame, &size);
+        if (status == CyclicLink::Closed)
+            return;
+        if (status == CyclicLink::Nothing) {
+            TimeSource::monotonic().sleepUntil(monotonicNow() + 1'000'000);  // [ns]
+            continue;
+        }
+        handle(frame, size);
+        quiet = monotonicNow() + LongestQuiet;
+    }
+}
+
+/// What did not come until the end has been lost.
+void SlaveCycle::countMissing() noexcept
+{
+    const bool isBehind = m_last && (!m_computedAny || m_lastCycle < m_last->cycle);
+    if (isBehind && m_last->cycle >= m_phase.firstCycle)
+        count(m_counters.missed, lostBefore(m_last->cycle, m_last->before) + 1);
+}
+
 void SlaveCycle::compute() noexcept
 {
     const std::uint64_t cycle = m_decoder.cycle();
+    const std::uint32_t before = m_decoder.header().before;
+    const std::uint64_t lost = lostBefore(cycle, before);
     const std::uint64_t missed
-        = m_computedAny ? m_phase.interval.missed(m_lastCycle - m_phase.cycleZero, cycle - m_phase.cycleZero) : 0;
+        = m_computedAny ? m_phase.interval.missed(m_lastCycle - m_phase.cycleZero, cycle - m_phase.cycleZero) : lost;
     count(m_counters.cycles);
-    count(m_counters.missed, missed);
+    count(m_counters.missed, lost);
+    count(m_counters.skipped, missed - std::min(missed, lost));
     if (m_decoder.header().flags & SafeStopFlag)
         makeSafe(QPlcSlaveNode::MasterStopsSafely,
                  {CycleEvent::ToldSafeStop, m_identity.node, 0, cycle - m_phase.cycleZero});
@@ -255,8 +314,10 @@ void SlaveCycle::compute() noexcept
     if (!computed && !m_faulted)
         m_reports.post({CycleEvent::NodeFaulted, m_identity.node, 0, cycle - m_phase.cycleZero});
     m_faulted = !computed;
+    m_answer.before = std::uint32_t(m_computedAny ? m_lastCycle : cycle);
     m_computedAny = true;
     m_lastCycle = cycle;
+    m_lastBefore = before;
     m_answer.flags = std::uint8_t((computed ? 0 : FaultFlag) | (m_runtime.isSafe() ? SafeStopFlag : 0)
                                   | (m_runtime.wantsSafeStop() ? StopWantedFlag : 0));
     m_answer.cycle = cycle;

@@ -5,6 +5,7 @@
 #include "ListeningInterval.h"
 #include "NodeRuntime.h"
 #include "QPlcClock.h"
+#include "SentCycles.h"
 #include "SlaveStatistics.h"
 #include "Watchdog.h"
 #include "protocol/CyclicFrame.h"
@@ -67,8 +68,15 @@ public:
 
     /// \return false when no thread could be made; errorString() says why
     bool start(const Phase &phase);
+    /// The master has sent its last frame: the cycles end by themselves when all frames are there,
+    /// or no more come. Does not wait for that; to be called again until hasEnded(): a call may
+    /// find the thread just before a wait.
+    void finish(const SentCycles::Last &last);
+    bool hasEnded() const { return m_ended; }
     /// Waits until the cycle in progress has ended.
-    void stop();
+    /// \param last  that the master has sent: what did not come until now is missed; none: it is
+    ///         not known
+    void stop(const std::optional<SentCycles::Last> &last = std::nullopt);
     bool isRunning() const { return m_thread.isRunning(); }
     QString errorString() const { return m_thread.errorString(); }
     const QVector<QPlcRealTimeSetting> &realTimeSettings() const { return m_thread.settings(); }
@@ -88,6 +96,9 @@ private:
     FrameStatus decode(const char *frame, std::size_t size) noexcept;
     void skipToNewest(std::int64_t now) noexcept;
     void compute() noexcept;
+    std::uint64_t lostBefore(std::uint64_t cycle, std::uint32_t before) const noexcept;
+    void takeRest() noexcept;
+    void countMissing() noexcept;
     bool isRepeatedRequest() const noexcept;
     void encodeAnswer() noexcept;
     void sendAnswer() noexcept;
@@ -107,6 +118,8 @@ private:
     CycleReports m_reports;
     std::atomic<bool> m_stop{false};
     std::atomic<bool> m_ended{true};
+    std::atomic<bool> m_finish{false};
+    std::optional<SentCycles::Last> m_last;  // that the master has sent; set before m_finish or m_stop
 
     // cycle thread
     Phase m_phase;
@@ -115,14 +128,15 @@ private:
     FrameHeader m_answer;           // of the newest cycle
     bool m_computedAny = false;
     bool m_faulted = false;
-    std::uint64_t m_lastCycle = 0;  // computed last
-    Watchdog m_watchdog;            // hears new frames; not in lockstep
+    std::uint64_t m_lastCycle = 0;   // computed last
+    std::uint32_t m_lastBefore = 0;  // as in the frames of that cycle
+    Watchdog m_watchdog;             // hears new frames; not in lockstep
     std::optional<InterruptibleWaits> m_waits;
 
     struct AtomicCounters
     {
-        std::atomic<quint64> cycles{0}, missed{0}, duplicated{0}, outdated{0}, rejected{0}, forged{0}, watchdog{0},
-            finished{0};
+        std::atomic<quint64> cycles{0}, missed{0}, skipped{0}, duplicated{0}, outdated{0}, rejected{0}, forged{0},
+            watchdog{0}, finished{0};
     } m_counters;
     SlaveStatistics m_statistics;
 };

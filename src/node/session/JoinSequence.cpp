@@ -70,7 +70,7 @@ void JoinSequence::goOn(NodeSession &node)
     } else if (node.stage() == NodeSession::Initialized && mayStart) {
         node.setStage(NodeSession::Starting);
         m_starts.place({node.shared_from_this()});
-        node.start(m_starts.messageTo(node));
+        node.start(m_starts.begin(node));
     } else if (node.stage() == NodeSession::Running && m_cycles.isRunning()) {
         m_cycles.renewRoster();
     }

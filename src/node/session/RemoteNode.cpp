@@ -45,10 +45,23 @@ void RemoteNode::cancel(const QString &reason, bool isStarting)
     setStage(Idle);
 }
 
+/// No cycle runs any more.
+messages::RealTimeStopped RemoteNode::stopMessage(const QString &reason) const
+{
+    messages::RealTimeStopped message;
+    message.reason = reason;
+    const bool isInPhase = stage() >= Starting;
+    if (const auto last = isInPhase ? slot()->sentCycles.last() : std::nullopt) {
+        message.lastCycle = last->cycle;
+        message.before = last->before;
+    }
+    return message;
+}
+
 void RemoteNode::stop(const QString &reason)
 {
     if (m_connection && stage() != Idle)
-        m_connection->send(messages::RealTimeStopped{reason});
+        m_connection->send(stopMessage(reason));
     setStage(Idle);
 }
 

@@ -31,6 +31,8 @@ public:
     QString address() const override;
 
 private:
+    messages::RealTimeStopped stopMessage(const QString &reason) const;
+
     MasterServer &m_server;
     MasterConnection *m_connection;  // null: it has left
 };

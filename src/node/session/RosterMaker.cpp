@@ -40,10 +40,14 @@ std::vector<bool> RosterMaker::safeSignals(const Roster &roster)
 
 Roster RosterMaker::make()
 {
+    // Nobody waits until a listener is ready: what is sent to it meanwhile waits in its socket.
+    const auto takesPart = [](const NodeSession &node) {
+        return node.stage() == NodeSession::Running || (!node.isAwaited() && node.stage() == NodeSession::Starting);
+    };
     Roster roster;
     for (const std::shared_ptr<NodeSlot> &slot : m_registry.nodes()) {
         const std::shared_ptr<NodeSession> node = m_nodes.of(slot.get());
-        if (node && node->stage() == NodeSession::Running)
+        if (node && takesPart(*node))
             roster.nodes.push_back(slot);
     }
     roster.held = m_leases.mask();

@@ -24,7 +24,7 @@ void StartMessages::place(const NodeSessions::List &nodes)
     m_parts.finish();
 }
 
-messages::RealTimeStarted StartMessages::messageTo(const NodeSession &node) const
+messages::RealTimeStarted StartMessages::begin(const NodeSession &node) const
 {
     messages::RealTimeStarted message;
     message.period = m_settings.interval;
@@ -33,10 +33,13 @@ messages::RealTimeStarted StartMessages::messageTo(const NodeSession &node) cons
     message.profile = QPlcProfile::name(m_profile.fixed().value);
     message.cycleZero = m_cycles.cycleZero();
     message.firstCycle = m_cycles.cycleZero() + (m_cycles.isRunning() ? m_cycles.cycle() : 0);
-    const NodeSlot &slot = *node.slot();
-    if (slot.multicast)
-        message.group = messages::GroupPlace{int(slot.multicast->number), int(slot.multicastOffset),
-                                             int(slot.multicast->payloadSize), slot.multicast->hash};
+    NodeSlot &slot = *node.slot();
+    slot.sentCycles.restart(message.firstCycle);
+    if (!slot.multicast)
+        return message;
+    slot.multicast->sentCycles.restart(message.firstCycle);
+    message.group = messages::GroupPlace{int(slot.multicast->number), int(slot.multicastOffset),
+                                         int(slot.multicast->payloadSize), slot.multicast->hash};
     return message;
 }
 

@@ -20,7 +20,8 @@ public:
     void restart() { m_parts.restart(m_session, m_hub); }
     /// Gives \a nodes places of their own: those that know theirs keep them.
     void place(const NodeSessions::List &nodes);
-    messages::RealTimeStarted messageTo(const NodeSession &node) const;
+    /// What \a node is told; its cycles count from here on.
+    messages::RealTimeStarted begin(const NodeSession &node) const;
 
 private:
     const PhaseSettings &m_settings;

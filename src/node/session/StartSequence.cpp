@@ -41,7 +41,7 @@ void StartSequence::begin()
     m_starts.place(told);
     const quint64 step = m_step.number();
     for (const auto &node : told) {
-        const std::optional<NodeSession::Answer> answer = node->start(m_starts.messageTo(*node));
+        const std::optional<NodeSession::Answer> answer = node->start(m_starts.begin(*node));
         if (!m_step.isStill(step))
             return;
         if (answer && !answer->fault.isEmpty()) {

@@ -8,7 +8,7 @@
 /// The beginning and the end of a control connection: docs/protocol.md, sections 5.1 and 5.5.
 namespace qplc::messages {
 
-constexpr int protocolVersion = 1;
+constexpr int protocolVersion = 2;
 
 /// Extensions, by which both sides of a connection say what they know: docs/protocol.md, section
 /// 11.

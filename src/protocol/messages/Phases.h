@@ -124,8 +124,12 @@ struct RealTimeStopped
 {
     static constexpr QPlcMessage::Kind kind = QPlcMessage::RealTimeStopped;
     QString reason;
+    std::optional<Hex64> lastCycle;  // number on the wire of the last cycle that was sent to the node; none: none was
+    quint64 before = 0;              // as in the frames of that cycle
 
-    static constexpr auto fields = std::make_tuple(field("reason", &RealTimeStopped::reason));
+    static constexpr auto fields = std::make_tuple(
+        field("reason", &RealTimeStopped::reason), field("lastCycle", &RealTimeStopped::lastCycle, Presence::WhenSet),
+        field("before", &RealTimeStopped::before, Presence::WhenSet, {0, 4294967295.0}));
 };
 
 struct SafeStop

@@ -39,7 +39,7 @@ private:
     static QPlcMessage greeting()
     {
         return {QPlcMessage::Hello,
-                {{"protocol", 1},
+                {{"protocol", 2},
                  {"session", QPlcMessage::fromHex64(7)},
                  {"state", "Off"},
                  {"period", 1e7},

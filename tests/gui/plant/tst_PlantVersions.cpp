@@ -75,17 +75,17 @@ private Q_SLOTS:
 void tst_PlantVersions::aMasterOfAnotherVersionIsNamedInOneSentenceAndOnce()
 {
     OtherMaster master;
-    master.answer = helloOf(2, "[speed]\ntype = Real\n");
+    master.answer = helloOf(3, "[speed]\ntype = Real\n");
     Window window(master.address());
     QTRY_VERIFY(master.greetings >= 2);  // it goes on trying
     QCOMPARE(window.log.rowCount(), 1);
     QCOMPARE(window.lastEvent(),
-             QStringLiteral("cannot work with the master at %1: versions differ: the master speaks protocol version 2, "
-                            "this window version 1; update the older one")
+             QStringLiteral("cannot work with the master at %1: versions differ: the master speaks protocol version 3, "
+                            "this window version 2; update the older one")
                  .arg(master.address()));
     QCOMPARE(window.log.active(), 1);
     QVERIFY(window.plant->refusal().startsWith(QStringLiteral("versions differ: ")));
-    QTRY_VERIFY(window.plant->stateText().contains(QStringLiteral("version 2")));
+    QTRY_VERIFY(window.plant->stateText().contains(QStringLiteral("version 3")));
 }
 
 void tst_PlantVersions::masterThatRefusesThisVersionIsReportedOnce()
@@ -106,10 +106,10 @@ void tst_PlantVersions::masterThatRefusesThisVersionIsReportedOnce()
 void tst_PlantVersions::whenTheVersionsFitAgainTheWindowWorks()
 {
     OtherMaster master;
-    master.answer = helloOf(2, "[speed]\ntype = Real\n");
+    master.answer = helloOf(3, "[speed]\ntype = Real\n");
     Window window(master.address());
     QTRY_COMPARE(window.log.active(), 1);
-    master.answer = helloOf(1, "[speed]\ntype = Real\n");
+    master.answer = helloOf(2, "[speed]\ntype = Real\n");
     QTRY_VERIFY(window.plant->isConnected());
     QCOMPARE(window.log.active(), 0);
     QCOMPARE(window.plant->refusal(), QString());
@@ -118,7 +118,7 @@ void tst_PlantVersions::whenTheVersionsFitAgainTheWindowWorks()
 void tst_PlantVersions::aTableOfANewerMasterIsReadAsFarAsItIsKnown()
 {
     OtherMaster master;
-    master.answer = helloOf(1, "[speed]\ntype = Real\nmood = good\nvalues.of.tomorrow = 1\n");
+    master.answer = helloOf(2, "[speed]\ntype = Real\nmood = good\nvalues.of.tomorrow = 1\n");
     Window window(master.address());
     QTRY_VERIFY(window.plant->isConnected());
     QVERIFY(window.plant->table().contains(QStringLiteral("speed")));
@@ -127,12 +127,12 @@ void tst_PlantVersions::aTableOfANewerMasterIsReadAsFarAsItIsKnown()
 void tst_PlantVersions::replacedMasterKeepsTheRecordedValues()
 {
     OtherMaster master;
-    master.answer = helloOf(1, "[speed]\ntype = Real\n");
+    master.answer = helloOf(2, "[speed]\ntype = Real\n");
     Window window(master.address());
     QTRY_VERIFY(window.plant->isConnected());
     master.answer = QPlcMessage(QPlcMessage::MasterEnds);
     QTRY_VERIFY(!window.plant->isConnected());
-    master.answer = helloOf(2, "[other]\ntype = Real\n");
+    master.answer = helloOf(3, "[other]\ntype = Real\n");
     QTRY_VERIFY(!window.plant->refusal().isEmpty());
     QVERIFY(window.plant->store());
     QVERIFY(window.plant->table().contains(QStringLiteral("speed")));
