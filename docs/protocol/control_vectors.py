@@ -105,7 +105,7 @@ def example_messages():
                            session=hex64(SESSION), counters=dict(cycles=0), digest=hex64(0), nodes=[])),
         (25, "SafeStop", dict(reason="smoke at the winch")),
         (25, "SafeStop", {}),
-        (26, "Reset", {}),
+        (26, "Reset", dict(latch=1)),
         (27, "Arm", {}),
         (28, "Armed", dict(token="00f1e2d3c4b5a697", validFor=5000000000)),
         (20, "StartRealTime", dict(cycles=1000, token="00f1e2d3c4b5a697")),

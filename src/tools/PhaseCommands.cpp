@@ -53,7 +53,15 @@ int armMaster(const CommandCall &call)
 
 int resetMaster(const CommandCall &call)
 {
-    return command(call, messages::Reset(), QStringLiteral("reset"));
+    messages::State state;
+    if (!call.connect() || !call.askFor(messages::GetState(), &state))
+        return call.exitCode();
+    const messages::Reset reset{state.latch};
+    if (!call.ask(reset))
+        return call.exitCode();
+    const bool isLatched = !state.reason.isEmpty();
+    return tellDone(call, reset,
+                    isLatched ? QStringLiteral("reset: %1").arg(printable(state.reason)) : QStringLiteral("reset"));
 }
 
 int stopSafely(const CommandCall &call)

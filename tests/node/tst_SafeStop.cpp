@@ -55,6 +55,7 @@ private Q_SLOTS:
     void listenersContinueAndMayJoinDuringASafeStop();
     void safeStopWithoutCyclesEndsSequencesAndLatchesNothing();
     void controlChannelCarriesSafeStopAndReset();
+    void aResetEndsOnlyTheSafeStopThatItsSenderHasSeen();
     void anArmedStartNeedsItsTokenAndReadiness();
 };
 
@@ -363,7 +364,7 @@ void tst_SafeStop::controlChannelCarriesSafeStopAndReset()
     QCOMPARE(tool.next().kind(), QPlcMessage::Done);
     QCOMPARE(tool.ask(QPlcMessage::GetState).text("state"), QString("Ready"));
     QCOMPARE(tool.ask(QPlcMessage::StartRealTime).kind(), QPlcMessage::Done);
-    QCOMPARE(tool.ask(QPlcMessage::Reset).text("error"), QString("WrongState"));
+    QCOMPARE(tool.ask(QPlcMessage::Reset, {{"latch", 0}}).text("error"), QString("WrongState"));
     QCOMPARE(tool.ask(QPlcMessage::SafeStop, {{"reason", "smoke\x1b[31m"}}).kind(), QPlcMessage::Done);
     const QPlcMessage state = tool.ask(QPlcMessage::GetState);
     QCOMPARE(state.text("state"), QString("SafeStop"));
@@ -375,8 +376,45 @@ void tst_SafeStop::controlChannelCarriesSafeStopAndReset()
     QVERIFY2(refused.text("text").contains("fault latched: 'Tool' asked for it"), qPrintable(refused.text("text")));
     QCOMPARE(tool.ask(QPlcMessage::Stop).kind(), QPlcMessage::Done);
     QCOMPARE(master.state(), QPlcMasterNode::SafeStop);
-    QCOMPARE(tool.ask(QPlcMessage::Reset).kind(), QPlcMessage::Done);
+    QCOMPARE(tool.ask(QPlcMessage::Reset, {{"latch", state.fields().value("latch")}}).kind(), QPlcMessage::Done);
     QCOMPARE(tool.ask(QPlcMessage::GetState).text("state"), QString("Off"));
+}
+
+void tst_SafeStop::aResetEndsOnlyTheSafeStopThatItsSenderHasSeen()
+{
+    TestMaster master(QPlcClock::realTime());
+    QVERIFY(master.listen());
+    SafeNode winch;
+    QVERIFY(master.addLocalNode(&winch));
+    ScriptedTool tool;
+    QVERIFY(tool.greetAt(master.serverPort()));
+    const auto flyAndStop = [&] {
+        master.startRealTime();
+        const bool hasFlown = master.waitForState(QPlcMasterNode::RealTime);
+        master.safeStop("smoke");
+        return hasFlown && master.waitForState(QPlcMasterNode::SafeStop);
+    };
+    const auto latch = [&] {
+        QPlcMessage answer = tool.ask(QPlcMessage::GetState);
+        while (answer.kind() == QPlcMessage::StatesInitialized)
+            answer = tool.next();  // news of the start
+        return answer.fields().value("latch").toInt();
+    };
+    QCOMPARE(latch(), 0);
+    QVERIFY(flyAndStop());
+    QCOMPARE(latch(), 1);
+    QVERIFY(master.reset() && flyAndStop());  // by somebody else
+    QCOMPARE(tool.next().kind(), QPlcMessage::StatesInitialized);
+    const QPlcMessage late = tool.ask(QPlcMessage::Reset, {{"latch", 1}});
+    QCOMPARE(late.text("error"), QString("WrongState"));
+    QVERIFY2(late.text("text").contains("this is number 2") && late.text("text").contains("smoke"),
+             qPrintable(late.text("text")));
+    QCOMPARE(master.state(), QPlcMasterNode::SafeStop);
+    QCOMPARE(tool.ask(QPlcMessage::Reset).text("error"), QString("MalformedMessage"));
+    QCOMPARE(tool.ask(QPlcMessage::Reset, {{"latch", latch()}}).kind(), QPlcMessage::Done);
+    QCOMPARE(master.state(), QPlcMasterNode::Off);
+    QCOMPARE(tool.ask(QPlcMessage::Reset, {{"latch", 1}}).kind(), QPlcMessage::Done);  // nothing is latched
+    QCOMPARE(latch(), 2);
 }
 
 void tst_SafeStop::anArmedStartNeedsItsTokenAndReadiness()

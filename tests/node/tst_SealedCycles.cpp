@@ -121,12 +121,12 @@ public:
 
 static bool isOutputs(const wire::Sent &frame)
 {
-    return frame.bytes.size() > 12 && frame.bytes.at(0) == 0x12;
+    return frame.bytes.size() > 12 && frame.bytes.at(0) == 0x22;
 }
 
 static bool isInputs(const wire::Sent &frame)
 {
-    return frame.bytes.size() > 12 && frame.bytes.at(0) == 0x11;
+    return frame.bytes.size() > 12 && frame.bytes.at(0) == 0x21;
 }
 
 // ---- nonces ----
@@ -289,7 +289,7 @@ void tst_SealedCycles::valuesAreNotSeenOnTheWire()
     const QVector<wire::Sent> outputs = wire::heard(isOutputs);
     QVERIFY(inputs.size() >= 20);
     QVERIFY(!outputs.isEmpty());
-    QCOMPARE(inputs.first().bytes.size(), isSecured ? 8 + 28 : 8 + 16);
+    QCOMPARE(inputs.first().bytes.size(), isSecured ? 8 + 32 : 8 + 20);
     for (const wire::Sent &frame : inputs)
         QCOMPARE(frame.bytes.contains(bytesOf(Secret)), !isSecured);
     const auto showsEcho = [](const wire::Sent &f) { return f.bytes.contains(bytesOf(Secret + 1.0)); };
@@ -338,11 +338,11 @@ void tst_SealedCycles::everyChangedFrameIsCountedAndDropped()
     };
     const auto forgedSoFar = [&] { return counted(&QPlcNodeInfo::forged, &QPlcSlaveNode::Counters::forged); };
     const auto rejectedSoFar = [&] { return counted(&QPlcNodeInfo::rejected, &QPlcSlaveNode::Counters::rejected); };
-    QCOMPARE(good.bytes.size(), 36);
+    QCOMPARE(good.bytes.size(), 40);
 
     quint64 rejected = 0;
     quint64 forged = 0;
-    for (int bit = 0; bit < 36 * 8; ++bit) {
+    for (int bit = 0; bit < 40 * 8; ++bit) {
         QByteArray changed = good.bytes;
         changed[bit / 8] = char(changed.at(bit / 8) ^ (1 << bit % 8));
         wire::forge(good, changed);
@@ -351,14 +351,14 @@ void tst_SealedCycles::everyChangedFrameIsCountedAndDropped()
         if (bit % 32 == 31)
             QTRY_COMPARE(forgedSoFar(), forged);  // before the queue of the receiver is full
     }
-    const QByteArray long36(36, 'x');
-    for (const QByteArray &garbage : {QByteArray(), good.bytes.left(35), good.bytes + 'x', long36}) {
+    const QByteArray long40(40, 'x');
+    for (const QByteArray &garbage : {QByteArray(), good.bytes.left(39), good.bytes + 'x', long40}) {
         wire::forge(good, garbage);
         ++rejected;
     }
     QTRY_COMPARE(rejectedSoFar(), rejected);
     QCOMPARE(forgedSoFar(), forged);
-    QCOMPARE(forged, quint64(36 * 8 - 25));
+    QCOMPARE(forged, quint64(40 * 8 - 25));
     QCOMPARE(master.signalValue("echo").toReal(), Secret + 1.0);
     QVERIFY(master.waitForCycles(master.statistics().cycles + 5));
     master.stop();
@@ -435,7 +435,7 @@ void tst_SealedCycles::framesOfAnotherNodeOrDirectionAreForged()
     const wire::Sent others = wire::heard(isOthers).last();
     wire::forge(outputs.last(), others.bytes);  // the answer of one node from the address of the other
     QByteArray turned = wire::heard(isInputs).last().bytes;
-    turned[0] = 0x12;
+    turned[0] = 0x22;
     wire::forge(outputs.last(), turned);  // a request, made to look like an answer
     const auto forged = [&] { return master.infoOf("Mirror").forged + master.infoOf("Stream").forged; };
     QTRY_COMPARE(forged(), quint64(2));
@@ -454,7 +454,7 @@ void tst_SealedCycles::forgedFramesAreReportedOnce()
     QTRY_VERIFY(!wire::heard(isOutputs).isEmpty());
     for (const wire::Sent &frame : {wire::heard(isOutputs).last(), wire::heard(isInputs).last()}) {
         for (int i = 0; i < 10; ++i)
-            wire::forge(frame, frame.bytes.left(20) + QByteArray(16, char(i)));
+            wire::forge(frame, frame.bytes.left(24) + QByteArray(16, char(i)));
     }
     QTRY_COMPARE(master.infoOf("Mirror").forged, quint64(10));
     QTRY_COMPARE(mirror.counters().forged, quint64(10));

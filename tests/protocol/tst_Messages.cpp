@@ -230,7 +230,7 @@ void tst_Messages::aFieldWithoutAValueIsNotSent()
     QCOMPARE(toObject(GetSignals()), QJsonObject());
     QCOMPARE(toObject(StartRealTime()), QJsonObject());
     QCOMPARE(toObject(StatesInitialized{true, {}}), (QJsonObject{{QStringLiteral("ok"), true}}));
-    QCOMPARE(toMessage(Reset()), QPlcMessage(QPlcMessage::Reset));
+    QCOMPARE(toMessage(Arm()), QPlcMessage(QPlcMessage::Arm));
 }
 
 void tst_Messages::unknownFieldsAreIgnored()

@@ -137,7 +137,7 @@ bool Operator::goOn()
     if (!areAllThere(state))
         return false;
     if (state.state == MasterState::SafeStop || state.state == MasterState::Fault)
-        ask(messages::Reset());
+        ask(messages::Reset{state.latch});
     if (state.state == MasterState::Off || state.state == MasterState::Ready) {
         m_history.append(Record::Command, -1);
         start(state);

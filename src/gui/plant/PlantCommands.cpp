@@ -96,7 +96,7 @@ int Plant::perform(Action action)
     case Start:
         return start();
     case Reset:
-        return command(messages::Reset());
+        return command(messages::Reset{m_status.master.latch});
     case StopAction:
     case NoAction:
         break;

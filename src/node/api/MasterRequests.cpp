@@ -81,7 +81,18 @@ public:
         d.parts->faults.safeStop(QStringLiteral("'%1' asked for it%2").arg(m_connection->shownName(), reason));
         m_connection->send(messages::Done());
     }
-    void operator()(const messages::Reset &) const { finish(d.reset()); }
+    void operator()(const messages::Reset &reset) const
+    {
+        if (d.isLatched() && reset.latch != d.latch)
+            m_connection->fail(qplc::messages::errorWord::wrongState,
+                               QStringLiteral("Reset is for number %1 of the safe stops and faults, and this is number "
+                                              "%2 (%3); look at the state, and reset again")
+                                   .arg(reset.latch)
+                                   .arg(d.latch)
+                                   .arg(d.stateReason));
+        else
+            finish(d.reset());
+    }
     void operator()(const messages::Arm &) const
     {
         if (d.arm())
@@ -111,6 +122,7 @@ public:
     void operator()(const messages::GetState &) const
     {
         messages::State reply = qplc::stateReply(*d.q, d.profile(), d.session);
+        reply.latch = d.latch;
         const qplc::AskedStop &stop = d.askedStop;
         if (!stop.whoever.isEmpty())
             reply.stopped

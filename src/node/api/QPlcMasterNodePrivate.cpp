@@ -414,7 +414,8 @@ void QPlcMasterNodePrivate::enter(QPlcMasterNode::State newState, const QString 
     const bool isTransient = newState == State::WaitingForLateSlaves
         || (m_state == State::WaitingForLateSlaves && newState == State::RealTime);
     m_state = newState;
-    stateReason = m_state == State::SafeStop || m_state == State::Fault ? reason : QString();
+    stateReason = isLatched() ? reason : QString();
+    latch += isLatched() ? 1 : 0;
     if (m_state == State::RealTime && !isTransient)
         askedStop = {};
     arming.disarm();

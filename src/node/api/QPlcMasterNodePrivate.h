@@ -47,6 +47,8 @@ public:
     bool setError(QPlcMasterNode::Error newError, const QString &text, const QString &source,
                   qplc::JournalEvent::Kind kind) override;
     QPlcMasterNode::State state() const override { return m_state; }
+    /// Whether only a reset leads on.
+    bool isLatched() const { return m_state == QPlcMasterNode::SafeStop || m_state == QPlcMasterNode::Fault; }
 
     /// All that depends on the signal table, each part after those that it needs.
     struct Parts
@@ -84,6 +86,7 @@ public:
     QString networkSecurity = QStringLiteral("none");  // as Hello tells it
     qplc::Arming arming;
     QString stateReason;        // of SafeStop and Fault
+    quint64 latch = 0;          // number of the newest safe stop or fault
     qplc::AskedStop askedStop;  // until the next phase
     QPlcMasterNode::Error error = QPlcMasterNode::NoError;
     QString errorString;

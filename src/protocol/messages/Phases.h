@@ -143,7 +143,9 @@ struct SafeStop
 struct Reset
 {
     static constexpr QPlcMessage::Kind kind = QPlcMessage::Reset;
-    static constexpr auto fields = std::make_tuple();
+    quint64 latch = 0;  // as in State: the safe stop or fault that the sender has seen
+
+    static constexpr auto fields = std::make_tuple(field("latch", &Reset::latch, Presence::Required));
 };
 
 struct Armed

@@ -54,8 +54,9 @@ struct State
 {
     static constexpr QPlcMessage::Kind kind = QPlcMessage::State;
     MasterState state = MasterState::Unknown;
-    QString reason;   // why it is SafeStop or Fault
-    QString remains;  // what still keeps Reset from being done
+    QString reason;     // why it is SafeStop or Fault
+    QString remains;    // what still keeps Reset from being done
+    quint64 latch = 0;  // number of the newest safe stop or fault of this session, from 1; 0: there was none
     bool armed = false;
     bool armingRequired = false;
     Hex64 cycle;
@@ -73,9 +74,9 @@ struct State
 
     static constexpr auto fields = std::make_tuple(
         field("state", &State::state), field("reason", &State::reason), field("remains", &State::remains),
-        field("armed", &State::armed), field("armingRequired", &State::armingRequired), field("cycle", &State::cycle),
-        field("period", &State::period), field("clock", &State::clock), field("scale", &State::scale),
-        field("profile", &State::profile), field("profileReason", &State::profileReason),
+        field("latch", &State::latch), field("armed", &State::armed), field("armingRequired", &State::armingRequired),
+        field("cycle", &State::cycle), field("period", &State::period), field("clock", &State::clock),
+        field("scale", &State::scale), field("profile", &State::profile), field("profileReason", &State::profileReason),
         field("session", &State::session), field("nodes", &State::nodes), field("counters", &State::counters),
         field("digest", &State::digest), field("stopped", &State::stopped, Presence::WhenSet),
         field("faults", &State::faults, Presence::WhenSet));
