@@ -23,16 +23,26 @@ constexpr Counted counters[] = {{FaultKind::LoseFrames, FaultInjector::Lost, Rec
                                 {FaultKind::ReorderFrames, FaultInjector::Reordered, Record::Reordered},
                                 {FaultKind::CorruptFrames, FaultInjector::Corrupted, Record::Rejected}};
 
-/// The same decisions again: how often a link has done something to the first \a frames that it
-/// sent.
-quint64 doneTo(const DoneFault &fault, const Counted &what, qint64 frames)
+/// How often a link has done something.
+struct Done
+{
+    quint64 all = 0;
+    quint64 shown = 0;  // before the last frame that passed: frames are lost when a newer one arrives, not earlier
+};
+
+/// The same decisions again, for the first \a frames that the link sent.
+Done doneTo(const DoneFault &fault, const Counted &what, qint64 frames)
 {
     QString error;
     const auto plan = qplc::FaultPlan::fromText(linkFaultsOf(fault.kind, fault.seed), &error);
     FaultInjector injector(plan->sent, plan->seed, 2 * qplc::fnv1a64(nodeName(fault.node).toUtf8()));
-    for (qint64 i = 0; i < frames; ++i)
-        injector.decide(0);
-    return injector.count(what.done);
+    Done done;
+    for (qint64 i = 0; i < frames; ++i) {
+        if (injector.decide(0).passes)
+            done.shown = injector.count(what.done);
+    }
+    done.all = injector.count(what.done);
+    return done;
 }
 
 /// Cycles that a life never saw: there was nothing to be answered.
@@ -102,18 +112,24 @@ void lookAt(const Evidence &evidence, const DoneFault &fault, const Counted &wha
     }
     ++gate->looked;
     // Frames under way while the counters were read may be in them or not.
-    const quint64 least = doneTo(fault, what, stepsUntil(*life, record->time - 3 * evidence.period));
-    const quint64 most = doneTo(fault, what, stepsUntil(*life, record->time + evidence.period))
-        + (what.fault == FaultKind::LoseFrames ? missedBy(*life) : 0);
+    const bool isLoss = what.fault == FaultKind::LoseFrames;
+    const Done least = doneTo(fault, what, stepsUntil(*life, record->time - 3 * evidence.period));
+    const quint64 most
+        = doneTo(fault, what, stepsUntil(*life, record->time + evidence.period)).all + (isLoss ? missedBy(*life) : 0);
     const quint64 counted = record->numbers[what.counter];
     gate->figures[name + QStringLiteral(" done")] += double(most);
     gate->figures[name + QStringLiteral(" counted")] += double(counted);
-    if (counted < least || counted > most)
+    if (counted < least.shown || counted > most)
         gate->fail(QStringLiteral("%1 (%2): %3 ... %4 were done, %5 counted")
                        .arg(name, nodeName(fault.node))
-                       .arg(least)
+                       .arg(least.shown)
                        .arg(most)
                        .arg(counted));
+    else if (isLoss && record->numbers[Record::NodeLate] < least.all)
+        gate->fail(QStringLiteral("%1 (%2): %3 were done, %4 counted as late")
+                       .arg(name, nodeName(fault.node))
+                       .arg(least.all)
+                       .arg(record->numbers[Record::NodeLate]));
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <QtCore/QEventLoop>
 #include <QtCore/QTimer>
 
+#include <algorithm>
+
 namespace messages = qplc::messages;
 using messages::MasterState;
 
@@ -19,6 +21,19 @@ constexpr int LongestWithoutNews = 100;  // [ms]
 int registeredIn(const messages::State &state)
 {
     return state.nodes.size() - 1;  // the recorder is one
+}
+
+int runningIn(const messages::State &state)
+{
+    return int(std::count_if(state.nodes.begin(), state.nodes.end(),
+                             [](const QPlcNodeInfo &node) { return node.state == QLatin1String("RealTime"); }));
+}
+
+/// Whether all nodes take part in the cycles: a node that joins has registered, and its answers may
+/// be under way for seconds.
+bool areAllRunning(const messages::State &state)
+{
+    return state.state == MasterState::RealTime && runningIn(state) == state.nodes.size();
 }
 
 }  // namespace
@@ -122,7 +137,7 @@ bool Operator::areAllThere(const messages::State &state) const
 bool Operator::isRunning()
 {
     messages::State state;
-    return ask(messages::GetState(), &state) && areAllThere(state) && state.state == MasterState::RealTime;
+    return ask(messages::GetState(), &state) && areAllThere(state) && areAllRunning(state);
 }
 
 bool Operator::goOn()
@@ -130,10 +145,12 @@ bool Operator::goOn()
     messages::State state;
     if (!ask(messages::GetState(), &state))
         return false;
-    m_errorString = QStringLiteral("the master is in %1; %2 of %3 nodes are there")
+    m_errorString = QStringLiteral("the master is in %1; %2 of %3 nodes are there, %4 of all %5 take part in cycles")
                         .arg(messages::nameOf(state.state))
                         .arg(registeredIn(state))
-                        .arg(m_nodes);
+                        .arg(m_nodes)
+                        .arg(runningIn(state))
+                        .arg(state.nodes.size());
     if (!areAllThere(state))
         return false;
     if (state.state == MasterState::SafeStop || state.state == MasterState::Fault)
@@ -142,7 +159,7 @@ bool Operator::goOn()
         m_history.append(Record::Command, -1);
         start(state);
     }
-    return state.state == MasterState::RealTime;
+    return areAllRunning(state);
 }
 
 bool Operator::bringToRealTime(int patience)

@@ -22,6 +22,8 @@ private Q_SLOTS:
     void wrongFaultCountIsFound();
     void cyclesThatTheNodeMissedMayBeAmongTheLost();
     void framesUnderWayMayBeCountedOrNot();
+    void lossesAreCountedWhenTheNextAnswerArrives();
+    void everyLostFrameMustCountAsLate();
     void countersOfTwoPhasesAreNotJudged();
     void aNodeThatRegisteredTwiceIsNotJudged();
     void countersOfALaterLifeAreNotUsedForAnEarlierFault();
@@ -32,11 +34,11 @@ private:
 
     /// Node 2 runs with a bad link; the master counts at the end of cycle 80, long after the last
     /// frame.
-    static HandMade badLink(FaultKind kind, Record::NodeNumber number, quint64 counted)
+    static HandMade badLink(FaultKind kind, Record::NodeNumber number, quint64 counted, quint64 seed = Seed)
     {
         HandMade plant(Frames);
         const qint64 begin = HandMade::at(0) - 900 * HandMade::Millisecond;
-        HandMade::add(plant.runner(), Record::FaultBegins, 2, begin, {quint64(kind), 700, Seed});
+        HandMade::add(plant.runner(), Record::FaultBegins, 2, begin, {quint64(kind), 700, seed});
         HandMade::add(plant.runner(), Record::FaultEnds, 2, plant.end() + 90 * HandMade::Millisecond,
                       {quint64(kind), 700});
         addCounters(plant, number, counted, plant.end() + 50 * HandMade::Millisecond);
@@ -45,14 +47,15 @@ private:
     static void addCounters(HandMade &plant, Record::NodeNumber number, quint64 counted, qint64 time, quint64 phase = 1)
     {
         Record &record = HandMade::add(plant.master(), Record::NodeCounters, 2, time, {phase});
+        record.numbers[Record::NodeLate] = Frames;
         record.numbers[number] = counted;
     }
     /// What the seed does to that many frames.
-    static quint64 done(FaultKind kind, FaultInjector::Kind what, int frames)
+    static quint64 done(FaultKind kind, FaultInjector::Kind what, int frames, quint64 seed = Seed)
     {
         QString error;
-        const auto plan = qplc::FaultPlan::fromText(soak::linkFaultsOf(kind, Seed), &error);
-        FaultInjector injector(plan->sent, Seed, 2 * qplc::fnv1a64("Node2"));
+        const auto plan = qplc::FaultPlan::fromText(soak::linkFaultsOf(kind, seed), &error);
+        FaultInjector injector(plan->sent, seed, 2 * qplc::fnv1a64("Node2"));
         for (int i = 0; i < frames; ++i)
             injector.decide(0);
         return injector.count(what);
@@ -135,6 +138,37 @@ void tst_LinkGates::aNodeThatRegisteredTwiceIsNotJudged()
     const Gate gate = plant.judge(&soak::linkFaultsAreCounted);
     QCOMPARE(gate.failed, qint64(0));
     QCOMPARE(gate.looked, qint64(0));
+}
+
+void tst_LinkGates::lossesAreCountedWhenTheNextAnswerArrives()
+{
+    // The last four frames before the reading are lost, and the first of them is not under way any
+    // more.
+    const auto lost
+        = [](int frames, quint64 seed) { return done(FaultKind::LoseFrames, FaultInjector::Lost, frames, seed); };
+    quint64 seed = 1;
+    while (lost(Frames, seed) - lost(Frames - 4, seed) < 4 || lost(Frames - 5, seed) < lost(Frames - 4, seed))
+        ++seed;
+    const quint64 before = lost(Frames - 4, seed);
+    for (const int error : {-1, 0}) {
+        HandMade plant = badLink(FaultKind::LoseFrames, Record::AnswersLost, 0, seed);
+        HandMade::remove(plant.master(), [](const Record &record) { return record.kind == Record::NodeCounters; });
+        addCounters(plant, Record::AnswersLost, before + quint64(error), HandMade::at(Frames - 1) + 2'000'000);
+        QCOMPARE(plant.judge(&soak::linkFaultsAreCounted).passed(), error == 0);
+    }
+}
+
+void tst_LinkGates::everyLostFrameMustCountAsLate()
+{
+    const quint64 expected = done(FaultKind::LoseFrames, FaultInjector::Lost, Frames);
+    for (const quint64 late : {expected - 1, expected}) {
+        HandMade plant = badLink(FaultKind::LoseFrames, Record::AnswersLost, expected);
+        for (Record &record : plant.master().records) {
+            if (record.kind == Record::NodeCounters)
+                record.numbers[Record::NodeLate] = late;
+        }
+        QCOMPARE(plant.judge(&soak::linkFaultsAreCounted).passed(), late == expected);
+    }
 }
 
 void tst_LinkGates::countersOfTwoPhasesAreNotJudged()

@@ -5,6 +5,8 @@
 #include <QtCore/QProcess>
 #include <QtTest/QTest>
 
+#include <algorithm>
+
 using namespace soak;
 
 namespace {
@@ -34,6 +36,8 @@ private Q_SLOTS:
     void otherSeedGivesOtherPlan();
     void everyKindOfFaultHappensInSomeScenario();
     void gatesDetectLateReactionsOfThePlant();
+    void faultsBeginWhenAllNodesCompute_data();
+    void faultsBeginWhenAllNodesCompute();
     void processGatesAreNotJudged();
     void shrinkingKeepsTheFaultsThatMatter();
 };
@@ -106,6 +110,35 @@ void tst_SimulatedSoak::gatesDetectLateReactionsOfThePlant()
     result.report.evidence.shape.hold = 1;
     QVERIFY(silentWritersBecomeSafe(result.report.evidence).failed > 0);
     QVERIFY(nodesAloneBecomeSafe(result.report.evidence).failed > 0);
+}
+
+void tst_SimulatedSoak::faultsBeginWhenAllNodesCompute_data()
+{
+    QTest::addColumn<int>("seed");
+    for (const int seed : {3, 20, 22})
+        QTest::addRow("%d", seed) << seed;
+}
+
+/// Losses can delay the control messages of a node that joins for seconds. It has registered then,
+/// but a fault of it has no effect.
+void tst_SimulatedSoak::faultsBeginWhenAllNodesCompute()
+{
+    QFETCH(int, seed);
+    Fault losses;
+    losses.kind = FaultKind::LoseOnRoads;
+    losses.amount = 900;
+    const std::vector<Fault> plan(20, losses);
+    const Evidence evidence = run(scenarioNamed("all"), 60, quint64(seed), plan).report.evidence;
+    QCOMPARE(evidence.faults.size(), plan.size());
+    for (const DoneFault &fault : evidence.faults) {
+        std::vector<bool> computes(std::size_t(evidence.shape.nodes));
+        for (const History &life : evidence.nodes) {
+            if (!recordsOf(life, Record::Step, life.node, fault.begin - 2 * evidence.period, fault.begin).empty())
+                computes[std::size_t(life.node)] = true;
+        }
+        QVERIFY2(std::all_of(computes.begin(), computes.end(), [](bool does) { return does; }),
+                 qPrintable(QStringLiteral("fault at %1 s").arg(double(fault.begin) * 1e-9)));
+    }
 }
 
 void tst_SimulatedSoak::processGatesAreNotJudged()
