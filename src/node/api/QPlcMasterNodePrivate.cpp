@@ -278,7 +278,6 @@ void QPlcMasterNodePrivate::nodeAttached(Connection *connection)
     parts->settings.leaveToWriters();
     journal.tell(JournalEvent::Info, JournalEvent::Node, name,
                  QStringLiteral("node %1 registered over %2").arg(name, connection->cyclicKind));
-    journal.clear(QStringLiteral("node ") + name, QStringLiteral("node %1 is back").arg(name));
     if (!connection->slot->faultPlan.isEmpty())
         journal.tell(JournalEvent::Warning, JournalEvent::Node, name,
                      QStringLiteral("node %1 injects faults on purpose: %2").arg(name, connection->slot->faultPlan));
@@ -287,6 +286,8 @@ void QPlcMasterNodePrivate::nodeAttached(Connection *connection)
     apply(node->isListener() ? Event::ListenerJoined : Event::NodeJoined,
           QStringLiteral("node %1 has joined").arg(node->name()));
     m_joiner.reset();
+    if (node->stage() == qplc::NodeSession::Idle)
+        journal.nodeReturned(name);
 }
 
 void QPlcMasterNodePrivate::nodeLost(Connection *connection, const QString &reason)
@@ -297,8 +298,7 @@ void QPlcMasterNodePrivate::nodeLost(Connection *connection, const QString &reas
     // While cycles run, what it wrote is missing from now on.
     const auto severity = parts->phase.isRunning() ? JournalEvent::Error : JournalEvent::Warning;
     if (stage != qplc::NodeSession::Idle && !slot->listener)
-        journal.raise(QStringLiteral("node ") + slot->name, severity, JournalEvent::Node, slot->name,
-                      QStringLiteral("node %1 is gone in the middle of its work: %2").arg(slot->name, reason));
+        journal.nodeLost(slot->name, severity, reason);
     else
         journal.tell(JournalEvent::Info, JournalEvent::Node, slot->name,
                      QStringLiteral("node %1 has left: %2").arg(slot->name, reason));
@@ -463,6 +463,8 @@ void QPlcMasterNodePrivate::carryOut(Action action, const QString &reason)
         if (!parts->phase.takeEnd())
             break;
         parts->stopping.stop(reason);
+        for (const auto &node : parts->nodes.all())
+            journal.nodeReturned(node->name());
         parts->reports.takeLast();
         Q_EMIT q->realTimeHasStopped();
         break;

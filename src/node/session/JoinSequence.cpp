@@ -73,6 +73,7 @@ void JoinSequence::goOn(NodeSession &node)
         node.start(m_starts.begin(node));
     } else if (node.stage() == NodeSession::Running && m_cycles.isRunning()) {
         m_cycles.renewRoster();
+        m_journal.nodeReturned(node.name());
     }
 }
 

@@ -119,6 +119,17 @@ void Journal::stateChanged(const QString &state, bool isTransient)
     tell(event.severity, event.kind, event.source, begin + state);
 }
 
+void Journal::nodeLost(const QString &node, JournalEvent::Severity severity, const QString &reason)
+{
+    raise(QStringLiteral("node ") + node, severity, JournalEvent::Node, node,
+          QStringLiteral("node %1 is gone in the middle of its work: %2").arg(node, reason));
+}
+
+void Journal::nodeReturned(const QString &node)
+{
+    clear(QStringLiteral("node ") + node, QStringLiteral("node %1 is back").arg(node));
+}
+
 void Journal::answeredLate(const QString &node, std::uint64_t cycle)
 {
     tellLimited(QStringLiteral("late ") + node, QStringLiteral("node %1 was late in cycle ").arg(node),

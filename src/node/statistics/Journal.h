@@ -44,6 +44,10 @@ public:
     /// \param isTransient  time stands still, or goes on again: this may happen in every cycle
     void stateChanged(const QString &state, bool isTransient);
     void answeredLate(const QString &node, std::uint64_t cycle);
+    /// The alarms of lost nodes are of these two: a node that has registered again is still missing
+    /// while it joins.
+    void nodeLost(const QString &node, JournalEvent::Severity severity, const QString &reason);
+    void nodeReturned(const QString &node);
     void valueSet(const QString &who, const QString &signal, const QString &former, const QString &value);
     /// \param values  "tetherSpeed = 0"
     void becameSafe(const QStringList &values);
