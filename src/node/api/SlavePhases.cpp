@@ -181,8 +181,8 @@ void QPlcSlaveNodePrivate::haltCycles(const std::optional<qplc::SentCycles::Last
     takeReports();
 }
 
-/// A listener without devices has nothing to bring to rest: it takes what the master has sent, which
-/// the stop may have overtaken, and ends its phase then.
+/// A listener without devices has nothing to bring to rest: it takes what the master has sent,
+/// which the stop may have overtaken, and ends its phase then.
 void QPlcSlaveNodePrivate::stopPhase(const messages::RealTimeStopped &stop)
 {
     if (!m_inPhase || !listener || hardware || !stop.lastCycle) {
