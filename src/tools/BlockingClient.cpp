@@ -46,8 +46,9 @@ void BlockingClient::end(ControlClient::Loss loss, const QString &reason)
     else if (loss == ControlClient::Loss::OtherVersion)
         setError(
             Unreachable,
-            QStringLiteral("the master at %1 speaks protocol version %2, this tool version 1; update the older one")
-                .arg(m_address, reason));
+            QStringLiteral("the master at %1 speaks protocol version %2, this tool version %3; update the older one")
+                .arg(m_address, reason)
+                .arg(qplc::messages::protocolVersion));
     else
         setError(Unreachable,
                  QStringLiteral("cannot reach a master at %1: %2; start the master, or give its address by --master")

@@ -46,9 +46,10 @@ QString sentenceOf(ControlClient::Loss loss, const QString &reason, const messag
                     : QStringLiteral("the master refuses: %1"))
             .arg(shown);
     case ControlClient::Loss::OtherVersion:
-        return QStringLiteral("versions differ: the master speaks protocol version %1, this window version 1; update "
+        return QStringLiteral("versions differ: the master speaks protocol version %1, this window version %2; update "
                               "the older one")
-            .arg(shown);
+            .arg(shown)
+            .arg(qplc::messages::protocolVersion);
     }
     return reason;
 }
