@@ -37,7 +37,6 @@ std::optional<ConnectionGate::Ticket> ConnectionGate::admit(const QHostAddress &
     if (*refusal != Admitted)
         return std::nullopt;
     m_guests.insert(++m_last, {origin, QString(), true, now + m_limits.patience});
-    ++m_strangers;
     return m_last;
 }
 
@@ -62,15 +61,12 @@ bool ConnectionGate::prove(Ticket ticket, const QString &identity)
 void ConnectionGate::know(Ticket ticket)
 {
     const auto guest = m_guests.find(ticket);
-    if (guest == m_guests.end() || !guest->isStranger)
-        return;
-    guest->isStranger = false;
-    --m_strangers;
+    if (guest != m_guests.end())
+        guest->isStranger = false;
 }
 
 void ConnectionGate::leave(Ticket ticket)
 {
-    know(ticket);
     m_guests.remove(ticket);
 }
 
@@ -83,6 +79,11 @@ QVector<ConnectionGate::Ticket> ConnectionGate::overdue(qint64 now) const
     }
     std::sort(tickets.begin(), tickets.end());
     return tickets;
+}
+
+int ConnectionGate::strangers() const
+{
+    return int(std::count_if(m_guests.begin(), m_guests.end(), [](const Guest &guest) { return guest.isStranger; }));
 }
 
 const char *ConnectionGate::textOf(Refusal refusal)

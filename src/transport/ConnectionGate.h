@@ -40,7 +40,7 @@ public:
     const Limits &limits() const { return m_limits; }
 
     /// Whether the next connection may be taken out of the queue of the system.
-    bool hasRoom() const { return m_strangers < m_limits.strangers; }
+    bool hasRoom() const { return strangers() < m_limits.strangers; }
     /// Takes somebody in as a stranger. \return nothing, with the reason in \a refusal, when there
     /// is no place: he is to be closed at once
     std::optional<Ticket> admit(const QHostAddress &address, qint64 now, Refusal *refusal);
@@ -57,7 +57,7 @@ public:
     QVector<Ticket> overdue(qint64 now) const;
 
     int connections() const { return int(m_guests.size()); }
-    int strangers() const { return m_strangers; }
+    int strangers() const;
     static const char *textOf(Refusal refusal);
 
 private:
@@ -72,7 +72,6 @@ private:
 
     Limits m_limits;
     QHash<Ticket, Guest> m_guests;
-    int m_strangers = 0;
     Ticket m_last = 0;
     TokenBucket m_accepts{Limits().acceptsPerSecond, Limits().acceptsAtOnce};
 };
