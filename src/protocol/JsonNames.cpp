@@ -60,7 +60,7 @@ private:
         int from = 0;
         for (int escape = 0; (escape = bytes.indexOf('\\', from)) >= 0;) {
             result += QString::fromUtf8(bytes.mid(from, escape - from));
-            const char code = escape + 1 < bytes.size() ? bytes.at(escape + 1) : '\0';
+            const char code = bytes.at(escape + 1);  // there is one: the last quote of a name is not escaped
             if (code == 'u')
                 result += QChar(bytes.mid(escape + 2, 4).toUShort(nullptr, 16));
             else

@@ -82,8 +82,7 @@ bool UdpTransport::open(const SocketAddress &address, QString *error)
     if (m_socket >= 0 && ::bind(m_socket, address.data(), address.length) == 0)
         return true;
     *error = QStringLiteral("cannot use UDP port %1: %2").arg(address.toString(), systemErrorText());
-    close();
-    return false;
+    return false;  // the hub closes all its transports
 }
 
 void UdpTransport::close()

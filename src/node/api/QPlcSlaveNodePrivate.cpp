@@ -63,7 +63,6 @@ QPlcSlaveNodePrivate::QPlcSlaveNodePrivate(QPlcSlaveNode *node, const QString &n
     policy = violationPolicy;
     m_retryTimer.setSingleShot(true);
     QObject::connect(&m_retryTimer, &QTimer::timeout, q, [this] { apply(SlaveEvent::Retry); });
-    m_patience.setSingleShot(true);
     QObject::connect(&m_patience, &QTimer::timeout, q, [this] {
         masterLost(QPlcAbstractSocket::NoError,
                    QStringLiteral("no answer within %1 s").arg(m_patience.interval() / 1000));

@@ -73,7 +73,7 @@ std::vector<Schedule::Hop> Schedule::shortestLoop(std::size_t start) const
     std::vector<Hop> arrivals(m_dependents.size(),
                               {Nobody, QPlcInvalidSignalIndex});  // from which node, by which input
     std::vector<std::size_t> reached{start};
-    for (std::size_t next = 0; next < reached.size() && arrivals[start].node == Nobody; ++next) {
+    for (std::size_t next = 0; next < reached.size(); ++next) {
         for (const Dependent &dependent : m_dependents[reached[next]]) {
             if (arrivals[dependent.node].node != Nobody)
                 continue;

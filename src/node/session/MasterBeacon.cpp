@@ -79,7 +79,8 @@ void MasterBeacon::end()
     m_notice.withdraw();
 }
 
-/// A network that is away for a while is no news: the next datagram may get through.
+/// A network that is away for a while is no news: the next datagram may get through. No router
+/// forwards it: the TTL of multicast is 1 unless a program sets another one.
 void MasterBeacon::send()
 {
     const QList<QNetworkInterface> networks = QNetworkInterface::allInterfaces();
@@ -90,7 +91,6 @@ void MasterBeacon::send()
         if (!socket.bind(isAny(m_address) ? QHostAddress(QHostAddress::AnyIPv4) : m_address, 0))
             continue;
         socket.setMulticastInterface(network);
-        socket.setSocketOption(QAbstractSocket::MulticastTtlOption, 1);
         socket.writeDatagram(m_datagram, QHostAddress(QLatin1String(Beacon::Group)), Beacon::GroupPort);
     }
 }

@@ -168,13 +168,14 @@ bool MasterWrites::checkValue(QPlcSignalIndex signal, const QPlcValue &value, Si
 bool MasterWrites::readValues(const QObject *owner, const QMap<QString, QString> &texts,
                               std::vector<SignalSetting> *settings, Refusal *refusal) const
 {
-    for (auto it = texts.begin(); it != texts.end() && refusal->error.isEmpty(); ++it) {
+    for (auto it = texts.begin(); it != texts.end(); ++it) {
         QPlcSignalIndex index = QPlcInvalidSignalIndex;
         SignalSetting setting;
-        if (isSettable(owner, it.key(), &index, refusal) && readValue(index, it.value(), &setting, refusal))
-            settings->push_back(setting);
+        if (!isSettable(owner, it.key(), &index, refusal) || !readValue(index, it.value(), &setting, refusal))
+            return false;
+        settings->push_back(setting);
     }
-    return refusal->error.isEmpty();
+    return true;
 }
 
 bool MasterWrites::readValue(QPlcSignalIndex signal, const QString &text, SignalSetting *setting,
