@@ -22,6 +22,7 @@ private Q_SLOTS:
     void slaveWaitsNoLongerThanItsTimeout();
     void slaveWithAWrongDeclarationDoesNotRegister();
     void slaveIgnoresMessagesOutOfTurn();
+    void earlyRequestEndsWithItsConnection();
     void slaveSendsMessagesOfItsProgram();
     void namesAndWritersAreFreeAfterALeave();
     void returningNodeReplacesItsOldConnection();
@@ -286,6 +287,23 @@ void tst_RegisterSequence::slaveIgnoresMessagesOutOfTurn()
     QVERIFY(master.waitForAnswers(1));
     QTRY_COMPARE(log.matching("ignores").size(), 7);
     QCOMPARE(node.state(), QPlcSlaveNode::RealTime);
+}
+
+/// The control connection is lost before the cyclic one is there.
+void tst_RegisterSequence::earlyRequestEndsWithItsConnection()
+{
+    ScriptedMaster lost;
+    CounterNode node;
+    node.connectToMaster(lost.tcp());
+    QCOMPARE(lost.next().kind(), QPlcMessage::Hello);
+    lost.send(QPlcMessage::Hello, lost.helloFields());
+    lost.send(QPlcMessage::Registered, lost.registeredFields(lost.next()));
+    lost.send(QPlcMessage::SendYourInitialOutputStates);
+    lost.control->abort();
+    QTRY_COMPARE(node.state(), QPlcSlaveNode::Disconnected);
+    ScriptedMaster other;
+    QVERIFY(other.admit(node, other.tcp()));
+    QCOMPARE(other.next(0).kind(), QPlcMessage::Invalid);  // it did not ask for outputs
 }
 
 void tst_RegisterSequence::namesAndWritersAreFreeAfterALeave()

@@ -25,6 +25,7 @@ private Q_SLOTS:
     void lostLeaseCanBeReleasedOrReplacedByAnyone();
     void lostLeaseSurvivesStopAndStart();
     void temporaryValuesAreNotRestoredDuringALease();
+    void aLeasedSignalComesBackToTheValueOfItsWriter();
     void aThousandSignalsAreTakenAtMost();
     void invalidRequestsCreateNoLease_data();
     void invalidRequestsCreateNoLease();
@@ -293,6 +294,22 @@ void tst_TakeOver::temporaryValuesAreNotRestoredDuringALease()
     QTRY_COMPARE(value("setpoint"), QString("0"));
     pass(20ms);
     QCOMPARE(value("setpoint"), QString("0"));
+}
+
+/// And not to one that was set before the signal had a writer.
+void tst_TakeOver::aLeasedSignalComesBackToTheValueOfItsWriter()
+{
+    QCOMPARE(set(*m_anna, "count", "-9").kind(), QPlcMessage::Done);
+    QVERIFY(startWithNodes());
+    QCOMPARE(take(*m_anna, {"count"}).kind(), QPlcMessage::Done);
+    QVERIFY(waitForSomeCycles());
+    const QString kept = value("count");
+    QVERIFY(kept.toInt() > 0);
+    const QJsonObject values{{"count", "-1"}};
+    QCOMPARE(m_anna->ask(QPlcMessage::SetSignals, {{"values", values}, {"duration", 20e6}}).kind(), QPlcMessage::Done);
+    QTRY_COMPARE(value("count"), QString("-1"));
+    QTRY_COMPARE(value("count"), kept);
+    m_master->stop();
 }
 
 void tst_TakeOver::aThousandSignalsAreTakenAtMost()

@@ -6,6 +6,8 @@
 #include <QtTest/QtTest>
 
 #include <algorithm>
+#include <csignal>
+#include <sys/resource.h>
 
 using qplc::LocalNotice;
 
@@ -22,6 +24,7 @@ private Q_SLOTS:
     void oversizedNoticeIsRefused();
     void aFolderThatOthersMayWriteIsNotUsed();
     void missingFolderMeansNoNotices();
+    void aNoticeThatCannotBeWrittenLeavesNothing();
     void numberOfNoticesIsLimited();
 
 private:
@@ -101,6 +104,22 @@ void tst_LocalNotice::missingFolderMeansNoNotices()
     LocalNotice notice;
     QVERIFY(!notice.post("x"));
     QVERIFY(LocalNotice::all().isEmpty());
+}
+
+/// As on a full disk.
+void tst_LocalNotice::aNoticeThatCannotBeWrittenLeavesNothing()
+{
+    rlimit usual{};
+    QCOMPARE(::getrlimit(RLIMIT_FSIZE, &usual), 0);
+    const rlimit none{0, usual.rlim_max};
+    const auto usualEnd = std::signal(SIGXFSZ, SIG_IGN);
+    QCOMPARE(::setrlimit(RLIMIT_FSIZE, &none), 0);
+    LocalNotice notice;
+    const bool isUp = notice.post("x");
+    QCOMPARE(::setrlimit(RLIMIT_FSIZE, &usual), 0);
+    std::signal(SIGXFSZ, usualEnd);
+    QVERIFY(!isUp);
+    QVERIFY(QDir(home()).entryList(QDir::Files).isEmpty());
 }
 
 void tst_LocalNotice::numberOfNoticesIsLimited()
