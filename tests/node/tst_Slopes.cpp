@@ -80,6 +80,8 @@ class tst_Slopes : public QObject
 
 private Q_SLOTS:
     void init();
+    /// Before the node that runs in its cycles is destroyed.
+    void cleanup() { m_master->stop(); }
     void aSignalMovesBySlopeTimesPeriodInEachCycle();
     void eachElementOfAnArrayMovesOnItsOwn();
     void newTargetStartsFromThePresentValue();
@@ -93,6 +95,7 @@ private Q_SLOTS:
     void safeStopIgnoresTheSlope();
     void slopeIsIgnoredWithoutCycles();
     void aWayEndsWithItsPhase();
+    void aSettingForAWhileComesBackToWhereTheWayEnded();
     void thereIsNoWayFromInfinity();
     void theNeighbourOfAMovingSignalStays();
     void onlySignalsThatAreLeftStop();
@@ -109,6 +112,13 @@ private:
             == QPlcMessage::Done;
     }
     double number(const QString &name) const { return m_master->signalValue(name).toReal(); }
+    bool stays(const QString &name, double value)
+    {
+        bool stayed = true;
+        for (int look = 0; stayed && look < 30; ++look)
+            stayed = m_master->waitForCycles(m_master->statistics().cycles + 1) && number(name) == value;
+        return stayed;
+    }
     /// Reads \a name until it is \a last. \return the largest change between two cycles that follow
     /// each other
     double largestChange(const QString &name, double last);
@@ -173,7 +183,6 @@ void tst_Slopes::aSignalMovesBySlopeTimesPeriodInEachCycle()
     QCOMPARE(values.back(), 1.0);
     QVERIFY(set("free", "1"));  // another signal has no slope
     QTRY_COMPARE(number("free"), 1.0);
-    m_master->stop();
 }
 
 void tst_Slopes::eachElementOfAnArrayMovesOnItsOwn()
@@ -186,7 +195,6 @@ void tst_Slopes::eachElementOfAnArrayMovesOnItsOwn()
         QVERIFY2(value.toReal(0) >= 0.0999 || std::abs(value.toReal(0) + value.toReal(1)) < 1e-6, qPrintable(text));
         pass(1ms);
     }
-    m_master->stop();
 }
 
 void tst_Slopes::newTargetStartsFromThePresentValue()
@@ -200,7 +208,6 @@ void tst_Slopes::newTargetStartsFromThePresentValue()
     for (std::size_t i = 1; i < values.size(); ++i)
         QVERIFY(std::abs(values[i] - values[i - 1]) < step + 1e-12);
     QVERIFY(*std::max_element(values.begin(), values.end()) < 9.0);
-    m_master->stop();
 }
 
 void tst_Slopes::aLostLeaseMovesToTheNeutralValue()
@@ -211,7 +218,6 @@ void tst_Slopes::aLostLeaseMovesToTheNeutralValue()
     QCOMPARE(number("drive"), 2.0);  // what was taken over stays
     m_tool.reset();                  // and the connection is lost
     QVERIFY(largestChange("drive", -0.5) <= step * 1.001);
-    m_master->stop();
 }
 
 /// On its way to the neutral value.
@@ -227,13 +233,9 @@ void tst_Slopes::newHolderKeepsThePresentValue()
     QVERIFY(m_master->waitForCycles(m_master->statistics().cycles + 3));
     const double kept = number("drive");
     QVERIFY2(kept > -0.5, qPrintable(QString::number(kept)));
-    for (int look = 0; look < 30; ++look) {
-        QVERIFY(m_master->waitForCycles(m_master->statistics().cycles + 1));
-        QCOMPARE(number("drive"), kept);
-    }
+    QVERIFY(stays("drive", kept));
     QVERIFY(set("drive", "0.5"));  // and from there it goes where he wants it
     QTRY_COMPARE(number("drive"), 0.5);
-    m_master->stop();
 }
 
 void tst_Slopes::aSignalMovesToTheValueWithWhichItIsTaken()
@@ -246,7 +248,6 @@ void tst_Slopes::aSignalMovesToTheValueWithWhichItIsTaken()
             .kind(),
         QPlcMessage::Done);
     QTRY_COMPARE(number("drive"), 2.5);
-    m_master->stop();
 }
 
 void tst_Slopes::renewedLeaseKeepsTheTarget()
@@ -255,7 +256,6 @@ void tst_Slopes::renewedLeaseKeepsTheTarget()
     QVERIFY(set("drive", "3"));
     QVERIFY(take("drive"));
     QTRY_COMPARE(number("drive"), 3.0);
-    m_master->stop();
 }
 
 void tst_Slopes::releasedSignalFollowsItsWriterWithoutSlope()
@@ -265,11 +265,7 @@ void tst_Slopes::releasedSignalFollowsItsWriterWithoutSlope()
     QTRY_VERIFY(number("drive") < 1.5);
     QCOMPARE(m_tool->ask(QPlcMessage::ReleaseLease, {{"signals", QJsonArray{"drive"}}}).kind(), QPlcMessage::Done);
     QTRY_COMPARE(number("drive"), 2.0);
-    for (int look = 0; look < 30; ++look) {  // and nothing pulls it away
-        QVERIFY(m_master->waitForCycles(m_master->statistics().cycles + 1));
-        QCOMPARE(number("drive"), 2.0);
-    }
-    m_master->stop();
+    QVERIFY(stays("drive", 2.0));  // and nothing pulls it away
 }
 
 void tst_Slopes::aWriterThatJoinsEndsTheWayOfItsSignal_data()
@@ -297,7 +293,6 @@ void tst_Slopes::aWriterThatJoinsEndsTheWayOfItsSignal()
     QVERIFY(m_master->waitForCycles(m_master->statistics().cycles + 20));
     for (const double value : m_recorder->take())
         QCOMPARE(value, -7.0);  // no cycle reads what the way would have been
-    m_master->stop();
 }
 
 void tst_Slopes::safeStopIgnoresTheSlope()
@@ -344,7 +339,20 @@ void tst_Slopes::aWayEndsWithItsPhase()
     QVERIFY(m_master->startRealTime());
     QVERIFY(m_master->waitForCycles(5));
     QCOMPARE(number("speed"), -3.0);  // and not where the way of before led
-    m_master->stop();
+}
+
+void tst_Slopes::aSettingForAWhileComesBackToWhereTheWayEnded()
+{
+    QVERIFY(set("speed", "10"));
+    QTRY_VERIFY(number("speed") > 0.2);
+    QVERIFY(take("speed"));  // ends the way
+    QVERIFY(m_master->waitForCycles(m_master->statistics().cycles + 3));
+    const double kept = number("speed");
+    QCOMPARE(m_tool->ask(QPlcMessage::SetSignals, {{"values", QJsonObject{{"speed", "0"}}}, {"duration", 20e6}}).kind(),
+             QPlcMessage::Done);
+    QTRY_VERIFY(number("speed") < kept);
+    QTRY_COMPARE(number("speed"), kept);
+    QVERIFY(stays("speed", kept));
 }
 
 void tst_Slopes::thereIsNoWayFromInfinity()
