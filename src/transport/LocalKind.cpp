@@ -3,7 +3,6 @@
 #include "LocalLink.h"
 #include "LocalName.h"
 #include "LocalTransport.h"
-#include "PeerUser.h"
 #include "TransportKind.h"
 #include "protocol/messages/Field.h"
 #include "protocol/messages/Vocabulary.h"
@@ -21,19 +20,25 @@ public:
                    QString *error) const override;
     QString placeText(const QHostAddress &, quint16 port) const override { return QString::number(port); }
     std::unique_ptr<HubTransport> makeHubTransport() const override { return std::make_unique<LocalTransport>(); }
+    bool open(CyclicHub &hub, const MasterPlace &place, QString *error) const override
+    {
+        return hub.find<LocalTransport>()->listen(place.session, error);
+    }
     bool admits(const CyclicHub &hub, const Newcomer &node, ChannelError *error) const override;
     std::unique_ptr<HubPeer> makePeer(const CyclicHub &hub, const Newcomer &node, QJsonObject *answer,
                                       ChannelError *error) const override;
+    bool beginLink(const ControlEnds &ends, QJsonObject *request, std::unique_ptr<CyclicLink> *link,
+                   QString *error) const override;
     bool finishLink(const ControlEnds &ends, const QJsonObject &answer, std::unique_ptr<CyclicLink> *link,
                     QString *error) const override;
 
 private:
-    /// What a master says in Registered.
-    struct Answer : LocalPaths
+    /// What a node says in Register.
+    struct Request
     {
-        static constexpr auto fields = std::make_tuple(messages::field("channel", &LocalPaths::channel),
-                                                       messages::field("doorbell", &LocalPaths::doorbell),
-                                                       messages::field("pipe", &LocalPaths::pipe));
+        messages::Hex64 localKey;
+
+        static constexpr auto fields = std::make_tuple(messages::field("localKey", &Request::localKey));
     };
 };
 
@@ -68,30 +73,28 @@ bool LocalKind::admits(const CyclicHub &, const Newcomer &node, ChannelError *er
     return false;
 }
 
-std::unique_ptr<HubPeer> LocalKind::makePeer(const CyclicHub &hub, const Newcomer &, QJsonObject *answer,
+std::unique_ptr<HubPeer> LocalKind::makePeer(const CyclicHub &hub, const Newcomer &node, QJsonObject *,
                                              ChannelError *error) const
 {
-    auto memory = std::make_unique<SharedMemory>();
-    if (!memory->create(sizeof(SharedChannel), &error->text)) {
-        error->word = messages::errorWord::nodeError;
-        return nullptr;
-    }
-    const LocalTransport::Paths paths = hub.find<LocalTransport>()->paths();
-    messages::addFields(Answer{{memory->path(), paths.doorbell, paths.pipe}}, answer);
-    return LocalTransport::peer(std::move(memory));
+    error->word = messages::errorWord::nodeError;
+    const quint64 key = messages::fieldsOf<Request>(node.request).localKey;
+    return hub.find<LocalTransport>()->link(key, node.volume, &error->text);
 }
 
-bool LocalKind::finishLink(const ControlEnds &ends, const QJsonObject &answer, std::unique_ptr<CyclicLink> *link,
+bool LocalKind::beginLink(const ControlEnds &ends, QJsonObject *request, std::unique_ptr<CyclicLink> *link,
+                          QString *error) const
+{
+    std::unique_ptr<LocalLink> begun = LocalLink::begin(ends.session, error);
+    if (begun)
+        messages::addFields(Request{begun->key()}, request);
+    *link = std::move(begun);
+    return *link != nullptr;
+}
+
+bool LocalKind::finishLink(const ControlEnds &ends, const QJsonObject &, std::unique_ptr<CyclicLink> *link,
                            QString *error) const
 {
-    const std::optional<uid_t> user = userOfPeer(ends.node, ends.master);
-    if (user)
-        *link = LocalLink::open(messages::fieldsOf<Answer>(answer), *user, error);
-    else
-        *error = QStringLiteral("cannot find out as which user the master at %1 runs, so none of its memory is "
-                                "opened; use udp")
-                     .arg(ends.masterText);
-    return *link != nullptr;
+    return static_cast<LocalLink *>(link->get())->finish(ends.volume, error);
 }
 
 }  // namespace qplc

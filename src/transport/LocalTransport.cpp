@@ -11,13 +11,12 @@ namespace qplc {
 class LocalTransport::Peer final : public HubPeer
 {
 public:
-    explicit Peer(std::unique_ptr<SharedMemory> shared)
-        : memory(std::move(shared))
+    explicit Peer(std::unique_ptr<SharedChannel> shared)
+        : channel(std::move(shared))
     {
     }
-    SharedChannel *channel() const { return static_cast<SharedChannel *>(memory->data()); }
 
-    const std::unique_ptr<SharedMemory> memory;
+    const std::unique_ptr<SharedChannel> channel;
     bool isToBeWoken = false;
 };
 
@@ -34,9 +33,18 @@ LocalTransport::~LocalTransport()
     }
 }
 
-std::unique_ptr<HubPeer> LocalTransport::peer(std::unique_ptr<SharedMemory> memory)
+std::unique_ptr<HubPeer> LocalTransport::peer(std::unique_ptr<SharedChannel> channel)
 {
-    return std::make_unique<Peer>(std::move(memory));
+    return std::make_unique<Peer>(std::move(channel));
+}
+
+std::unique_ptr<HubPeer> LocalTransport::link(std::uint64_t key, const CycleVolume &volume, QString *error)
+{
+    auto channel = std::make_unique<SharedChannel>();
+    if (!channel->create(volume, error)
+        || !m_listener.pass(key, {channel->descriptor(), m_doorbell.descriptor(), m_pipe[1]}, error))
+        return nullptr;
+    return peer(std::move(channel));
 }
 
 bool LocalTransport::open(const SocketAddress & /*address*/, QString *error)
@@ -49,11 +57,6 @@ bool LocalTransport::open(const SocketAddress & /*address*/, QString *error)
         return true;
     *error = QStringLiteral("no pipe for local nodes: %1").arg(systemErrorText());
     return false;
-}
-
-LocalTransport::Paths LocalTransport::paths() const
-{
-    return {m_doorbell.path(), QStringLiteral("/proc/%1/fd/%2").arg(::getpid()).arg(m_pipe[1])};
 }
 
 bool LocalTransport::owns(const HubPeer &peer) const noexcept
@@ -82,7 +85,7 @@ void LocalTransport::addDescriptors(std::vector<pollfd> *descriptors) const
 bool LocalTransport::send(HubPeer *peer, const char *frame, std::size_t size) noexcept
 {
     auto *to = static_cast<Peer *>(peer);
-    to->isToBeWoken = to->channel()->inputs.push(frame, size);
+    to->isToBeWoken = to->channel->inputs.push(frame, size);
     m_areSomeToWake = m_areSomeToWake || to->isToBeWoken;
     to->sendFailures += to->isToBeWoken ? 0 : 1;
     return to->isToBeWoken;
@@ -97,7 +100,7 @@ void LocalTransport::flush() noexcept
     doorbell()->want(m_rung + std::uint32_t(std::max<std::ptrdiff_t>(awaited, 1)));  // before the first can answer
     for (Peer *peer : m_peers) {
         if (peer->isToBeWoken)
-            peer->channel()->inputs.wake();
+            peer->channel->inputs.wake();
         peer->isToBeWoken = false;
     }
 }
@@ -145,7 +148,7 @@ bool LocalTransport::next(HubFrame *frame) noexcept
             ++arrivals().floods;
             continue;
         }
-        const std::size_t size = m_peers[m_next]->channel()->outputs.pop(m_frame.data(), m_frame.size());
+        const std::size_t size = m_peers[m_next]->channel->outputs.pop(m_frame.data(), m_frame.size());
         if (size > 0) {
             ++m_read;
             *frame = {m_peers[m_next], m_frame.data(), size};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "HubTransport.h"
+#include "LocalListener.h"
 #include "SharedChannel.h"
 
 #include <array>
@@ -12,22 +13,20 @@ namespace qplc {
 class LocalTransport final : public HubTransport
 {
 public:
-    /// What local nodes need to wake the master: paths that they open.
-    struct Paths
-    {
-        QString doorbell;  // memory of a Doorbell
-        QString pipe;
-    };
-
     LocalTransport();
     ~LocalTransport() override;
 
-    /// A node of this machine that shares \a memory, a SharedChannel.
-    static std::unique_ptr<HubPeer> peer(std::unique_ptr<SharedMemory> memory);
+    /// Takes local nodes of the master with this session. \return false, with the reason in \a
+    /// error
+    bool listen(std::uint64_t session, QString *error) { return m_listener.open(session, error); }
+    /// A node that has connected with \a key: memory for \a volume is passed to it.
+    /// \return null, with the reason in \a error
+    std::unique_ptr<HubPeer> link(std::uint64_t key, const CycleVolume &volume, QString *error);
+    /// A node that shares \a channel.
+    static std::unique_ptr<HubPeer> peer(std::unique_ptr<SharedChannel> channel);
 
     bool open(const SocketAddress &address, QString *error) override;
-    void close() override {}
-    Paths paths() const;
+    void close() override { m_listener.close(); }
     bool owns(const HubPeer &peer) const noexcept override;
     void attach(HubPeer *peer) noexcept override;
     void detach(HubPeer *peer) noexcept override;
@@ -48,6 +47,7 @@ private:
     Doorbell *doorbell() const noexcept { return static_cast<Doorbell *>(m_doorbell.data()); }
     bool look() noexcept;
 
+    LocalListener m_listener;
     SharedMemory m_doorbell;
     int m_pipe[2] = {-1, -1};  // read, written
     std::vector<Peer *> m_peers;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SharedChannel.h"
 
-#include "PeerFile.h"
 #include "SocketAddress.h"
 #include "realtime/TimeSource.h"
 
@@ -12,6 +11,7 @@
 #include <fcntl.h>
 #include <linux/futex.h>
 #include <sys/mman.h>
+#include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
@@ -30,6 +30,8 @@ void futexWake(std::atomic<std::uint32_t> *word) noexcept
 }
 
 constexpr std::uint32_t LengthSize = sizeof(std::uint32_t);
+constexpr std::uint32_t LargestCapacity = 1U << 30;
+constexpr int NeededSeals = F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL;
 
 }  // namespace
 
@@ -39,13 +41,11 @@ SharedMemory::~SharedMemory()
 {
     if (m_data)
         ::munmap(m_data, m_size);
-    if (m_descriptor >= 0)
-        ::close(m_descriptor);
 }
 
 bool SharedMemory::map(QString *error)
 {
-    m_data = ::mmap(nullptr, m_size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_POPULATE, m_descriptor, 0);
+    m_data = ::mmap(nullptr, m_size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_POPULATE, m_descriptor.number(), 0);
     if (m_data != MAP_FAILED)
         return true;
     m_data = nullptr;
@@ -56,74 +56,94 @@ bool SharedMemory::map(QString *error)
 bool SharedMemory::create(std::size_t size, QString *error)
 {
     m_size = size;
-    m_descriptor = ::memfd_create("qtplc", MFD_CLOEXEC | MFD_ALLOW_SEALING);
+    m_descriptor = Descriptor(::memfd_create("qtplc", MFD_CLOEXEC | MFD_ALLOW_SEALING));
     // Sealed: nobody can make it smaller under the feet of the others.
-    if (m_descriptor < 0 || ::ftruncate(m_descriptor, off_t(size)) < 0
-        || ::fcntl(m_descriptor, F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL) < 0) {
+    if (!m_descriptor.isOpen() || ::ftruncate(m_descriptor.number(), off_t(size)) < 0
+        || ::fcntl(m_descriptor.number(), F_ADD_SEALS, NeededSeals) < 0) {
         *error = QStringLiteral("cannot make %1 bytes of shared memory: %2").arg(size).arg(systemErrorText());
         return false;
     }
     return map(error);
 }
 
-bool SharedMemory::open(const QString &path, const QString &what, std::size_t size, uid_t owner, QString *error)
+bool SharedMemory::adopt(Descriptor descriptor, const QString &what, std::size_t size, QString *error)
 {
-    PeerFile file;
+    m_descriptor = std::move(descriptor);
     m_size = size;
-    if (!file.find(path, what, owner, error))
-        return false;
-    m_descriptor = file.openMemory(size, error);
-    return m_descriptor >= 0 && map(error);
-}
-
-QString SharedMemory::path() const
-{
-    return QStringLiteral("/proc/%1/fd/%2").arg(::getpid()).arg(m_descriptor);
+    const int seals = ::fcntl(m_descriptor.number(), F_GET_SEALS);
+    struct stat status = {};  // what is sealed now keeps its size
+    if (seals < 0 || (seals & NeededSeals) != NeededSeals || ::fstat(m_descriptor.number(), &status) < 0)
+        *error = QStringLiteral("what the master has passed as %1 is not sealed memory").arg(what);
+    else if (status.st_size != off_t(size))
+        *error = QStringLiteral("the %1 of the master has %2 bytes instead of %3; update the older of the two programs")
+                     .arg(what)
+                     .arg(status.st_size)
+                     .arg(size);
+    else
+        return map(error);
+    return false;
 }
 
 // ---- ring ----
 
+std::uint32_t SharedRing::capacityFor(const FrameVolume &volume)
+{
+    const std::uint64_t needed = 2 * (std::uint64_t(volume.bytes) + LengthSize * volume.frames);
+    std::uint64_t capacity = SmallestCapacity;
+    while (capacity < needed)
+        capacity *= 2;
+    return capacity <= LargestCapacity ? std::uint32_t(capacity) : 0;
+}
+
+SharedRing::SharedRing(void *memory, std::uint32_t capacity)
+    : m_header(static_cast<Header *>(memory))
+    , m_bytes(static_cast<char *>(memory) + HeaderSize)
+    , m_capacity(capacity)
+{
+    static_assert(sizeof(Header) == HeaderSize);
+}
+
 void SharedRing::write(std::uint32_t place, const char *bytes, std::uint32_t size) noexcept
 {
-    const std::uint32_t begin = place % Capacity;
-    const std::uint32_t first = std::min(size, Capacity - begin);
+    const std::uint32_t begin = place & (m_capacity - 1);
+    const std::uint32_t first = std::min(size, m_capacity - begin);
     std::memcpy(m_bytes + begin, bytes, first);
     std::memcpy(m_bytes, bytes + first, size - first);
 }
 
 void SharedRing::read(std::uint32_t place, char *bytes, std::uint32_t size) const noexcept
 {
-    const std::uint32_t begin = place % Capacity;
-    const std::uint32_t first = std::min(size, Capacity - begin);
+    const std::uint32_t begin = place & (m_capacity - 1);
+    const std::uint32_t first = std::min(size, m_capacity - begin);
     std::memcpy(bytes, m_bytes + begin, first);
     std::memcpy(bytes + first, m_bytes, size - first);
 }
 
 bool SharedRing::push(const char *frame, std::size_t size) noexcept
 {
-    const std::uint32_t tail = m_tail.load(std::memory_order_relaxed);
-    const std::uint32_t used = tail - m_head.load(std::memory_order_acquire);
-    if (used > Capacity || size + LengthSize > Capacity - used)
+    const std::uint32_t tail = m_header->tail.load(std::memory_order_relaxed);
+    const std::uint32_t used = tail - m_header->head.load(std::memory_order_acquire);
+    if (used > m_capacity || size + LengthSize > m_capacity - used)
         return false;
     const auto length = std::uint32_t(size);
     char bytes[LengthSize];
     std::memcpy(bytes, &length, LengthSize);
     write(tail, bytes, LengthSize);
     write(tail + LengthSize, frame, length);
-    m_tail.store(tail + LengthSize + length, std::memory_order_seq_cst);
+    m_header->tail.store(tail + LengthSize + length, std::memory_order_seq_cst);
     return true;
 }
 
 void SharedRing::wake() noexcept
 {
-    if (m_sleeping.load(std::memory_order_seq_cst) != 0)
-        futexWake(&m_tail);
+    if (m_header->sleeping.load(std::memory_order_seq_cst) != 0)
+        futexWake(&m_header->tail);
 }
 
 std::size_t SharedRing::pop(char *frame, std::size_t capacity) noexcept
 {
-    const std::uint32_t head = m_head.load(std::memory_order_relaxed);
-    const std::uint32_t tail = m_tail.load(std::memory_order_acquire);
+    const std::uint32_t head = m_header->head.load(std::memory_order_relaxed);
+    const std::uint32_t tail = m_header->tail.load(std::memory_order_acquire);
     const std::uint32_t used = tail - head;
     if (used < LengthSize)
         return 0;
@@ -131,22 +151,58 @@ std::size_t SharedRing::pop(char *frame, std::size_t capacity) noexcept
     std::uint32_t length = 0;
     read(head, bytes, LengthSize);
     std::memcpy(&length, bytes, LengthSize);
-    if (used > Capacity || length > used - LengthSize || length > capacity || length == 0) {
-        m_head.store(tail, std::memory_order_release);  // nonsense: begin anew behind it
+    if (used > m_capacity || length > used - LengthSize || length > capacity || length == 0) {
+        m_header->head.store(tail, std::memory_order_release);  // nonsense: begin anew behind it
         return 0;
     }
     read(head + LengthSize, frame, length);
-    m_head.store(head + LengthSize + length, std::memory_order_release);
+    m_header->head.store(head + LengthSize + length, std::memory_order_release);
     return length;
 }
 
 void SharedRing::wait() noexcept
 {
-    m_sleeping.store(1, std::memory_order_seq_cst);
-    const std::uint32_t tail = m_tail.load(std::memory_order_seq_cst);
-    if (tail == m_head.load(std::memory_order_relaxed))
-        futexWait(&m_tail, tail, nullptr);
-    m_sleeping.store(0, std::memory_order_relaxed);
+    m_header->sleeping.store(1, std::memory_order_seq_cst);
+    const std::uint32_t tail = m_header->tail.load(std::memory_order_seq_cst);
+    if (tail == m_header->head.load(std::memory_order_relaxed))
+        futexWait(&m_header->tail, tail, nullptr);
+    m_header->sleeping.store(0, std::memory_order_relaxed);
+}
+
+// ---- channel ----
+
+std::size_t SharedChannel::sizeFor(const CycleVolume &volume)
+{
+    return 2 * SharedRing::HeaderSize + SharedRing::capacityFor(volume.inputs)
+        + SharedRing::capacityFor(volume.outputs);
+}
+
+bool SharedChannel::create(const CycleVolume &volume, QString *error)
+{
+    if (SharedRing::capacityFor(volume.inputs) == 0 || SharedRing::capacityFor(volume.outputs) == 0) {
+        *error = QStringLiteral("the values of a cycle are too many for shared memory; use tcp");
+        return false;
+    }
+    const bool isThere = m_memory.create(sizeFor(volume), error);
+    divide(volume);
+    return isThere;
+}
+
+bool SharedChannel::adopt(Descriptor descriptor, const CycleVolume &volume, QString *error)
+{
+    const bool isThere = m_memory.adopt(std::move(descriptor), QStringLiteral("channel"), sizeFor(volume), error);
+    divide(volume);
+    return isThere;
+}
+
+void SharedChannel::divide(const CycleVolume &volume)
+{
+    auto *memory = static_cast<char *>(m_memory.data());
+    if (!memory)
+        return;
+    const std::uint32_t capacity = SharedRing::capacityFor(volume.inputs);
+    inputs = SharedRing(memory, capacity);
+    outputs = SharedRing(memory + SharedRing::HeaderSize + capacity, SharedRing::capacityFor(volume.outputs));
 }
 
 // ---- doorbell ----

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "Descriptor.h"
+#include "FrameVolume.h"
+
 #include <QtCore/QString>
 
 #include <atomic>
 #include <cstdint>
 #include <memory>
-#include <sys/types.h>
 
 namespace qplc {
 
@@ -22,28 +24,34 @@ public:
 
     /// New memory of \a size bytes, all 0. \return false, with the reason in \a error
     bool create(std::size_t size, QString *error);
-    /// The memory that another process has made and calls \a path: only if it is sealed and belongs
-    /// to \a owner, see PeerFile.
+    /// Memory that another process has created and passed as \a descriptor: only if it has this
+    /// size, and is sealed so that it keeps it.
     /// \param what  name of the memory in the reason \return false, with the reason in \a error
-    bool open(const QString &path, const QString &what, std::size_t size, uid_t owner, QString *error);
-    /// What other processes of the same user find this memory under, while it exists here:
-    /// "/proc/4711/fd/9".
-    QString path() const;
+    bool adopt(Descriptor descriptor, const QString &what, std::size_t size, QString *error);
+    /// To be passed to other processes.
+    int descriptor() const { return m_descriptor.number(); }
     void *data() const { return m_data; }
 
 private:
     bool map(QString *error);
-    int m_descriptor = -1;
+    Descriptor m_descriptor;
     std::size_t m_size = 0;
     void *m_data = nullptr;
 };
 
-/// A queue of frames from one process to one other. Trusts no number that the other process has
-/// written: at worst frames are lost.
+/// A queue of frames from one process to one other, in memory that both share. Trusts no number
+/// that the other process has written: at worst frames are lost.
 class SharedRing
 {
 public:
-    static constexpr std::uint32_t Capacity = 64 * 1024;  // [byte]
+    static constexpr std::uint32_t SmallestCapacity = 64 * 1024;  // [byte]
+    static constexpr std::size_t HeaderSize = 128;
+    /// [byte] for the frames of two cycles: a power of two. 0: they are too many
+    static std::uint32_t capacityFor(const FrameVolume &volume);
+
+    SharedRing() = default;
+    /// \param memory  HeaderSize + \a capacity bytes, aligned to 64, 0 at first
+    SharedRing(void *memory, std::uint32_t capacity);
 
     /// \return false when there is no room. Producer only.
     bool push(const char *frame, std::size_t size) noexcept;
@@ -56,20 +64,38 @@ public:
     void wait() noexcept;
 
 private:
+    struct Header
+    {
+        alignas(64) std::atomic<std::uint32_t> head;  // consumer: bytes taken, modulo 2^32
+        std::atomic<std::uint32_t> sleeping;
+        alignas(64) std::atomic<std::uint32_t> tail;  // producer: bytes given, modulo 2^32
+    };
     void write(std::uint32_t place, const char *bytes, std::uint32_t size) noexcept;
     void read(std::uint32_t place, char *bytes, std::uint32_t size) const noexcept;
 
-    alignas(64) std::atomic<std::uint32_t> m_head{0};  // consumer: bytes taken, modulo 2^32
-    std::atomic<std::uint32_t> m_sleeping{0};
-    alignas(64) std::atomic<std::uint32_t> m_tail{0};  // producer: bytes given, modulo 2^32
-    alignas(64) char m_bytes[Capacity];
+    Header *m_header = nullptr;
+    char *m_bytes = nullptr;
+    std::uint32_t m_capacity = 0;
 };
 
-/// Both directions between a master and one node.
-struct SharedChannel
+/// Both directions between a master and one node, with room for what travels in a cycle.
+class SharedChannel
 {
+public:
+    /// \return false, with the reason in \a error
+    bool create(const CycleVolume &volume, QString *error);
+    /// As SharedMemory::adopt().
+    bool adopt(Descriptor descriptor, const CycleVolume &volume, QString *error);
+    int descriptor() const { return m_memory.descriptor(); }
+    static std::size_t sizeFor(const CycleVolume &volume);
+
     SharedRing inputs;   // master -> node
     SharedRing outputs;  // node -> master
+
+private:
+    void divide(const CycleVolume &volume);
+
+    SharedMemory m_memory;
 };
 
 /// How nodes wake their master: it says how many answers it waits for, and only the last of them
@@ -101,7 +127,7 @@ private:
 };
 
 // What docs/protocol.md says of the memory.
-static_assert(sizeof(SharedRing) == 65664 && sizeof(SharedChannel) == 2 * 65664 && sizeof(Doorbell) == 64);
+static_assert(sizeof(Doorbell) == 64);
 static_assert(std::atomic<std::uint32_t>::is_always_lock_free, "processes share these");
 
 }  // namespace qplc

@@ -3,6 +3,7 @@
 
 #include "CyclicLink.h"
 #include "FrameCutter.h"
+#include "FrameVolume.h"
 #include "HubTransport.h"
 
 #include <QtCore/QJsonObject>
@@ -22,6 +23,7 @@ struct MasterPlace
     QHostAddress address;
     QHostAddress group;  // for frames to many nodes; null: none
     bool isSecured = false;
+    quint64 session = 0;  // of this run of the master
 };
 
 /// A node that registers, as its master sees it.
@@ -33,14 +35,16 @@ struct Newcomer
     bool isOrdered = false;  // has same-cycle inputs or two phases
     int every = 1;           // [cycles] for each frame
     QJsonObject request;     // its Register, with the fields of the transport
+    CycleVolume volume;      // known when makePeer() is called
 };
 
-/// The two ends of the control connection of a node that registers.
+/// The control connection of a node that registers, as the node sees it.
 struct ControlEnds
 {
     SocketAddress node;
     SocketAddress master;
-    QString masterText;  // "local://50000"
+    quint64 session = 0;  // that the master says in its Hello
+    CycleVolume volume;   // of the node
 };
 
 /// Why there can be no cyclic channel.

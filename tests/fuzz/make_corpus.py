@@ -161,6 +161,38 @@ def sessions():
     }
 
 
+# ---- local links: what a master passes, then what both ends do ------------------------------------------------------------
+
+def passed(kinds=(0, 1, 2), change=0, length=8, frames=(0, 0)):
+    return bytes((*frames, change, length, len(kinds), *kinds))
+
+
+def local_links():
+    poke = lambda offset, value: struct.pack("<BII", 0, offset, value)
+    node_takes, master_takes = b"\x01", b"\x02"
+    answer = lambda data: struct.pack("<BH", 3, len(data)) + data
+    ask = lambda data: struct.pack("<BH", 4, len(data)) + data
+    return {
+        "frames both ways": passed() + ask(b"question") + node_takes + answer(b"answer") + master_takes,
+        "large rings": passed(frames=(63, 40)) + (ask(bytes(1472)) + node_takes) * 2 + answer(bytes(1472)) + master_takes,
+        "nothing": passed(kinds=()),
+        "too few": passed(kinds=(0, 1)),
+        "too many": passed(kinds=(0, 1, 2, 3, 4, 5, 0)),
+        "another order": passed(kinds=(1, 0, 2)),
+        "memory without seals": passed(kinds=(4, 1, 2)),
+        "pipe to read": passed(kinds=(0, 1, 3)),
+        "another key": passed(change=1),
+        "short": passed(length=7),
+        "long": passed(length=9),
+        "empty": passed(length=0),
+        "tail far away": passed() + poke(64, 0xffffffff) + node_takes + ask(b"next") + node_takes,
+        "head far away": passed() + poke(0, 0x80000000) + ask(b"question") + node_takes + ask(b"next"),
+        "long block": passed() + ask(b"question") + poke(128, 0xffffffff) + node_takes + ask(b"next") + node_takes,
+        "block beyond the end": passed() + poke(64, 65540) + poke(0, 65530) + node_takes,
+        "head of the outputs": passed() + poke(65664, 7) + answer(b"answer") + master_takes,
+    }
+
+
 # ---- sentences of NMEA 0183: what comes from a serial line ------------------------------------------------------------
 
 def sentence(body):
@@ -246,7 +278,7 @@ def main():
         sys.exit(__doc__)
     wanted = {HERE / name: data for name, data in dictionaries().items()}
     for folder, files in (("signal_table", signal_tables()), ("control_frames", control_frames()), ("cyclic_frames", cyclic_frames()),
-                          ("session", sessions()), ("dbc_file", dbc_files()), ("nmea", nmea())):
+                          ("session", sessions()), ("local_link", local_links()), ("dbc_file", dbc_files()), ("nmea", nmea())):
         for name, data in files.items():
             path = HERE / "corpus" / folder / file_name(name)
             assert path not in wanted, f"two inputs are called {path}"

@@ -198,7 +198,7 @@ private:
     void attachPeer(const QPlcMessage &message)
     {
         const auto *kind = qplc::TransportRegistry::instance().named(datagrams());
-        const qplc::Newcomer node{{}, QHostAddress(QHostAddress::LocalHost), false, false, 1, message.fields()};
+        const qplc::Newcomer node{{}, QHostAddress(QHostAddress::LocalHost), false, false, 1, message.fields(), {}};
         if (m_peer)
             m_hub.detach(m_peer.get());
         m_peer = kind->makePeer(m_hub, node, nullptr, nullptr);

@@ -267,7 +267,7 @@ private:
     }
     void beginLink()
     {
-        const qplc::ControlEnds ends{{}, {QHostAddress(QHostAddress::LocalHost), m_port}, {}};
+        const qplc::ControlEnds ends{{}, {QHostAddress(QHostAddress::LocalHost), m_port}, session, {}};
         QString error;
         if (!qplc::TransportRegistry::instance().named(datagrams())->beginLink(ends, &m_linkFields, &m_link, &error))
             qFatal("%s", qPrintable(error));

@@ -15,6 +15,8 @@ private Q_SLOTS:
     void textsAndArraysTravelUnchanged();
     void payloadsAroundTheFrameLimitTravelUnchanged_data();
     void payloadsAroundTheFrameLimitTravelUnchanged();
+    void payloadsOfManyFramesTravelThroughSharedMemory_data();
+    void payloadsOfManyFramesTravelThroughSharedMemory();
 };
 
 namespace {
@@ -231,6 +233,71 @@ void tst_LargeFrames::payloadsAroundTheFrameLimitTravelUnchanged()
                      master.signalValue(QString("in%1").arg(i)).toBytes());
         QPlcSignalIndexTable::setCurrent({});
     }
+}
+
+void tst_LargeFrames::payloadsOfManyFramesTravelThroughSharedMemory_data()
+{
+    QTest::addColumn<int>("bytes");
+    QTest::newRow("45 kB") << 45'000;
+    QTest::newRow("64 kB") << 64'000;
+    QTest::newRow("all that the messages of an initialization hold") << 786'240;
+}
+
+void tst_LargeFrames::payloadsOfManyFramesTravelThroughSharedMemory()
+{
+    QFETCH(int, bytes);
+    const int count = (bytes + 1439) / 1440;
+    QByteArray ini;
+    for (const char *direction : {"in", "out"}) {
+        for (int i = 0; i < count; ++i)
+            ini += "[" + QByteArray(direction) + QByteArray::number(i) + "]\ntype = Int8["
+                + QByteArray::number(qMin(1440, bytes - 1440 * i)) + "]\n";
+    }
+    class Through : public QPlcCompactSlaveNode
+    {
+    public:
+        explicit Through(int count)
+            : QPlcCompactSlaveNode("Through")
+        {
+            for (int i = 0; i < count; ++i) {
+                const QByteArray number = QByteArray::number(i);
+                m_in.push_back(std::make_unique<QPlcCompactSignal>(("in" + number).constData(), QPlcPort::Input, this));
+                m_out.push_back(
+                    std::make_unique<QPlcCompactSignal>(("out" + number).constData(), QPlcPort::Output, this));
+            }
+        }
+        void step(const QPlcCycle &) override
+        {
+            for (std::size_t i = 0; i < m_in.size(); ++i)
+                *m_out[i] = m_in[i]->value();
+        }
+
+    private:
+        std::vector<std::unique_ptr<QPlcCompactSignal>> m_in;
+        std::vector<std::unique_ptr<QPlcCompactSignal>> m_out;
+    };
+    const QPlcSignalTable table = QPlcSignalTable::fromIni(ini);
+    TestMaster master(QPlcClock::lockstep(), table);
+    master.setCycleLimit(20);
+    QVERIFY(master.listen());
+    QPlcSignalIndexTable::setCurrent(table);
+    Through node(count);
+    QVERIFY2(
+        node.connectToMasterAndWaitForConnected(QPlcUnderlyingProtocol::local(QString::number(master.serverPort()))),
+        qPrintable(node.errorString()));
+    for (int i = 0; i < count; ++i) {
+        QByteArray value(qMin(1440, bytes - 1440 * i), char(i));
+        value[0] = char(i / 256 + 1);
+        QVERIFY(master.setSignalValue(QString("in%1").arg(i),
+                                      QPlcValue::fromBytes(table.at(QPlcSignalIndex(i)).type, value)));
+    }
+    QVERIFY2(master.startRealTime(), qPrintable(master.errorString()));
+    QVERIFY(
+        waitUntil([&] { return master.statistics().cycles == 20 && master.state() == QPlcMasterNode::Off; }, 60'000));
+    node.disconnectFromMaster();
+    for (int i = 0; i < count; ++i)
+        QCOMPARE(master.signalValue(QString("out%1").arg(i)).toBytes(),
+                 master.signalValue(QString("in%1").arg(i)).toBytes());
 }
 
 QTEST_GUILESS_MAIN(tst_LargeFrames)

@@ -3,7 +3,7 @@
 // on its standard output, a line each.
 //
 //   safe_plant master PORT NODES      starts as soon as NODES nodes are there (0: never)
-//   safe_plant node NAME PORT WATCHDOG_MS critical|plain|stops
+//   safe_plant node NAME PORT WATCHDOG_MS critical|plain|stops [TRANSPORT]
 //
 // A node that 'stops' sends itself SIGSTOP in its 20th step.
 #include <QtPlcCore>
@@ -105,8 +105,12 @@ int runNode(QPlcCoreApplication &application, const QStringList &arguments)
     node.activateWatchdog(std::chrono::milliseconds(arguments.at(3).toInt()));
     node.setCritical(arguments.at(4) == QLatin1String("critical"));
     QObject::connect(&node, &QPlcSlaveNode::connectedToMaster, [] { tell(QStringLiteral("registered")); });
+    QObject::connect(&node, &QPlcSlaveNode::errorOccurred,
+                     [&node] { tell(QStringLiteral("error %1").arg(node.errorString())); });
     application.quitOnSignals();
-    node.connectToMaster(QPlcUnderlyingProtocol::udp(QHostAddress::LocalHost, quint16(arguments.at(2).toInt())));
+    const QString transport = arguments.value(5, QStringLiteral("udp"));
+    node.connectToMaster(
+        QPlcUnderlyingProtocol::fromString(QStringLiteral("%1://127.0.0.1:%2").arg(transport, arguments.at(2))));
     return QPlcCoreApplication::exec();
 }
 
@@ -119,7 +123,7 @@ int main(int argc, char **argv)
     const QStringList arguments = QCoreApplication::arguments().mid(1);
     if (arguments.size() == 3 && arguments.at(0) == QLatin1String("master"))
         return runMaster(application, arguments.at(1).toInt(), arguments.at(2).toInt());
-    if (arguments.size() == 5 && arguments.at(0) == QLatin1String("node"))
+    if (arguments.size() >= 5 && arguments.at(0) == QLatin1String("node"))
         return runNode(application, arguments);
     return QPlcCoreApplication::UsageError;
 }

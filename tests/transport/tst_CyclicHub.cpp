@@ -167,10 +167,10 @@ void tst_CyclicHub::floodOfALocalNodeDoesNotDelayOthers()
     std::array<std::unique_ptr<HubPeer>, 2> peers;
     std::array<SharedChannel *, 2> channels{};
     for (std::size_t i = 0; i < 2; ++i) {
-        auto memory = std::make_unique<qplc::SharedMemory>();
-        QVERIFY(memory->create(sizeof(SharedChannel), &error));
-        channels[i] = static_cast<SharedChannel *>(memory->data());
-        peers[i] = LocalTransport::peer(std::move(memory));
+        auto channel = std::make_unique<SharedChannel>();
+        QVERIFY(channel->create({}, &error));
+        channels[i] = channel.get();
+        peers[i] = LocalTransport::peer(std::move(channel));
         hub.attach(peers[i].get());
     }
     for (int i = 0; i < 1000; ++i)

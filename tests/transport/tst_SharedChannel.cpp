@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TransportFixtures.h"
+#include "realtime/Host.h"
 #include "realtime/InterruptibleWaits.h"
 #include "transport/LocalLink.h"
 #include "transport/LocalName.h"
@@ -16,6 +17,7 @@
 
 using qplc::CyclicHub;
 using qplc::CyclicLink;
+using qplc::Descriptor;
 using qplc::Doorbell;
 using qplc::HubFrame;
 using qplc::HubPeer;
@@ -36,8 +38,13 @@ class tst_SharedChannel : public QObject
 private Q_SLOTS:
     void initTestCase();
     void memoryIsSharedByAllUsers();
-    void memoryOfAnotherSizeOrPlaceIsRefused();
+    void memoryOfAnotherSizeIsRefused();
     void memoryCannotBeMadeSmaller();
+    void ringHasRoomForTwoCycles_data();
+    void ringHasRoomForTwoCycles();
+    void twoCyclesOfTheLargestFramesPass_data();
+    void twoCyclesOfTheLargestFramesPass();
+    void tooManyValuesAreRefused();
     void framesComeInOrderAroundTheEnd();
     void aFullRingRefuses();
     void aFrameWithoutBytesIsSkipped();
@@ -58,18 +65,21 @@ namespace {
 /// A hub with local nodes at their links.
 struct LocalPlant
 {
-    explicit LocalPlant(int count)
+    explicit LocalPlant(int count, const qplc::CycleVolume &volume = {})
     {
         QString error;
-        ok = hub.open(qplc::SocketAddress(QHostAddress(QHostAddress::LocalHost), 0), &error);
+        const quint64 session = qplc::Host::machine().random();
+        ok = hub.open(qplc::SocketAddress(QHostAddress(QHostAddress::LocalHost), 0), &error)
+            && hub.find<LocalTransport>()->listen(session, &error);
         for (int i = 0; i < count; ++i) {
-            auto memory = std::make_unique<SharedMemory>();
-            ok = ok && memory->create(sizeof(SharedChannel), &error);
-            const LocalTransport::Paths paths = hub.find<LocalTransport>()->paths();
-            links.push_back(LocalLink::open({memory->path(), paths.doorbell, paths.pipe}, ::geteuid(), &error));
-            ok = ok && links.back();
-            peers.push_back(LocalTransport::peer(std::move(memory)));
+            std::unique_ptr<LocalLink> link = LocalLink::begin(session, &error);
+            ok = ok && link;
+            peers.push_back(ok ? hub.find<LocalTransport>()->link(link->key(), volume, &error) : nullptr);
+            ok = ok && peers.back() && link->finish(volume, &error);
+            if (!ok)
+                qFatal("%s", qPrintable(error));
             hub.attach(peers.back().get());
+            links.push_back(std::move(link));
         }
     }
     void ask(const QByteArray &request)
@@ -99,6 +109,13 @@ struct LocalPlant
     bool ok = false;
 };
 
+/// A ring in memory of its own.
+struct LonelyRing : SharedRing
+{
+    LonelyRing() { static_cast<SharedRing &>(*this) = SharedRing(memory.data(), SmallestCapacity); }
+    alignas(64) std::array<char, HeaderSize + SmallestCapacity> memory{};
+};
+
 QByteArray pop(SharedRing &ring)
 {
     char bytes[2048];
@@ -123,24 +140,24 @@ void tst_SharedChannel::memoryIsSharedByAllUsers()
 {
     QString error;
     SharedMemory made;
-    SharedMemory opened;
+    SharedMemory adopted;
     QVERIFY2(made.create(100, &error), qPrintable(error));
-    QVERIFY2(opened.open(made.path(), "memory", 100, ::geteuid(), &error), qPrintable(error));
+    QVERIFY2(adopted.adopt(Descriptor(::dup(made.descriptor())), "memory", 100, &error), qPrintable(error));
     std::memcpy(made.data(), "hello", 5);
-    QCOMPARE(QByteArray(static_cast<char *>(opened.data()), 6), QByteArray("hello\0", 6));
+    QCOMPARE(QByteArray(static_cast<char *>(adopted.data()), 6), QByteArray("hello\0", 6));
 }
 
-void tst_SharedChannel::memoryOfAnotherSizeOrPlaceIsRefused()
+void tst_SharedChannel::memoryOfAnotherSizeIsRefused()
 {
     QString error;
     SharedMemory made;
     QVERIFY(made.create(100, &error));
     SharedMemory tooLong;
-    QVERIFY(!tooLong.open(made.path(), "memory", 200, ::geteuid(), &error));
+    QVERIFY(!tooLong.adopt(Descriptor(::dup(made.descriptor())), "memory", 200, &error));
     QVERIFY2(error.contains("100 bytes instead of 200"), qPrintable(error));
-    SharedMemory nowhere;
-    QVERIFY(!nowhere.open(QStringLiteral("/proc/1/fd/987654"), "memory", 100, ::geteuid(), &error));
-    QVERIFY2(error.contains("use udp"), qPrintable(error));
+    SharedMemory closed;
+    QVERIFY(!closed.adopt(Descriptor(), "memory", 100, &error));
+    QVERIFY2(error.contains("not sealed memory"), qPrintable(error));
 }
 
 void tst_SharedChannel::memoryCannotBeMadeSmaller()
@@ -148,46 +165,101 @@ void tst_SharedChannel::memoryCannotBeMadeSmaller()
     QString error;
     SharedMemory made;
     QVERIFY(made.create(100, &error));
-    const int descriptor = ::open(made.path().toLocal8Bit().constData(), O_RDWR);
-    QVERIFY(descriptor >= 0);
-    QCOMPARE(::ftruncate(descriptor, 0), -1);  // else the other one would die by SIGBUS
-    ::close(descriptor);
+    QCOMPARE(::ftruncate(made.descriptor(), 0), -1);  // else the other one would die by SIGBUS
+}
+
+void tst_SharedChannel::ringHasRoomForTwoCycles_data()
+{
+    QTest::addColumn<quint64>("frames");
+    QTest::addColumn<quint64>("bytes");
+    QTest::addColumn<quint32>("capacity");
+    QTest::newRow("nothing") << quint64(1) << quint64(16) << quint32(65536);
+    QTest::newRow("just in the smallest") << quint64(22) << quint64(32768 - 22 * 4) << quint32(65536);
+    QTest::newRow("a byte more") << quint64(22) << quint64(32768 - 22 * 4 + 1) << quint32(131072);
+    QTest::newRow("64 kB") << quint64(46) << quint64(64'000 + 46 * 16) << quint32(131072);
+    QTest::newRow("30 MB") << quint64(20834) << quint64(30'333'344) << quint32(64 << 20);
+    QTest::newRow("most") << quint64(1) << quint64((1 << 29) - 4) << (quint32(1) << 30);
+    QTest::newRow("too many") << quint64(1) << quint64((1 << 29) - 3) << quint32(0);
+    QTest::newRow("far too many") << quint64(1) << quint64(1) * (quint64(1) << 40) << quint32(0);
+}
+
+void tst_SharedChannel::ringHasRoomForTwoCycles()
+{
+    QFETCH(quint64, frames);
+    QFETCH(quint64, bytes);
+    QFETCH(quint32, capacity);
+    QCOMPARE(SharedRing::capacityFor({frames, bytes}), capacity);
+}
+
+void tst_SharedChannel::twoCyclesOfTheLargestFramesPass_data()
+{
+    QTest::addColumn<int>("frames");
+    for (const int frames : {1, 30, 31, 46, 1000, 23000})
+        QTest::addRow("%d frames", frames) << frames;
+}
+
+void tst_SharedChannel::twoCyclesOfTheLargestFramesPass()
+{
+    QFETCH(int, frames);
+    const std::size_t count = std::size_t(frames);
+    const QByteArray frame(1472, 'f');
+    LocalPlant plant(1, {{count, count * 1472}, {count, count * 1472}});
+    for (int i = 0; i < 2 * frames; ++i)
+        QVERIFY(plant.hub.send(plant.peers[0].get(), frame.constData(), 1472));
+    plant.hub.flush();
+    for (int i = 0; i < 2 * frames; ++i)
+        QCOMPARE(receive(*plant.links[0]), frame);
+    for (int i = 0; i < 2 * frames; ++i)
+        QVERIFY(plant.links[0]->send(frame.constData(), 1472));
+    plant.links[0]->flush();
+    int answers = 0;
+    for (QVector<QByteArray> taken; !(taken = plant.take(0)).isEmpty();)
+        answers += taken.size();
+    QCOMPARE(answers, 2 * frames);
+}
+
+void tst_SharedChannel::tooManyValuesAreRefused()
+{
+    SharedChannel channel;
+    QString error;
+    QVERIFY(!channel.create({{1, 10}, {1, std::size_t(1) << 32}}, &error));
+    QVERIFY2(error.contains("use tcp"), qPrintable(error));
 }
 
 void tst_SharedChannel::framesComeInOrderAroundTheEnd()
 {
-    const auto ring = std::make_unique<SharedRing>();
-    QCOMPARE(pop(*ring), QByteArray());
+    LonelyRing ring;
+    QCOMPARE(pop(ring), QByteArray());
     for (int i = 0; i < 1000; ++i) {  // 1.5 MB through 64 KiB
         const QByteArray one(1 + (i * 37) % 1472, char('a' + i % 26));
         const QByteArray two = QByteArray::number(i);
-        QVERIFY(ring->push(one.constData(), std::size_t(one.size())));
-        QVERIFY(ring->push(two.constData(), std::size_t(two.size())));
-        QCOMPARE(pop(*ring), one);
-        QCOMPARE(pop(*ring), two);
+        QVERIFY(ring.push(one.constData(), std::size_t(one.size())));
+        QVERIFY(ring.push(two.constData(), std::size_t(two.size())));
+        QCOMPARE(pop(ring), one);
+        QCOMPARE(pop(ring), two);
     }
 }
 
 void tst_SharedChannel::aFullRingRefuses()
 {
-    const auto ring = std::make_unique<SharedRing>();
+    LonelyRing ring;
     const QByteArray frame(1020, 'x');  // 1024 with its length
     int accepted = 0;
-    while (ring->push(frame.constData(), std::size_t(frame.size())))
+    while (ring.push(frame.constData(), std::size_t(frame.size())))
         ++accepted;
     QCOMPARE(accepted, 64);
-    QCOMPARE(pop(*ring), frame);
-    QVERIFY(ring->push(frame.constData(), std::size_t(frame.size())));
-    QVERIFY(!ring->push("x", 1));
+    QCOMPARE(pop(ring), frame);
+    QVERIFY(ring.push(frame.constData(), std::size_t(frame.size())));
+    QVERIFY(!ring.push("x", 1));
 }
 
 void tst_SharedChannel::aFrameWithoutBytesIsSkipped()
 {
-    const auto ring = std::make_unique<SharedRing>();
-    QVERIFY(ring->push("", 0));
-    QCOMPARE(pop(*ring), QByteArray());
-    QVERIFY(ring->push("good", 4));
-    QCOMPARE(pop(*ring), QByteArray("good"));
+    LonelyRing ring;
+    QVERIFY(ring.push("", 0));
+    QCOMPARE(pop(ring), QByteArray());
+    QVERIFY(ring.push("good", 4));
+    QCOMPARE(pop(ring), QByteArray("good"));
 }
 
 void tst_SharedChannel::invalidRingContentIsSkipped_data()
@@ -203,25 +275,24 @@ void tst_SharedChannel::invalidRingContentIsSkipped_data()
 void tst_SharedChannel::invalidRingContentIsSkipped()
 {
     QFETCH(quint32, length);
-    const auto ring = std::make_unique<SharedRing>();
-    QVERIFY(ring->push("four", 4));
-    char *bytes = reinterpret_cast<char *>(ring.get());
-    std::memcpy(bytes + 128, &length, sizeof length);  // where the bytes of the ring begin
-    QCOMPARE(pop(*ring), QByteArray());
-    QVERIFY(ring->push("good", 4));
-    QCOMPARE(pop(*ring), QByteArray("good"));
+    LonelyRing ring;
+    QVERIFY(ring.push("four", 4));
+    std::memcpy(ring.memory.data() + 128, &length, sizeof length);  // where the bytes of the ring begin
+    QCOMPARE(pop(ring), QByteArray());
+    QVERIFY(ring.push("good", 4));
+    QCOMPARE(pop(ring), QByteArray("good"));
 }
 
 void tst_SharedChannel::millionFramesPassUnchangedBetweenTwoThreads()
 {
     constexpr std::uint32_t count = 1'000'000;
-    const auto ring = std::make_unique<SharedRing>();
+    LonelyRing ring;
     std::thread producer([&] {
         for (std::uint32_t i = 1; i <= count;) {
             char frame[64] = {};
             std::memcpy(frame, &i, sizeof i);
-            if (ring->push(frame, 4 + i % 60)) {
-                ring->wake();
+            if (ring.push(frame, 4 + i % 60)) {
+                ring.wake();
                 ++i;
             } else {
                 std::this_thread::yield();
@@ -231,9 +302,9 @@ void tst_SharedChannel::millionFramesPassUnchangedBetweenTwoThreads()
     bool good = true;
     for (std::uint32_t i = 1; i <= count;) {
         char frame[64] = {};
-        const std::size_t size = ring->pop(frame, sizeof frame);
+        const std::size_t size = ring.pop(frame, sizeof frame);
         if (size == 0) {
-            ring->wait();
+            ring.wait();
             continue;
         }
         std::uint32_t number = 0;

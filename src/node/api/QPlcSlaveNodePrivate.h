@@ -107,6 +107,7 @@ private:
     bool chooseTable(QPlcSignalTable *table);
     void registerAtMaster();
     void proceedAfterRegistered(const qplc::messages::Registered &registered);
+    bool hasSealedFrames() const;
     qplc::ControlEnds controlEnds() const;
     bool beginLink(qplc::messages::Register *request);
     bool finishLink(const qplc::messages::Registered &registered);

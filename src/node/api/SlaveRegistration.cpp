@@ -95,11 +95,19 @@ void QPlcSlaveNodePrivate::proceedAfterHello()
     registerAtMaster();
 }
 
+bool QPlcSlaveNodePrivate::hasSealedFrames() const
+{
+    return control.connection()->isSecured() && m_transport->isSealed();
+}
+
 qplc::ControlEnds QPlcSlaveNodePrivate::controlEnds() const
 {
     const QPlcAbstractSocket &ends = *control.connection();
     return {qplc::SocketAddress(ends.localAddress(), ends.localPort()),
-            qplc::SocketAddress(ends.peerAddress(), ends.peerPort()), master.toString()};
+            qplc::SocketAddress(ends.peerAddress(), ends.peerPort()),
+            control.master().session,
+            {qplc::frameVolume(runtime.inputLayout(), hasSealedFrames()),
+             qplc::frameVolume(runtime.outputLayout(), hasSealedFrames())}};
 }
 
 bool QPlcSlaveNodePrivate::beginLink(messages::Register *request)
@@ -130,7 +138,7 @@ void QPlcSlaveNodePrivate::proceedAfterRegistered(const messages::Registered &re
         return;
     }
     std::optional<qplc::SealKeys> keys;
-    if (control.connection()->isSecured() && m_transport->isSealed()) {
+    if (hasSealedFrames()) {
         keys = registered.seal ? qplc::sealKeys(*registered.seal) : std::nullopt;
         if (!keys) {
             giveUp(QPlcSlaveNode::ProtocolError,

@@ -12,6 +12,12 @@ std::size_t sizeOfOutputFrame(const void *decoder, const char *header)
 
 }  // namespace
 
+FrameVolume frameVolume(const PayloadLayout &layout, bool isSealed)
+{
+    const std::size_t frames = layout.partBorders(maximumPayload(isSealed)).size() - 1;
+    return {frames, layout.size() + frames * (isSealed ? SealedOverhead : CyclicOverhead)};
+}
+
 void NodeSlot::prepare(const ProcessImage &image, quint64 session, const SealKeys *keys)
 {
     inputRuns = image.gatherRuns(inputLayout);

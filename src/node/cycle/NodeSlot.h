@@ -19,6 +19,9 @@
 
 namespace qplc {
 
+/// What a payload of \a layout is in a cycle, in frames that are sealed or not.
+FrameVolume frameVolume(const PayloadLayout &layout, bool isSealed);
+
 /// One registered node as the cycle of the master sees it: how its frames are cut from the process
 /// image and pasted back.
 ///

@@ -26,12 +26,26 @@ QString nameOf(const QString &given)
     return printable(given.left(NodeDeclaration::LongestName));
 }
 
+bool hasSealedFrames(const MasterConnection &connection)
+{
+    return connection.isSecured() && connection.transport->isSealed();
+}
+
 /// For one registration.
 std::optional<SealKeys> newSealKeys(const MasterConnection &connection)
 {
-    if (!connection.isSecured() || !connection.transport->isSealed())
+    if (!hasSealedFrames(connection))
         return std::nullopt;
     return SealKeys::random();
+}
+
+/// Not before the slot is there.
+CycleVolume volumeOf(const MasterConnection &connection)
+{
+    if (!connection.slot)
+        return {};
+    return {frameVolume(connection.slot->inputLayout, hasSealedFrames(connection)),
+            frameVolume(connection.slot->outputLayout, hasSealedFrames(connection))};
 }
 
 /// Extensions that are in use: those that the other side names in its Hello, and that are known
@@ -160,7 +174,8 @@ Newcomer MasterServer::newcomer(const MasterConnection &connection, const NodeDe
                                 const messages::Register &registration) const
 {
     return {declaration.name,        connection.socket->peerAddress(), connection.isSecured(),
-            declaration.isOrdered(), declaration.interval.cycles(),    registration.transport};
+            declaration.isOrdered(), declaration.interval.cycles(),    registration.transport,
+            volumeOf(connection)};
 }
 
 /// Why there can be no cyclic channel as the node wants it; no error: there can.

@@ -103,7 +103,7 @@ bool MasterServer::listen(const QHostAddress &address, quint16 port, const QStri
         if (!openPorts(address, port))
             continue;
         if ((name.isEmpty() || m_name.hold(name, this->port(), &m_errorString))
-            && openTransports({address, group, m_isSecured}))
+            && openTransports({address, group, m_isSecured, m_session}))
             return true;
         close();
         return false;
