@@ -12,6 +12,10 @@ QT_BEGIN_NAMESPACE
 class QTcpSocket;
 QT_END_NAMESPACE
 
+namespace qplc {
+class PacedReading;
+}
+
 /// A control connection: it sends and receives QPlcMessages over TCP, or over TLS if QPlcSecurity
 /// asks for it. QPlcMasterSocket is the end of a node or tool, QPlcSlaveSocket that of a master.
 ///
@@ -119,7 +123,10 @@ protected:
     void setError(Error error, const QString &text);
 
 private:
+    friend class qplc::PacedReading;
     Q_DECL_HIDDEN void readMessages();
+    Q_DECL_HIDDEN bool readMessage();
+    Q_DECL_HIDDEN bool sendFrame(const QByteArray &frame, QPlcMessage::Kind kind);
     Q_DECL_HIDDEN void readError();
 
     struct Q_DECL_HIDDEN Private;

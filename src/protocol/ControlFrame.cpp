@@ -49,13 +49,18 @@ QString jsonErrorText(const QJsonParseError &error)
 QByteArray encodeControlFrame(const QPlcMessage &message)
 {
     const QByteArray json = QJsonDocument(message.fields()).toJson(QJsonDocument::Compact);
+    return nestingDepth(json) > MaximumControlDepth ? QByteArray() : encodeControlFrame(message.kind(), json);
+}
+
+QByteArray encodeControlFrame(QPlcMessage::Kind kind, const QByteArray &json)
+{
     const quint32 length = quint32(KindSize + json.size());
-    if (length > MaximumControlFrame || nestingDepth(json) > MaximumControlDepth)
+    if (length > MaximumControlFrame)
         return QByteArray();
 
     QByteArray frame(LengthSize, Qt::Uninitialized);
     storeLittle(length, frame.data());
-    frame.append(char(message.kind()));
+    frame.append(char(kind));
     frame.append(json);
     return frame;
 }
@@ -87,10 +92,40 @@ bool ControlFrameReader::next(QPlcMessage *message)
     const QByteArray frame = m_buffer.mid(m_begin, LengthSize + int(length));
     if (!parse(frame, message))
         return false;
+    m_wasTakenAhead = !m_ahead.empty() && m_ahead.front() == m_position;
+    if (m_wasTakenAhead)
+        m_ahead.pop_front();
     m_begin += frame.size();
     m_position += quint64(frame.size());
     m_lastFrame = frame;
     return true;
+}
+
+/// Whether the bytes of m_buffer from \a begin on hold a whole frame whose length is allowed.
+bool ControlFrameReader::isComplete(int begin, quint32 *length) const
+{
+    const int available = m_buffer.size() - begin;
+    if (available < LengthSize)
+        return false;
+    *length = loadLittle<quint32>(m_buffer.constData() + begin);
+    return *length >= quint32(KindSize) && *length <= m_limit && int(*length) <= available - LengthSize;
+}
+
+bool ControlFrameReader::takeAhead(bool (*isUrgent)(QPlcMessage::Kind), QPlcMessage *message)
+{
+    m_lookedAt = std::max(m_lookedAt, m_position);
+    quint32 length = 0;
+    for (int begin; m_error == NoError && isComplete(begin = m_begin + int(m_lookedAt - m_position), &length);) {
+        const quint64 position = m_lookedAt;
+        m_lookedAt += quint64(LengthSize) + length;
+        if (!isUrgent(QPlcMessage::Kind(quint8(m_buffer.at(begin + LengthSize)))))
+            continue;
+        if (!parse(m_buffer.mid(begin, LengthSize + int(length)), message))
+            return false;
+        m_ahead.push_back(position);
+        return true;
+    }
+    return false;
 }
 
 QByteArray ControlFrameReader::takeRest()

@@ -5,6 +5,8 @@
 
 #include <QtCore/QByteArray>
 
+#include <deque>
+
 namespace qplc {
 
 /// Largest control frame behind its length field [byte].
@@ -15,6 +17,9 @@ constexpr int MaximumControlDepth = 16;
 /// The bytes of \a message on the wire; empty when it is longer than MaximumControlFrame or nested
 /// deeper than MaximumControlDepth, which no receiver would take.
 QByteArray encodeControlFrame(const QPlcMessage &message);
+
+/// The bytes of a message whose fields are \a json already; empty when they are too long.
+QByteArray encodeControlFrame(QPlcMessage::Kind kind, const QByteArray &json);
 
 /// Cuts a byte stream into control messages. Nothing is allocated for a frame before its length has
 /// been checked.
@@ -35,10 +40,19 @@ public:
     /// Frames behind those that were taken already may have so many bytes behind their length
     /// field; MaximumControlFrame unless set.
     void setLimit(quint32 bytes) { m_limit = bytes; }
-    /// Takes bytes of the stream. To be followed by next() until it has no more messages.
+    /// Takes bytes of the stream.
     void append(const QByteArray &bytes);
     /// Takes the next complete message. \return false when there is none (yet), or error() is set
     bool next(QPlcMessage *message);
+    /// Takes the next complete message of a kind that \a isUrgent, before those in front of it.
+    /// next() gives it once more when it comes to its place: wasTakenAhead() is true then.
+    bool takeAhead(bool (*isUrgent)(QPlcMessage::Kind), QPlcMessage *message);
+    /// Whether next() has returned a message that takeAhead() has returned before.
+    bool wasTakenAhead() const { return m_wasTakenAhead; }
+    /// Whether a message behind the one of next() was taken ahead.
+    bool isOvertaken() const { return !m_ahead.empty(); }
+    /// Bytes that no message has used [byte].
+    int waiting() const { return m_buffer.size() - m_begin; }
     /// Exact bytes of the message that next() returned last, for the debug log.
     QByteArray lastFrame() const { return m_lastFrame; }
     /// Bytes of the stream that no message has used: what follows the control messages on a cyclic
@@ -50,6 +64,7 @@ public:
     QString errorString() const { return m_errorString; }
 
 private:
+    bool isComplete(int begin, quint32 *length) const;
     bool parse(const QByteArray &frame, QPlcMessage *message);
     QString place() const;
     bool setError(Error error, const QString &text);
@@ -58,7 +73,10 @@ private:
     QByteArray m_buffer;
     int m_begin = 0;  // [byte] of m_buffer: what is before it has been used
     QByteArray m_lastFrame;
-    quint64 m_position = 0;  // [byte] of the stream at m_begin
+    quint64 m_position = 0;       // [byte] of the stream at m_begin
+    quint64 m_lookedAt = 0;       // [byte] of the stream: takeAhead() knows what is before
+    std::deque<quint64> m_ahead;  // [byte] of the stream: where messages begin that were taken ahead
+    bool m_wasTakenAhead = false;
     Error m_error = NoError;
     QString m_errorString;
 };

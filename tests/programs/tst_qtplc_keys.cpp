@@ -1,8 +1,42 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "ProcessPlant.h"
+
+#include <QtPlcCore>
 
 #include <QtCore/QTemporaryDir>
 #include <QtTest/QtTest>
+
+namespace {
+
+/// A tool that asks for all signals, again and again, before it has an answer.
+class Flooder
+{
+public:
+    static constexpr int Questions = 1500;
+
+    Flooder(const QString &port, const QString &keysFile)
+    {
+        m_socket.setSecurity(QPlcSecurity::preSharedKeys(keysFile));
+        QObject::connect(&m_socket, &QPlcAbstractSocket::connected, &m_socket, [this] {
+            m_socket.sendMessage(
+                QPlcMessage(QPlcMessage::Hello, {{"protocol", 2}, {"name", "bert"}, {"role", "tool"}}));
+        });
+        QObject::connect(&m_socket, &QPlcAbstractSocket::messageReceived, &m_socket,
+                         [this](const QPlcMessage &message) {
+                             answers += message.kind() == QPlcMessage::Signals;
+                             for (int i = 0; message.kind() == QPlcMessage::Hello && i < Questions; ++i)
+                                 m_socket.sendMessage(QPlcMessage(QPlcMessage::GetSignals));
+                         });
+        m_socket.connectToMaster(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, quint16(port.toInt())));
+    }
+    int answers = 0;
+
+private:
+    QPlcMasterSocket m_socket;
+};
+
+}  // namespace
 
 /// Keys by the tool, and a plant of programs that is secured with them.
 class tst_qtplc_keys : public QObject
@@ -22,6 +56,7 @@ private Q_SLOTS:
     void keysFileReadableByOthersIsRefused();
     void programsRunWithKeys();
     void startsNeedArmingUnlessDisabled();
+    void stopDoesNotWaitForAFloodOfQuestions();
     void aSecuredFlightStartsWithItsNodes();
     void optionsThatDoNotFitAreRefused_data();
     void optionsThatDoNotFitAreRefused();
@@ -246,6 +281,39 @@ void tst_qtplc_keys::startsNeedArmingUnlessDisabled()
             {"--master=127.0.0.1:" + port, "--security=psk", "--keys=" + path("keys.ini"), "state", "--json"});
         QCOMPARE(jsonOf(state.output).object().value("armingRequired"), QJsonValue(isArming));
     }
+}
+
+void tst_qtplc_keys::stopDoesNotWaitForAFloodOfQuestions()
+{
+    QCOMPARE(keys({"new", "anna", "--role", "Operator", "--copy", path("anna")}).exitCode, 0);
+    QCOMPARE(keys({"new", "bert", "--role", "Observer", "--copy", path("bert")}).exitCode, 0);
+    Program master(programPath("awe_master"),
+                   {"--port=0", "--security=psk", "--no-arming", "--keys=" + path("keys.ini")});
+    QVERIFY(master.waitForOutput("\n"));
+    const QString port = master.output().section('\n', 0, 0).section(' ', 1);
+    const QStringList anna{"--master=127.0.0.1:" + port, "--security=psk", "--keys=" + path("anna")};
+    const auto run = [&](const char *command) {  // while the flood is read
+        Program program(programPath("qtplc"), anna + QStringList{QString::fromLatin1(command), "--json"});
+        (void)waitUntil([&] { return program.state() == QProcess::NotRunning; }, 60000);
+        return Outcome{program.waitForEnd(), program.output(), program.errors()};
+    };
+    QCOMPARE(run("start").exitCode, 0);
+    std::vector<std::unique_ptr<Flooder>> flood;
+    const auto answers = [&] {
+        int count = 0;
+        for (const auto &flooder : flood)
+            count += flooder->answers;
+        return count;
+    };
+    for (int i = 0; i < 4; ++i)
+        flood.push_back(std::make_unique<Flooder>(port, path("bert")));
+    QVERIFY(waitUntil([&] { return answers() > 0; }));
+    const Outcome stop = run("stop");
+    const int answered = answers();
+    QVERIFY2(stop.exitCode == 0, qPrintable(stop.errors));
+    QVERIFY2(answered < 4 * Flooder::Questions / 2, qPrintable(QString::number(answered)));
+    QCOMPARE(jsonOf(run("state").output).object().value("state").toString(), QString("Off"));
+    QVERIFY(answers() < 4 * Flooder::Questions);  // else the flood was too short to show anything
 }
 
 void tst_qtplc_keys::aSecuredFlightStartsWithItsNodes()

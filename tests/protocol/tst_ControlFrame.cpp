@@ -29,6 +29,8 @@ private Q_SLOTS:
     void readerAcceptsFramesUpToTheMaximumLength();
     void encoderRefusesMessagesThatNoReceiverAccepts();
     void readerReturnsTheRestOfTheStream();
+    void urgentMessageIsTakenBeforeTheOthers();
+    void lookingAheadEndsWhereTheStreamIsBroken();
     void manyMessagesInOnePieceAreFast();
     void doubledNamesAreFoundWhateverIsBetween();
     void flippedBitsNeverCrash();
@@ -256,6 +258,61 @@ void tst_ControlFrame::readerReturnsTheRestOfTheStream()
     QCOMPARE(message, attached);
     QCOMPARE(reader.takeRest(), cyclic);
     QVERIFY(reader.takeRest().isEmpty());
+}
+
+namespace {
+
+bool isStop(QPlcMessage::Kind kind)
+{
+    return kind == QPlcMessage::Stop;
+}
+
+}  // namespace
+
+void tst_ControlFrame::urgentMessageIsTakenBeforeTheOthers()
+{
+    const QPlcMessage question(QPlcMessage::GetState);
+    const QPlcMessage stop(QPlcMessage::Stop, {{QStringLiteral("how"), QStringLiteral("a button")}});
+    const QByteArray bytes = stream({question, question, stop, question, stop, question});
+    ControlFrameReader reader;
+    QPlcMessage message;
+    QVERIFY(!reader.takeAhead(&isStop, &message));
+    reader.append(bytes.left(bytes.size() / 2));
+    QVERIFY(reader.next(&message) && !reader.isOvertaken());
+    while (reader.takeAhead(&isStop, &message))
+        QCOMPARE(message, stop);
+    reader.append(bytes.mid(bytes.size() / 2));
+    while (reader.takeAhead(&isStop, &message))
+        QCOMPARE(message, stop);
+    QVERIFY(!reader.takeAhead(&isStop, &message));
+    QVector<bool> taken;
+    QVector<bool> overtaken;
+    while (reader.next(&message)) {
+        QCOMPARE(message.kind() == QPlcMessage::Stop, reader.wasTakenAhead());
+        taken << reader.wasTakenAhead();
+        overtaken << reader.isOvertaken();
+    }
+    QCOMPARE(taken, (QVector<bool>{false, true, false, true, false}));
+    QCOMPARE(overtaken, (QVector<bool>{true, true, true, false, false}));
+    QCOMPARE(reader.error(), ControlFrameReader::NoError);
+}
+
+void tst_ControlFrame::lookingAheadEndsWhereTheStreamIsBroken()
+{
+    const QByteArray stop = encodeControlFrame(QPlcMessage(QPlcMessage::Stop));
+    QPlcMessage message;
+    ControlFrameReader tooLong;
+    tooLong.append(QByteArray("\xff\xff\xff\xff", 4) + stop);
+    QVERIFY(!tooLong.takeAhead(&isStop, &message));
+    ControlFrameReader incomplete;
+    incomplete.append(stop.left(stop.size() - 1));
+    QVERIFY(!incomplete.takeAhead(&isStop, &message));
+    incomplete.append(stop.right(1));
+    QVERIFY(incomplete.takeAhead(&isStop, &message));
+    ControlFrameReader broken;
+    broken.append(rawFrame(QPlcMessage::Stop, "?") + stop);
+    QVERIFY(!broken.takeAhead(&isStop, &message));
+    QCOMPARE(broken.error(), ControlFrameReader::InvalidJson);
 }
 
 void tst_ControlFrame::manyMessagesInOnePieceAreFast()

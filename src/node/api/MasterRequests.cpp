@@ -73,13 +73,13 @@ public:
             d.askedStop = {m_connection->socket, who, how, qplc::wallClockNow()};
         d.stop(how.isEmpty() ? QStringLiteral("'%1' asked for it").arg(who)
                              : QStringLiteral("'%1' asked for it (%2)").arg(who, how));
-        m_connection->send(messages::Done());
+        m_connection->done();
     }
     void operator()(const messages::SafeStop &stop) const
     {
         const QString reason = stop.reason.isEmpty() ? QString() : QStringLiteral(": ") + qplc::printable(stop.reason);
         d.parts->faults.safeStop(QStringLiteral("'%1' asked for it%2").arg(m_connection->shownName(), reason));
-        m_connection->send(messages::Done());
+        m_connection->done();
     }
     void operator()(const messages::Reset &reset) const
     {
@@ -132,19 +132,16 @@ public:
     void operator()(const messages::GetSchedule &) const { m_connection->send(messages::Schedule{d.q->schedule()}); }
     void operator()(const messages::GetSignals &question) const
     {
-        messages::Signals reply;
         qplc::Refusal refusal;
-        if (qplc::signalReply(d.parts->cycle, d.parts->registry, d.leaseBooks, question.names, &reply, &refusal))
-            answer(reply, QStringLiteral("too many signals for one answer; ask for some of them by name"));
-        else
+        m_connection->listAnswer
+            = qplc::signalReply(d.parts->cycle, d.parts->registry, d.leaseBooks, question.names, &refusal);
+        if (!m_connection->listAnswer)
             m_connection->fail(refusal.error, refusal.text);
     }
     void operator()(const messages::GetStatistics &question) const
     {
         const auto detail = question.histograms ? QPlcDistribution::WithBins : QPlcDistribution::FiguresOnly;
-        answer(qplc::statisticsReply(qplc::statisticsOf(d.parts->cycle, d.parts->registry, detail)),
-               question.histograms ? QStringLiteral("too many nodes for one answer; ask without histograms")
-                                   : QStringLiteral("too many nodes for one answer"));
+        m_connection->listAnswer = qplc::statisticsReply(d.parts->cycle, d.parts->registry, detail);
     }
     void operator()(const messages::GetLeases &) const
     {
@@ -197,12 +194,12 @@ private:
         else if (d.parts->step.isUnderWay())
             d.m_requester = m_connection->socket;
         else
-            m_connection->send(messages::Done());
+            m_connection->done();
     }
     void finish(bool isDone, const qplc::Refusal &refusal) const
     {
         if (isDone)
-            m_connection->send(messages::Done());
+            m_connection->done();
         else
             m_connection->fail(refusal.error, refusal.text);
     }

@@ -5,11 +5,13 @@
 #include "QPlcSlaveSocket.h"
 #include "node/cycle/NodeRegistry.h"
 #include "node/security/AccessRights.h"
+#include "protocol/messages/ListAnswer.h"
 #include "protocol/messages/MessageTable.h"
 #include "transport/ConnectionGate.h"
 
 #include <QtCore/QObject>
 
+#include <deque>
 #include <memory>
 
 namespace qplc {
@@ -41,9 +43,12 @@ struct MasterConnection
     qint64 stageSince = 0;                     // [ms] for time-outs
     bool wantsLeases = false;                  // has offered the feature, and so the next ones
     bool wantsEvents = false;
-    bool isHardware = false;  // has offered the feature
-    bool leasesDue = false;   // they have changed and it was not told yet
-    quint64 eventsTold = 0;   // sequence number of the newest event that was sent
+    bool isHardware = false;                             // has offered the feature
+    bool leasesDue = false;                              // they have changed and it was not told yet
+    quint64 eventsTold = 0;                              // sequence number of the newest event that was sent
+    std::unique_ptr<messages::ListAnswer> listAnswer{};  // being made; null: none. What it asks next waits
+    bool isAhead = false;                                // the message at hand has overtaken others of it
+    std::deque<QPlcMessage> keptAnswers{};               // to such messages, until it is their turn
 
     /// Whether it is TLS, and the peer proven: secrets may travel over it.
     bool isSecured() const { return peer.isSecured && socket->isSecured(); }
@@ -58,8 +63,18 @@ struct MasterConnection
     {
         return socket->sendMessage(messages::toMessage(message));
     }
-    /// Refuses a request; the connection stays.
-    void fail(const QString &error, const QString &text) const { send(messages::Failed{error, text}); }
+    /// Answers the message at hand that it is done, or refuses it; the connection stays.
+    void done() { answer(messages::toMessage(messages::Done())); }
+    void fail(const QString &error, const QString &text) { answer(messages::toMessage(messages::Failed{error, text})); }
+
+private:
+    void answer(const QPlcMessage &message)
+    {
+        if (isAhead)
+            keptAnswers.push_back(message);
+        else
+            socket->sendMessage(message);
+    }
 };
 
 }  // namespace qplc

@@ -7,8 +7,6 @@
 
 #include <QtCore/QMetaEnum>
 
-#include <numeric>
-
 namespace qplc {
 
 namespace {
@@ -129,39 +127,41 @@ messages::Events eventReply(const std::vector<JournalEvent> &events)
     return reply;
 }
 
-bool signalReply(const MasterCycle &cycle, const NodeRegistry &registry, const Leases &leases, const QStringList &names,
-                 messages::Signals *reply, Refusal *refusal)
+static messages::SignalEntry entryOf(QPlcSignalIndex index, const std::vector<char> &values, const MasterCycle &cycle,
+                                     const NodeRegistry &registry, const Leases &leases)
 {
-    const QPlcSignalTable &table = cycle.table();
+    const QPlcSignalDefinition &definition = cycle.table().at(index);
+    messages::SignalEntry entry;
+    entry.name = definition.name;
+    entry.type = definition.type.name();
+    entry.unit = definition.unit;
+    entry.description = definition.description;
+    entry.value = QPlcValue::fromBytes(definition.type, values.data() + cycle.offset(index)).toString();
+    entry.writer = registry.writer(index);
+    entry.quality = quint8(values[cycle.qualityOffset(index)]);
+    if (definition.writers.size() > 1) {
+        const std::shared_ptr<NodeSlot> source = registry.find(cycle.signalGuard().source(index));
+        entry.source = source ? source->name : QString();
+    }
+    if (const Leases::Lease *lease = leases.find(index)) {
+        entry.holder = lease->name;
+        entry.lease = lease->state();
+    }
+    return entry;
+}
+
+std::unique_ptr<messages::ListAnswer> signalReply(const MasterCycle &cycle, const NodeRegistry &registry,
+                                                  const Leases &leases, const QStringList &names, Refusal *refusal)
+{
     std::vector<QPlcSignalIndex> wanted;
-    if (!readNames(table, names, &wanted, refusal))
-        return false;
-    if (names.isEmpty()) {
-        wanted.resize(std::size_t(table.size()));
-        std::iota(wanted.begin(), wanted.end(), QPlcSignalIndex(0));
-    }
-    const std::vector<char> values = cycle.values();
-    for (const QPlcSignalIndex index : wanted) {
-        const QPlcSignalDefinition &definition = table.at(index);
-        messages::SignalEntry entry;
-        entry.name = definition.name;
-        entry.type = definition.type.name();
-        entry.unit = definition.unit;
-        entry.description = definition.description;
-        entry.value = QPlcValue::fromBytes(definition.type, values.data() + cycle.offset(index)).toString();
-        entry.writer = registry.writer(index);
-        entry.quality = quint8(values[cycle.qualityOffset(index)]);
-        if (definition.writers.size() > 1) {
-            const std::shared_ptr<NodeSlot> source = registry.find(cycle.signalGuard().source(index));
-            entry.source = source ? source->name : QString();
-        }
-        if (const Leases::Lease *lease = leases.find(index)) {
-            entry.holder = lease->name;
-            entry.lease = lease->state();
-        }
-        reply->signals.push_back(entry);
-    }
-    return true;
+    if (!readNames(cycle.table(), names, &wanted, refusal))
+        return nullptr;
+    const std::size_t count = names.isEmpty() ? std::size_t(cycle.table().size()) : wanted.size();
+    const auto entry = [&, wanted, values = cycle.values()](std::size_t i) {
+        return entryOf(wanted.empty() ? QPlcSignalIndex(i) : wanted[i], values, cycle, registry, leases);
+    };
+    return messages::makeListAnswer(messages::Signals(), &messages::Signals::signals, count, entry,
+                                    QStringLiteral("too many signals for one answer; ask for some of them by name"));
 }
 
 }  // namespace qplc

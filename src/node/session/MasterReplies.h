@@ -8,7 +8,10 @@
 #include "node/cycle/NodeRegistry.h"
 #include "node/cycle/ProfileDefaults.h"
 #include "node/statistics/EventLog.h"
+#include "protocol/messages/ListAnswer.h"
 #include "protocol/messages/MessageTable.h"
+
+#include <memory>
 
 namespace qplc {
 
@@ -18,10 +21,11 @@ QPlcNodeInfo infoOf(const NodeSession &node);
 messages::MasterState messageStateOf(QPlcMasterNode::State state);
 messages::ClockKind clockKindOf(QPlcClock clock);
 messages::State stateReply(const QPlcMasterNode &master, const ChosenProfile &profile, quint64 session);
-/// For \a names or, when empty, all signals; the values are those of one cycle.
-/// \return false with the first name that is unknown, or comes twice, in \a refusal
-bool signalReply(const MasterCycle &cycle, const NodeRegistry &registry, const Leases &leases, const QStringList &names,
-                 messages::Signals *reply, Refusal *refusal);
+/// For \a names or, when empty, all signals; the values are those of one cycle. All other arguments
+/// outlive the answer.
+/// \return null with the first name that is unknown, or comes twice, in \a refusal
+std::unique_ptr<messages::ListAnswer> signalReply(const MasterCycle &cycle, const NodeRegistry &registry,
+                                                  const Leases &leases, const QStringList &names, Refusal *refusal);
 messages::Events eventReply(const std::vector<JournalEvent> &events);
 
 }  // namespace qplc

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "MasterServer.h"
 
+#include "PacedReading.h"
 #include "node/Logging.h"
 #include "protocol/ControlFrame.h"
 #include "protocol/messages/Vocabulary.h"
@@ -20,6 +21,12 @@ namespace {
 constexpr quint32 LongestGreeting = 64 * 1024;  // [byte]
 constexpr int LongestReason = 4000;             // [characters] of a refusal, which may quote what was sent
 
+/// What waits behind nothing that anybody has asked.
+bool isUrgent(Message::Kind kind)
+{
+    return kind == Message::Stop || kind == Message::SafeStop || kind == Message::ReleaseLease;
+}
+
 }  // namespace
 
 MasterServer::MasterServer(NodeRegistry &registry, const ProcessImage &image, CyclicHub &hub, quint64 session,
@@ -34,7 +41,10 @@ MasterServer::MasterServer(NodeRegistry &registry, const ProcessImage &image, Cy
     , m_objection(std::move(objection))
     , m_tableText(QString::fromUtf8(image.table().toIni()))
     , m_door(this)
+    , m_turns([this](FairTurns::Client client) { return serve(static_cast<MasterConnection *>(client)); })
 {
+    m_nextTurn.setSingleShot(true);
+    connect(&m_nextTurn, &QTimer::timeout, this, &MasterServer::takeTurn);
     connect(&m_door, &MasterDoor::entered, this, &MasterServer::enter);
     connect(&m_door, &MasterDoor::refused, this, &MasterServer::strangerRefused);
     connect(&m_door, &MasterDoor::tooSlow, this, &MasterServer::dropSlow);
@@ -147,6 +157,7 @@ void MasterServer::enter(QPlcSlaveSocket *socket, const Peer &peer, ConnectionGa
     socket->setMessageLimit(LongestGreeting);
     connect(socket, &QPlcAbstractSocket::messageReceived, this,
             [this, connection](const Message &message) { receive(connection, message); });
+    PacedReading::begin(*socket, [this, connection] { arrived(connection); });
     connect(socket, &QPlcAbstractSocket::errorOccurred, this, [this, connection](QPlcAbstractSocket::Error error) {
         if (error == QPlcAbstractSocket::ProtocolError)
             receiveGarbage(connection);
@@ -211,6 +222,8 @@ void MasterServer::drop(MasterConnection *connection, const QString &reason)
 void MasterServer::forget(MasterConnection *connection)
 {
     m_door.leave(connection->ticket);
+    m_turns.remove(connection);
+    PacedReading::begin(*connection->socket, [] {});
     connection->socket->disconnect(this);
     connection->socket->deleteLater();
     const auto isIt
@@ -250,10 +263,97 @@ bool MasterServer::isTooMuch(MasterConnection *connection, const Message &messag
     return true;
 }
 
+// ---- turns ----
+
+void MasterServer::arrived(MasterConnection *connection)
+{
+    m_turns.add(connection);
+    if (!m_nextTurn.isActive())
+        m_nextTurn.start(0);
+}
+
+/// Between two turns the event loop reads what has arrived, and its timers ring. If a turn was too
+/// short for all, urgent messages of the next one come first.
+void MasterServer::takeTurn()
+{
+    if (m_isBusy) {
+        for (FairTurns::Client client : m_turns.waiting())
+            lookAhead(static_cast<MasterConnection *>(client));
+    }
+    m_turns.serve();
+    m_isBusy = !m_turns.isEmpty();
+    if (m_isBusy)
+        m_nextTurn.start(0);
+}
+
+/// A small piece of work for a connection, which may be gone afterwards. \return whether there is
+/// more
+bool MasterServer::serve(MasterConnection *connection)
+{
+    if (connection->listAnswer) {
+        if (connection->listAnswer->makePortion())
+            sendListAnswer(connection);
+        return true;
+    }
+    if (PacedReading::next(*connection->socket))
+        return true;
+    if (isThere(connection))  // it may take in no answers
+        lookAhead(connection);
+    return false;
+}
+
+void MasterServer::sendListAnswer(MasterConnection *connection)
+{
+    const std::unique_ptr<messages::ListAnswer> answer = std::move(connection->listAnswer);
+    if (answer->isTooLong() || !PacedReading::send(*connection->socket, answer->kind(), answer->json()))
+        connection->fail(messages::errorWord::tooLong, answer->tooLong());
+}
+
+/// Carries out urgent messages of a connection before what it has asked in front of them. They are
+/// answered in their place.
+void MasterServer::lookAhead(MasterConnection *connection)
+{
+    Message message;
+    while (isThere(connection) && connection->stage != MasterConnection::Silent
+           && PacedReading::takeAhead(*connection->socket, &isUrgent, &message)) {
+        connection->isAhead = true;
+        receive(connection, message);
+        if (isThere(connection))
+            connection->isAhead = false;
+    }
+}
+
+bool MasterServer::isThere(const MasterConnection *connection) const
+{
+    return std::any_of(m_connections.begin(), m_connections.end(),
+                       [connection](const std::unique_ptr<MasterConnection> &one) { return one.get() == connection; });
+}
+
+/// Whether a message was dealt with because of one that has overtaken others: its own answer is
+/// kept, or it is a command that stood in front of a stop.
+bool MasterServer::isSettled(MasterConnection *connection, const Message &message)
+{
+    if (connection->isAhead)
+        return false;
+    if (PacedReading::wasTakenAhead(*connection->socket)) {
+        if (!connection->keptAnswers.empty()) {
+            connection->socket->sendMessage(connection->keptAnswers.front());
+            connection->keptAnswers.pop_front();
+        }
+        return true;
+    }
+    if (!PacedReading::isOvertaken(*connection->socket) || !isCommand(message.kind()))
+        return false;
+    connection->fail(messages::errorWord::wrongState,
+                     QStringLiteral("%1 was overtaken by a stop, or by the release of a lease, that was sent after it")
+                         .arg(message.kindName()));
+    return true;
+}
+
 /// The one place where control messages come in.
 void MasterServer::receive(MasterConnection *connection, const Message &message)
 {
-    if (isTooMuch(connection, message))
+    if (isSettled(connection, message) || isTooMuch(connection, message))
         return;
     const QString refusal = refusalOf(connection->peer, message);
     if (!refusal.isEmpty()) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "FairTurns.h"
 #include "MasterConnection.h"
 #include "MasterDoor.h"
 #include "QPlcMasterStatistics.h"
@@ -75,6 +76,13 @@ private:
     bool isTooMuch(MasterConnection *connection, const QPlcMessage &message);
     void dropUnattached(const MasterConnection *connection);
     MasterConnection *connectionOf(const QPlcSlaveSocket *socket) const;
+    void arrived(MasterConnection *connection);
+    void takeTurn();
+    bool serve(MasterConnection *connection);
+    void lookAhead(MasterConnection *connection);
+    bool isThere(const MasterConnection *connection) const;
+    bool isSettled(MasterConnection *connection, const QPlcMessage &message);
+    void sendListAnswer(MasterConnection *connection);
     void deny(MasterConnection *connection, const QString &reason, bool isRegistration);
     void receive(MasterConnection *connection, const QPlcMessage &message);
     void dropClosed(const QPlcSlaveSocket *socket);
@@ -104,6 +112,9 @@ private:
     QHostAddress m_address;
     bool m_isSecured = false;
     std::vector<std::unique_ptr<MasterConnection>> m_connections;
+    FairTurns m_turns;
+    QTimer m_nextTurn;
+    bool m_isBusy = false;  // somebody waits since the last turn
     QString m_errorString;
     quint64 m_deniedMessages = 0;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "QPlcAbstractSocket.h"
 
+#include "PacedReading.h"
 #include "node/Logging.h"
 #include "protocol/ControlFrame.h"
 #include "transport/LossWatch.h"
@@ -10,6 +11,7 @@
 #include <QtNetwork/QTcpSocket>
 
 #include <fcntl.h>
+#include <functional>
 
 struct QPlcAbstractSocket::Private
 {
@@ -17,9 +19,12 @@ struct QPlcAbstractSocket::Private
     qplc::Tls *tls = nullptr;  // of the socket, when it is or will be encrypted, or comes from a master with security
     qplc::ControlFrameReader reader;
     bool isSending = false;
-    bool isPaused = false;  // the other end takes nothing in
+    bool isPaused = false;            // the other end takes nothing in
+    std::function<void()> onArrival;  // null: messages are given away as they come
     Error error = NoError;
     QString errorString;
+
+    void readMore() { reader.append(socket->readAll()); }
 };
 
 namespace {
@@ -128,13 +133,17 @@ bool QPlcAbstractSocket::sendMessage(const QPlcMessage &message)
 {
     if (!isConnected())
         return false;
-    const QByteArray frame = qplc::encodeControlFrame(message);
+    return sendFrame(qplc::encodeControlFrame(message), message.kind());
+}
+
+bool QPlcAbstractSocket::sendFrame(const QByteArray &frame, QPlcMessage::Kind kind)
+{
     if (frame.isEmpty()) {
-        qCWarning(lcControl).noquote() << message.kindName() << "for" << peerName()
+        qCWarning(lcControl).noquote() << QPlcMessage::kindName(kind) << "for" << peerName()
                                        << "is too long or too deep to be sent";
         return false;
     }
-    qCDebug(lcControl).noquote() << "to" << peerName() << message.kindName() << shown(frame, isSecured());
+    qCDebug(lcControl).noquote() << "to" << peerName() << QPlcMessage::kindName(kind) << shown(frame, isSecured());
     const QPointer<QPlcAbstractSocket> self(this);  // who hears of an error may delete us
     d->isSending = true;
     const bool sent = d->socket->write(frame) == frame.size();
@@ -229,23 +238,71 @@ void QPlcAbstractSocket::readMessages()
         QMetaObject::invokeMethod(this, &QPlcAbstractSocket::readMessages, Qt::QueuedConnection);
         return;
     }
+    if (d->onArrival) {
+        d->onArrival();
+        return;
+    }
     const QPointer<QPlcAbstractSocket> self(this);  // who receives a message may delete us
+    while (readMessage() && self) {}
+}
+
+/// \return whether there was a message: then this object may have been deleted
+bool QPlcAbstractSocket::readMessage()
+{
     QPlcMessage message;
     d->isPaused = bytesToSend() > MostUnread;
     if (d->isPaused)
-        return;
-    d->reader.append(d->socket->readAll());
-    while (self && !d->isPaused && d->reader.next(&message)) {
+        return false;
+    if (d->reader.next(&message) || (d->readMore(), d->reader.next(&message))) {
         qCDebug(lcControl).noquote() << "from" << peerName() << message.kindName()
                                      << shown(d->reader.lastFrame(), isSecured());
         Q_EMIT messageReceived(message);
-        if (self)
-            d->isPaused = bytesToSend() > MostUnread;
+        return true;
     }
-    if (!self || d->reader.error() == qplc::ControlFrameReader::NoError)
-        return;
+    if (d->reader.error() == qplc::ControlFrameReader::NoError)
+        return false;
+    const QPointer<QPlcAbstractSocket> self(this);
     setError(ProtocolError,
              QStringLiteral("%1 sent bytes that are not a QtPLC message: %2").arg(peerName(), d->reader.errorString()));
     if (self)
         abort();
+    return false;
 }
+
+// ---- read by a master, in turns ----
+
+namespace qplc {
+
+void PacedReading::begin(QPlcAbstractSocket &socket, std::function<void()> onArrival)
+{
+    socket.d->onArrival = std::move(onArrival);
+}
+
+bool PacedReading::next(QPlcAbstractSocket &socket)
+{
+    return socket.readMessage();
+}
+
+bool PacedReading::takeAhead(QPlcAbstractSocket &socket, bool (*isUrgent)(QPlcMessage::Kind), QPlcMessage *message)
+{
+    if (socket.d->reader.waiting() < MostBuffered)
+        socket.d->readMore();
+    return socket.d->reader.takeAhead(isUrgent, message);
+}
+
+bool PacedReading::wasTakenAhead(const QPlcAbstractSocket &socket)
+{
+    return socket.d->reader.wasTakenAhead();
+}
+
+bool PacedReading::isOvertaken(const QPlcAbstractSocket &socket)
+{
+    return socket.d->reader.isOvertaken();
+}
+
+bool PacedReading::send(QPlcAbstractSocket &socket, QPlcMessage::Kind kind, const QByteArray &json)
+{
+    return socket.isConnected() && socket.sendFrame(encodeControlFrame(kind, json), kind);
+}
+
+}  // namespace qplc

@@ -4,7 +4,10 @@
 #include "QPlcCycleStatistics.h"
 #include "node/cycle/MasterCycle.h"
 #include "node/cycle/NodeRegistry.h"
+#include "protocol/messages/ListAnswer.h"
 #include "protocol/messages/Statistics.h"
+
+#include <memory>
 
 namespace qplc {
 
@@ -12,7 +15,8 @@ namespace qplc {
 /// run.
 QPlcCycleStatistics statisticsOf(const MasterCycle &cycle, const NodeRegistry &registry,
                                  QPlcDistribution::Detail detail);
-/// What a master answers to GetStatistics.
-messages::Statistics statisticsReply(const QPlcCycleStatistics &statistics);
+/// What a master answers to GetStatistics. \a cycle outlives it.
+std::unique_ptr<messages::ListAnswer> statisticsReply(const MasterCycle &cycle, const NodeRegistry &registry,
+                                                      QPlcDistribution::Detail detail);
 
 }  // namespace qplc

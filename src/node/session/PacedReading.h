@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "QPlcAbstractSocket.h"
+
+#include <functional>
+
+namespace qplc {
+
+/// Reads a control connection message by message, when its owner wants to. Other connections give
+/// away what comes as it comes.
+class PacedReading
+{
+public:
+    /// From now on \a onArrival is called when there may be something to read, and nothing is read
+    /// before next().
+    static void begin(QPlcAbstractSocket &socket, std::function<void()> onArrival);
+    /// Emits messageReceived() for the next message. A receiver may delete the connection.
+    /// \return false when there is none, or the other end takes in no answers
+    static bool next(QPlcAbstractSocket &socket);
+    /// See ControlFrameReader::takeAhead(). Works also when the other end takes in no answers.
+    static bool takeAhead(QPlcAbstractSocket &socket, bool (*isUrgent)(QPlcMessage::Kind), QPlcMessage *message);
+    /// Whether the message at hand was taken ahead.
+    static bool wasTakenAhead(const QPlcAbstractSocket &socket);
+    /// Whether one behind it was.
+    static bool isOvertaken(const QPlcAbstractSocket &socket);
+    /// Sends a message whose fields are \a json already. \return false when they are too long
+    static bool send(QPlcAbstractSocket &socket, QPlcMessage::Kind kind, const QByteArray &json);
+};
+
+}  // namespace qplc
