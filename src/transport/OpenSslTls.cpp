@@ -21,6 +21,7 @@ OpenSslTls::OpenSslTls(QSslSocket *socket)
         m_terms = Terms();  // keys stay no longer than they are needed
         Q_EMIT encrypted();
     });
+    connect(socket, &QSslSocket::encryptedBytesWritten, this, &Tls::encryptedBytesWritten);
     connect(socket, &QSslSocket::preSharedKeyAuthenticationRequired, this, &OpenSslTls::giveKey);
     connect(socket, QOverload<const QList<QSslError> &>::of(&QSslSocket::sslErrors), this,
             &OpenSslTls::refuseCertificate);

@@ -60,6 +60,8 @@ public:
 
 Q_SIGNALS:
     void encrypted();
+    /// Of what encryptedBytesToWrite() counts, some is on its way.
+    void encryptedBytesWritten();
 
 protected:
     explicit Tls(QTcpSocket *socket);

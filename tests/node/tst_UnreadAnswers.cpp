@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "../common/Waiting.h"
+#include "node/security/Handshake.h"
 #include "protocol/ControlFrame.h"
+#include "transport/ControlListener.h"
 
 #include <QtPlcCore>
 
+#include <QtCore/QTemporaryFile>
 #include <QtNetwork/QTcpServer>
 #include <QtNetwork/QTcpSocket>
 
@@ -15,6 +18,7 @@ class tst_UnreadAnswers : public QObject
 private Q_SLOTS:
     void peerThatReadsNothingIsNotServed();
     void peerThatResumesReadingGetsAllAnswers();
+    void peerOverTlsThatResumesReadingGetsAllAnswers();
 
 private:
     static constexpr int Requests = 300;
@@ -32,6 +36,17 @@ private:
         bool connectEnds();
     };
 };
+
+/// How many messages are complete with \a bytes.
+static int countIn(qplc::ControlFrameReader *reader, const QByteArray &bytes)
+{
+    reader->append(bytes);
+    QPlcMessage message;
+    int count = 0;
+    while (reader->next(&message))
+        ++count;
+    return count;
+}
 
 bool tst_UnreadAnswers::Ends::connectEnds()
 {
@@ -70,16 +85,50 @@ void tst_UnreadAnswers::peerThatResumesReadingGetsAllAnswers()
     ends.asker.setReadBufferSize(0);
     qplc::ControlFrameReader reader;
     int answers = 0;
-    const auto read = [&] {
-        reader.append(ends.asker.readAll());
-        QPlcMessage message;
-        while (reader.next(&message))
-            ++answers;
-        return answers == Requests;
-    };
-    QTRY_VERIFY_WITH_TIMEOUT(read(), 20000);
+    QTRY_VERIFY_WITH_TIMEOUT((answers += countIn(&reader, ends.asker.readAll())) == Requests, 20000);
     QCOMPARE(ends.asked, Requests);
     QCOMPARE(ends.answerer->bytesToSend(), qint64(0));
+}
+
+void tst_UnreadAnswers::peerOverTlsThatResumesReadingGetsAllAnswers()
+{
+    QTemporaryFile keys;
+    QVERIFY(keys.open() && keys.write("[tool]\nkey = " + QByteArray(64, 'a') + "\nrole = Observer\n") > 0);
+    keys.close();
+    const QPlcSecurity security = QPlcSecurity::preSharedKeys(keys.fileName(), "tool");
+    qplc::ControlListener listener;
+    QVERIFY(listener.listen(QHostAddress::LocalHost, 0));
+    QScopedPointer<QPlcSlaveSocket> answerer;
+    int asked = 0;
+    connect(&listener, &qplc::ControlListener::arrived, &listener, [&] {
+        auto *handshake = new qplc::Handshake(listener.take(), security, &listener);
+        connect(handshake, &qplc::Handshake::succeeded, &listener, [&, handshake] {
+            answerer.reset(new QPlcSlaveSocket(handshake->takeSocket()));
+            connect(answerer.data(), &QPlcAbstractSocket::messageReceived, answerer.data(), [&] {
+                ++asked;
+                answerer->sendMessage(QPlcMessage(QPlcMessage::Signals, {{"text", QString(AnswerSize, 'a')}}));
+            });
+            handshake->deleteLater();
+        });
+    });
+    QPlcMasterSocket asker;
+    asker.setSecurity(security);
+    asker.connectToMaster(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, listener.port()));
+    QTRY_VERIFY_WITH_TIMEOUT(asker.isConnected() && answerer, 20000);
+    auto *way = asker.findChild<QTcpSocket *>();
+    QVERIFY(way);
+    way->disconnect(&asker);
+    way->setReadBufferSize(1000);  // what comes stays with the other end
+    for (int i = 0; i < Requests; ++i)
+        asker.sendMessage(QPlcMessage(QPlcMessage::GetSignals));
+    QTRY_VERIFY(answerer->bytesToSend() > Most);
+    QTest::qWait(100);
+    QVERIFY2(asked < Requests / 2, QByteArray::number(asked).constData());
+    way->setReadBufferSize(0);
+    qplc::ControlFrameReader reader;
+    int answers = 0;
+    QTRY_VERIFY_WITH_TIMEOUT((answers += countIn(&reader, way->readAll())) == Requests, 20000);
+    QCOMPARE(answerer->bytesToSend(), qint64(0));
 }
 
 QTEST_GUILESS_MAIN(tst_UnreadAnswers)

@@ -96,10 +96,13 @@ void QPlcAbstractSocket::setSocket(QTcpSocket *socket)
         connect(socket, &QTcpSocket::connected, this, nowConnected);
     connect(socket, &QTcpSocket::disconnected, this, &QPlcAbstractSocket::disconnected);
     connect(socket, &QTcpSocket::readyRead, this, &QPlcAbstractSocket::readMessages);
-    connect(socket, &QTcpSocket::bytesWritten, this, [this] {
+    const auto goOn = [this] {
         if (d->isPaused && bytesToSend() <= MostUnread)  // not at once: who sends may be in the middle of a message
             QMetaObject::invokeMethod(this, &QPlcAbstractSocket::readMessages, Qt::QueuedConnection);
-    });
+    };
+    connect(socket, &QTcpSocket::bytesWritten, this, goOn);
+    if (d->tls)  // which counts as written what it has encrypted
+        connect(d->tls, &qplc::Tls::encryptedBytesWritten, this, goOn);
     socket->setReadBufferSize(MostBuffered);
     connect(socket, &QTcpSocket::errorOccurred, this, &QPlcAbstractSocket::readError);
 }
