@@ -267,6 +267,7 @@ void tst_LocalSocket::aNodeOfAnotherUserIsRefused()
     };
     QCOMPARE(asOtherUser(connect), 0);
     QVERIFY(!master.pass(4711));
+    QVERIFY2(master.error.contains("no program of user 0 has connected"), qPrintable(master.error));
     QCOMPARE(master.listener.waiting(), std::size_t(0));
 }
 
