@@ -1,0 +1,411 @@
+// SPDX-License-Identifier: Apache-2.0
+// How soon Stop acts, how exactly leases end and how late cycles begin while eight tools with keys
+// ask the most expensive questions, over TLS, from other processes.
+//
+//   control_flood [--signals N] [--connections N] [--stops N] [--leases N] [--rounds N]
+//                 [--seconds S]
+//
+// The program starts itself as master and as tools. --signals: all of them are in one table, which
+// has to fit into a control message.
+#include <QtPlcCore>
+
+#include <QtCore/QCommandLineParser>
+#include <QtCore/QFile>
+#include <QtCore/QJsonArray>
+#include <QtCore/QJsonObject>
+#include <QtCore/QProcess>
+#include <QtCore/QRandomGenerator>
+#include <QtCore/QTemporaryDir>
+#include <QtCore/QTimer>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <vector>
+
+namespace {
+
+constexpr std::chrono::milliseconds period{10};
+constexpr qint64 leaseTime = 200'000'000;  // [ns]
+constexpr int questionsAtOnce = 8;         // of a tool, before it waits for answers
+constexpr int namesAtOnce = 2000;          // more would fill the way to the master: TCP ends it
+
+/// All processes of a computer see this clock [ns].
+qint64 now()
+{
+    return std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+void tell(const QString &line)
+{
+    std::fprintf(stdout, "%s\n", qPrintable(line));
+    std::fflush(stdout);
+}
+
+QString signalName(int number)
+{
+    return QStringLiteral("s%1").arg(number);
+}
+
+QPlcSignalTable table(int signalCount)
+{
+    QByteArray ini = "[speed]\ntype = Real64\n";
+    for (int i = 1; i < signalCount; ++i)
+        ini += "[" + signalName(i).toLatin1() + "]\ntype = Bool\n";
+    return QPlcSignalTable::fromIni(ini);
+}
+
+// ---- the master ----
+
+/// Tells in which cycle the speed leaves 0, and when it is there again.
+class Watcher : public QPlcCompactSlaveNode
+{
+public:
+    Watcher()
+        : QPlcCompactSlaveNode(QStringLiteral("Watcher"))
+    {
+    }
+
+private:
+    void step(const QPlcCycle &) override
+    {
+        const bool isMoved = m_speed != 0.0;
+        if (isMoved && !m_wasMoved)
+            m_begin = now();
+        if (!isMoved && m_wasMoved)
+            tell(QStringLiteral("lease %1").arg(now() - m_begin));
+        m_wasMoved = isMoved;
+    }
+
+    QPlcInput<double> m_speed{this, "speed"};
+    bool m_wasMoved = false;
+    qint64 m_begin = 0;
+};
+
+int runMaster(const QString &keys, int signalCount)
+{
+    QPlcSignalIndexTable::setCurrent(table(signalCount));
+    Watcher watcher;
+    QPlcMasterNode master;
+    master.setProfile(QPlcProfile::Plant);
+    master.setInterval(period);
+    master.setSecurity(QPlcSecurity::preSharedKeys(keys));
+    master.setArmingRequired(false);
+    QObject::connect(&master, &QPlcMasterNode::stateChanged, &master, [&](QPlcMasterNode::State state) {
+        static bool isMoving = false;
+        if (state == QPlcMasterNode::RealTime)
+            tell(QStringLiteral("runs"));
+        if (state == QPlcMasterNode::Off && isMoving) {
+            const qint64 time = now();
+            const QPlcCycleStatistics statistics = master.cycleStatistics();
+            tell(QStringLiteral("stopped %1 %2 %3")
+                     .arg(time)
+                     .arg(statistics.lateness.sinceStart.p99)
+                     .arg(statistics.execution.sinceStart.p99));
+            QTimer::singleShot(0, &master, [&] { master.startRealTime(); });
+        }
+        isMoving = state == QPlcMasterNode::RealTime;
+    });
+    if (!master.addLocalNode(&watcher)
+        || !master.startServer(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, 0))) {
+        std::fprintf(stderr, "%s\n", qPrintable(master.errorString()));
+        return 1;
+    }
+    tell(QStringLiteral("port %1").arg(master.serverPort()));
+    master.startRealTime();
+    return QCoreApplication::exec();
+}
+
+// ---- tools ----
+
+/// A tool that has greeted its master.
+class Tool
+{
+public:
+    Tool(const QString &name, const QString &keys, quint16 port)
+    {
+        m_socket.setSecurity(QPlcSecurity::preSharedKeys(keys, name));
+        QObject::connect(&m_socket, &QPlcAbstractSocket::connected, &m_socket, [this, name] {
+            send(QPlcMessage::Hello, {{"protocol", 2}, {"name", name}, {"role", "tool"}});
+        });
+        QObject::connect(&m_socket, &QPlcAbstractSocket::messageReceived, &m_socket,
+                         [this](const QPlcMessage &message) {
+                             if (onMessage)
+                                 onMessage(message);
+                         });
+        QObject::connect(&m_socket, &QPlcAbstractSocket::errorOccurred, &m_socket, [this] {
+            std::fprintf(stderr, "%s\n", qPrintable(m_socket.errorString()));
+            QCoreApplication::exit(1);
+        });
+        m_socket.connectToMaster(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, port));
+    }
+    void send(QPlcMessage::Kind kind, const QJsonObject &fields = {})
+    {
+        m_socket.sendMessage(QPlcMessage(kind, fields));
+    }
+    std::function<void(const QPlcMessage &)> onMessage;
+
+private:
+    QPlcMasterSocket m_socket;
+};
+
+/// What costs most: all signals, many signals by name, all histograms.
+void askMost(Tool &tool, int number, int signalCount)
+{
+    static const QJsonArray names = [signalCount] {
+        QJsonArray array;
+        for (int i = 1; i < std::min(signalCount, namesAtOnce); ++i)
+            array << signalName(i);
+        return array;
+    }();
+    if (number % 3 == 0)
+        tool.send(QPlcMessage::GetSignals);
+    else if (number % 3 == 1)
+        tool.send(QPlcMessage::GetSignals, {{"names", names}});
+    else
+        tool.send(QPlcMessage::GetStatistics, {{"histograms", true}});
+}
+
+int runFlood(const QString &keys, quint16 port, int connections, int signalCount)
+{
+    std::vector<std::unique_ptr<Tool>> tools;
+    quint64 answers = 0;
+    for (int i = 0; i < connections; ++i) {
+        tools.push_back(std::make_unique<Tool>(QStringLiteral("observer"), keys, port));
+        Tool *tool = tools.back().get();
+        tool->onMessage = [&answers, tool, signalCount, asked = 0](const QPlcMessage &message) mutable {
+            if (message.kind() == QPlcMessage::Hello) {
+                for (; asked < questionsAtOnce; ++asked)
+                    askMost(*tool, asked, signalCount);
+                return;
+            }
+            if (message.kind() == QPlcMessage::StatesInitialized)
+                return;  // no answer: all are told of each start
+            if (++answers == 1)
+                tell(QStringLiteral("floods"));
+            askMost(*tool, asked++, signalCount);
+        };
+    }
+    return QCoreApplication::exec();
+}
+
+// ---- the person ----
+
+/// This program in another role.
+class Child : public QProcess
+{
+public:
+    explicit Child(const QStringList &arguments)
+    {
+        setProcessChannelMode(QProcess::ForwardedErrorChannel);
+        start(QCoreApplication::applicationFilePath(), arguments);
+    }
+    ~Child() override
+    {
+        kill();
+        waitForFinished();
+    }
+    /// The words behind \a word of the next line that begins with it.
+    QStringList next(const QString &word)
+    {
+        while (true) {
+            while (canReadLine()) {
+                const QStringList words = QString::fromUtf8(readLine()).trimmed().split(' ');
+                if (words.first() == word)
+                    return words.mid(1);
+            }
+            if (state() == NotRunning)
+                qFatal("a process has ended");
+            QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
+        }
+    }
+};
+
+double percentile(std::vector<double> values, double share)
+{
+    std::sort(values.begin(), values.end());
+    return values.empty() ? 0.0 : values[std::min(values.size() - 1, std::size_t(share * double(values.size())))];
+}
+
+void show(const char *what, const std::vector<double> &values, const char *unit)
+{
+    tell(QStringLiteral("%1: n %2, p50 %3, p99 %4, p99.9 %5, longest %6 %7")
+             .arg(QLatin1String(what))
+             .arg(values.size())
+             .arg(percentile(values, 0.5), 0, 'f', 2)
+             .arg(percentile(values, 0.99), 0, 'f', 2)
+             .arg(percentile(values, 0.999), 0, 'f', 2)
+             .arg(percentile(values, 1.0), 0, 'f', 2)
+             .arg(QLatin1String(unit)));
+}
+
+void pass(int milliseconds)
+{
+    QEventLoop loop;
+    QTimer::singleShot(milliseconds, Qt::PreciseTimer, &loop, &QEventLoop::quit);
+    loop.exec();
+}
+
+class Measurement
+{
+public:
+    Measurement(const QString &keys, int signalCount, int connections)
+        : m_keys(keys)
+        , m_signals(signalCount)
+        , m_connections(connections)
+        , m_master({"master", keys, QString::number(signalCount)})
+        , m_other({"master", keys, QString::number(signalCount)})
+        , m_port(m_master.next("port").at(0))
+        , m_otherPort(m_other.next("port").at(0))
+        , m_person(QStringLiteral("operator"), keys, quint16(m_port.toInt()))
+    {
+        m_master.next("runs");
+        m_other.next("runs");
+        bool isGreeted = false;
+        m_person.onMessage = [&](const QPlcMessage &) { isGreeted = true; };
+        while (!isGreeted)
+            QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
+        m_person.onMessage = {};
+    }
+
+    void stops(int count)
+    {
+        const std::unique_ptr<Child> flood = makeFlood(m_port);
+        std::vector<double> delays;
+        for (int i = 0; i < count; ++i) {
+            pass(QRandomGenerator::global()->bounded(20, 40));
+            delays.push_back(stop());
+        }
+        checkThatItGoesOn(*flood);
+        show("stop", delays, "ms");
+    }
+
+    void leases(int count)
+    {
+        const std::unique_ptr<Child> flood = makeFlood(m_port);
+        std::vector<double> delays;
+        for (int i = 0; i < count; ++i) {
+            const QJsonObject values{{"speed", "1"}};
+            m_person.send(QPlcMessage::TakeLease,
+                          {{"signals", QJsonArray{"speed"}}, {"values", values}, {"timeout", double(leaseTime)}});
+            delays.push_back((m_master.next("lease").at(0).toDouble() - double(leaseTime))
+                             / double(period.count() * 1'000'000));
+        }
+        checkThatItGoesOn(*flood);
+        show("lease ends after its time", delays, "cycles");
+    }
+
+    /// How late cycles begin, and how long they are, with the same load on this master and on the
+    /// other one.
+    void cycles(int rounds, int seconds)
+    {
+        std::vector<double> ratios[2];
+        for (int round = 0; round < rounds; ++round) {
+            double p99[2][2];
+            for (const bool isOwn : {round % 2 == 0, round % 2 != 0}) {
+                const std::unique_ptr<Child> flood = makeFlood(isOwn ? m_port : m_otherPort);
+                stop();  // statistics begin anew
+                pass(seconds * 1000);
+                const QStringList figures = (stop(), m_figures);
+                checkThatItGoesOn(*flood);
+                for (int i : {0, 1})
+                    p99[isOwn][i] = figures.at(i + 1).toDouble();
+            }
+            for (int i : {0, 1})
+                ratios[i].push_back(p99[true][i] / p99[false][i]);
+            tell(QStringLiteral("round %1: lateness p99 %2 us (other port %3), execution p99 %4 us (other port %5)")
+                     .arg(round + 1)
+                     .arg(p99[true][0] * 1e-3, 0, 'f', 1)
+                     .arg(p99[false][0] * 1e-3, 0, 'f', 1)
+                     .arg(p99[true][1] * 1e-3, 0, 'f', 1)
+                     .arg(p99[false][1] * 1e-3, 0, 'f', 1));
+        }
+        show("lateness p99, ratio to the other port", ratios[0], "");
+        show("execution p99, ratio to the other port", ratios[1], "");
+    }
+
+private:
+    std::unique_ptr<Child> makeFlood(const QString &port)
+    {
+        auto flood = std::make_unique<Child>(
+            QStringList{"flood", m_keys, port, QString::number(m_connections), QString::number(m_signals)});
+        flood->next("floods");
+        return flood;
+    }
+    static void checkThatItGoesOn(Child &flood)
+    {
+        QCoreApplication::processEvents();
+        if (flood.state() != QProcess::Running)
+            qFatal("the flood has ended; these figures are worth nothing");
+    }
+    /// \return how long it took [ms]; the plant runs again
+    double stop()
+    {
+        const qint64 sent = now();
+        m_person.send(QPlcMessage::Stop);
+        m_figures = m_master.next("stopped");
+        m_master.next("runs");
+        return double(m_figures.at(0).toLongLong() - sent) * 1e-6;
+    }
+
+    const QString m_keys;
+    const int m_signals;
+    const int m_connections;
+    Child m_master, m_other;
+    const QString m_port, m_otherPort;
+    Tool m_person;
+    QStringList m_figures;
+};
+
+QString makeKeys(const QTemporaryDir &folder)
+{
+    QFile file(folder.filePath(QStringLiteral("keys.ini")));
+    if (!file.open(QIODevice::WriteOnly))
+        qFatal("cannot write %s", qPrintable(file.fileName()));
+    file.setPermissions(QFile::ReadOwner | QFile::WriteOwner);
+    for (const char *identity : {"operator", "observer"}) {
+        file.write("[" + QByteArray(identity) + "]\nkey = ");
+        for (int i = 0; i < 4; ++i)
+            file.write(QByteArray::number(QRandomGenerator::system()->generate64(), 16).rightJustified(16, '0'));
+        file.write(*identity == 'o' && identity[1] == 'p' ? "\nrole = Operator\n" : "\nrole = Observer\n");
+    }
+    return file.fileName();
+}
+
+int runAll(const QCoreApplication &application)
+{
+    QCommandLineParser parser;
+    const auto option = [&parser](const char *name, const char *preset) {
+        parser.addOption({QLatin1String(name), {}, QStringLiteral("number"), QLatin1String(preset)});
+    };
+    option("signals", "30000");
+    option("connections", "8");
+    option("stops", "1000");
+    option("leases", "50");
+    option("rounds", "5");
+    option("seconds", "10");
+    parser.addHelpOption();
+    parser.process(application);
+    const auto number = [&parser](const char *name) { return parser.value(QLatin1String(name)).toInt(); };
+    const QTemporaryDir folder;
+    Measurement measurement(makeKeys(folder), number("signals"), number("connections"));
+    measurement.stops(number("stops"));
+    measurement.leases(number("leases"));
+    measurement.cycles(number("rounds"), number("seconds"));
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char **argv)
+{
+    QCoreApplication application(argc, argv);
+    const QStringList arguments = QCoreApplication::arguments();
+    if (arguments.value(1) == QLatin1String("master"))
+        return runMaster(arguments.at(2), arguments.at(3).toInt());
+    if (arguments.value(1) == QLatin1String("flood"))
+        return runFlood(arguments.at(2), quint16(arguments.at(3).toInt()), arguments.at(4).toInt(),
+                        arguments.at(5).toInt());
+    return runAll(application);
+}
