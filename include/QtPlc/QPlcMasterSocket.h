@@ -10,7 +10,7 @@
 /// \code
 /// auto *socket = new QPlcMasterSocket(qApp);
 /// QObject::connect(socket, &QPlcAbstractSocket::connected, socket, [socket] {
-///     socket->sendMessage(QPlcMessage(QPlcMessage::Hello, {{"protocol", 1}, {"role", "tool"}}));
+///     socket->sendMessage(QPlcMessage(QPlcMessage::Hello, {{"protocol", 2}, {"role", "tool"}}));
 /// });
 /// QObject::connect(socket, &QPlcAbstractSocket::errorOccurred, socket,
 ///                  [socket] { qWarning("%s", qPrintable(socket->errorString())); });
