@@ -263,14 +263,12 @@ void tst_ControlChannel::answersComeInTheOrderOfTheRequests()
         m_tool->send(QPlcMessage::GetState);
         m_tool->send(QPlcMessage::GetSignals, {{"names", QJsonArray{"free"}}});
         m_tool->send(QPlcMessage::SetSignals, {{"values", QJsonObject{{"free", QString::number(i)}}}});
-        m_tool->send(QPlcMessage::Stop);
     }
     for (int i = 0; i < 50; ++i) {
         QCOMPARE(m_tool->next().kind(), QPlcMessage::State);
         const QPlcMessage values = m_tool->next();
         QCOMPARE(values.fields().value("signals").toArray().at(0).toObject().value("value").toString(),
                  QString::number(i == 0 ? 0 : i - 1));
-        QCOMPARE(m_tool->next().kind(), QPlcMessage::Done);
         QCOMPARE(m_tool->next().kind(), QPlcMessage::Done);
     }
 }
