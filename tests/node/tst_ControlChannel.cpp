@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "../common/Waiting.h"
 #include "ScriptedNode.h"
+#include "transport/ControlNetwork.h"
+#include "transport/Tls.h"
 
-#include <QtNetwork/QSslSocket>
 #include <QtNetwork/QTcpServer>
 
 // What a tool may ask, and set.
@@ -25,6 +26,7 @@ private Q_SLOTS:
     void sequenceIsAnsweredAtItsEndAndOthersImmediately();
     void unknownFieldsAreIgnored();
     void aTlsSocketIsNotSecuredBeforeItsHandshake();
+    void bytesThatAreNoMessageEndTheConnection();
 
 private:
     bool start()
@@ -300,12 +302,30 @@ void tst_ControlChannel::aTlsSocketIsNotSecuredBeforeItsHandshake()
 {
     QTcpServer server;
     QVERIFY(server.listen(QHostAddress::LocalHost));
-    auto *plain = new QSslSocket;
+    QTcpSocket *plain = qplc::ControlNetwork::current().makeTls(nullptr)->socket();
     plain->connectToHost(QHostAddress(QHostAddress::LocalHost), server.serverPort());
     QVERIFY(plain->waitForConnected());
     const QPlcSlaveSocket socket(plain);
     QVERIFY(socket.isConnected());
     QVERIFY(!socket.isSecured());
+}
+
+/// Of a socket that a program reads itself.
+void tst_ControlChannel::bytesThatAreNoMessageEndTheConnection()
+{
+    QTcpServer server;
+    QVERIFY(server.listen(QHostAddress::LocalHost));
+    QPlcMasterSocket socket;
+    socket.setSecurity(QPlcSecurity());
+    QSignalSpy failed(&socket, &QPlcAbstractSocket::errorOccurred);
+    socket.connectToMaster(
+        QPlcUnderlyingProtocol::fromString(QStringLiteral("tcp://127.0.0.1:%1").arg(server.serverPort())));
+    QVERIFY(server.waitForNewConnection(5000));
+    QTRY_VERIFY(socket.isConnected());
+    server.nextPendingConnection()->write(QByteArray(64, '\xff'));
+    QTRY_COMPARE(failed.size(), 1);
+    QCOMPARE(socket.error(), QPlcAbstractSocket::ProtocolError);
+    QVERIFY(!socket.isConnected());
 }
 
 QTEST_GUILESS_MAIN(tst_ControlChannel)

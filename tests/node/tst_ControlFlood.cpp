@@ -31,6 +31,7 @@ private Q_SLOTS:
     void init();
     void stopOfOneToolDoesNotWaitForQuestionsOfOthers();
     void stopDoesNotWaitForEarlierQuestionsOfItsTool();
+    void safeStopDoesNotWaitForEarlierQuestionsOfItsTool();
     void leaseIsReleasedBeforeEarlierQuestionsAreAnswered();
     void commandThatAStopHasOvertakenIsRefused();
     void stopOvertakesNothingThatIsAnsweredAtOnce();
@@ -122,6 +123,18 @@ void tst_ControlFlood::stopDoesNotWaitForEarlierQuestionsOfItsTool()
         QCOMPARE(anna.messages.at(i).kind(), QPlcMessage::Signals);
     QCOMPARE(anna.messages.at(Questions).kind(), QPlcMessage::Done);  // answers come in the order of the requests
     QCOMPARE(anna.messages.at(Questions + 1).kind(), QPlcMessage::State);
+}
+
+void tst_ControlFlood::safeStopDoesNotWaitForEarlierQuestionsOfItsTool()
+{
+    ScriptedTool &anna = *m_tools.front();
+    ask(anna, QPlcMessage::GetSignals);
+    anna.send(QPlcMessage::SafeStop);
+    QVERIFY(waitUntil([&] { return m_master->state() == QPlcMasterNode::SafeStop; }, 60000));
+    QVERIFY2(anna.messages.size() < Questions / 4, qPrintable(QString::number(anna.messages.size())));
+    QTRY_COMPARE_WITH_TIMEOUT(anna.messages.size(), Questions + 1, 60000);
+    QCOMPARE(anna.messages.last().kind(), QPlcMessage::Done);
+    m_master->stop();
 }
 
 void tst_ControlFlood::leaseIsReleasedBeforeEarlierQuestionsAreAnswered()

@@ -47,6 +47,7 @@ private Q_SLOTS:
     void tooManyValuesAreRefused();
     void framesComeInOrderAroundTheEnd();
     void aFullRingRefuses();
+    void aRingWithMoreTakenThanGivenRefuses();
     void aFrameWithoutBytesIsSkipped();
     void invalidRingContentIsSkipped_data();
     void invalidRingContentIsSkipped();
@@ -250,6 +251,14 @@ void tst_SharedChannel::aFullRingRefuses()
     QCOMPARE(accepted, 64);
     QCOMPARE(pop(ring), frame);
     QVERIFY(ring.push(frame.constData(), std::size_t(frame.size())));
+    QVERIFY(!ring.push("x", 1));
+}
+
+void tst_SharedChannel::aRingWithMoreTakenThanGivenRefuses()
+{
+    LonelyRing ring;
+    const quint32 taken = 1;
+    std::memcpy(ring.memory.data(), &taken, sizeof taken);  // as a hostile reader writes it
     QVERIFY(!ring.push("x", 1));
 }
 
