@@ -24,7 +24,11 @@ struct QPlcAbstractSocket::Private
     Error error = NoError;
     QString errorString;
 
-    void readMore() { reader.append(socket->readAll()); }
+    void readMore()
+    {
+        if (socket->isOpen())  // who got a message may have ended the connection, or taken it
+            reader.append(socket->readAll());
+    }
 };
 
 namespace {
