@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "../../common/Waiting.h"
 #include "PlantFixtures.h"
-#include "TableText.h"
 #include "QPlcWidget.h"
+#include "TableText.h"
 #include "gui/models/SignalFilterModel.h"
 #include "gui/models/SignalTreeModel.h"
 #include "gui/panel/WindowContext.h"
