@@ -285,7 +285,7 @@ void tst_ListenerSequence::listenerFaultsDoNotStopThePlant()
         if (what.contains("cycle"))
             listener.send(QPlcMessage::NodeFault, {{"text", "no screen"}});
         listener.onRequest
-            = [&](const ScriptedNode::Request &request) { listener.answer(request.cycle, values, flags); };
+            = [&listener, values, flags](const ScriptedNode::Request &r) { listener.answer(r.cycle, values, flags); };
         QTRY_COMPARE(lost.size(), 1);
     } else {
         QTRY_COMPARE(lost.size(), 1);
