@@ -280,7 +280,7 @@ void tst_QPlcSignalTable::largestTableIsReadInTime()
         return shortest;
     };
     // Eight times the signals take about eight times as long; 64 if each is compared with all.
-    const double ratio = double(shortestOf(65528)) / double(shortestOf(8191));
+    const double ratio = double(shortestOf(16384)) / double(shortestOf(2048));
     QVERIFY2(ratio < 24.0, qPrintable(QString::number(ratio)));
 }
 
