@@ -54,8 +54,9 @@ struct FrameHeader
     /// number of the part.
     std::uint32_t info = 0;
     /// Inputs: how many cycles before this one, from the first one of the node on, the master has
-    /// not sent to it, modulo 2^32. Outputs: low 32 bits of the cycle that the node has computed
-    /// before this one in this phase; of this cycle if there is none.
+    /// not sent to it, modulo 2^32. Outputs: low 32 bits of the number of the cycle that the node
+    /// computed before this one in this phase. In its first answer of a phase, a node gives the
+    /// number of this cycle.
     std::uint32_t before = 0;
 };
 

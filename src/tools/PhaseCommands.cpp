@@ -59,9 +59,9 @@ int resetMaster(const CommandCall &call)
     const messages::Reset reset{state.latch};
     if (!call.ask(reset))
         return call.exitCode();
-    const bool isLatched = !state.reason.isEmpty();
     return tellDone(call, reset,
-                    isLatched ? QStringLiteral("reset: %1").arg(printable(state.reason)) : QStringLiteral("reset"));
+                    messages::isLatched(state.state) ? QStringLiteral("reset: %1").arg(printable(state.reason))
+                                                     : QStringLiteral("reset"));
 }
 
 int stopSafely(const CommandCall &call)

@@ -197,6 +197,26 @@ private:
     QPlcOutput<double> m_sum{this, "sum"};
 };
 
+/// A listener of "count" that keeps the cycles that it hears.
+class CountListener : public QPlcIOBufferSlaveNode
+{
+    Q_OBJECT
+public:
+    /// \param interval [cycles] of which it hears one
+    explicit CountListener(int interval = 1)
+        : QPlcIOBufferSlaveNode(QStringLiteral("Listener"))
+    {
+        setInputSignalIndices(indices({"count"}));
+        setListeningInterval(interval);
+    }
+    QVector<quint64> takeCycles()
+    {
+        QVector<quint64> cycles;
+        takeFrames([&](const Frame &frame) { cycles << frame.cycle; });
+        return cycles;
+    }
+};
+
 /// Gives "count" back as "echo".
 class EchoNode : public QPlcCompactSlaveNode
 {

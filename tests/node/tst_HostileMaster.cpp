@@ -132,8 +132,8 @@ int openDescriptors()
 }
 
 /// A process of another user that plays a master at \a listener, step by step: it sends \a hello,
-/// and \a registered as soon as the node has registered. It listens at the Unix socket of its
-/// session, too, and passes what it has to whoever connects.
+/// and \a registered as soon as the node has registered. It also listens at the Unix socket of its
+/// session, and passes its descriptors to each program that connects.
 class MasterOfAnotherUser
 {
 public:

@@ -37,25 +37,6 @@ namespace {
 
 constexpr int every = 10;
 
-/// A viewer of "count".
-class Viewer : public QPlcIOBufferSlaveNode
-{
-    Q_OBJECT
-public:
-    explicit Viewer(int interval = every)
-        : QPlcIOBufferSlaveNode(QStringLiteral("Viewer"))
-    {
-        setInputSignalIndices(indices({"count"}));
-        setListeningInterval(interval);
-    }
-    QVector<quint64> takeCycles()
-    {
-        QVector<quint64> cycles;
-        takeFrames([&](const Frame &frame) { cycles << frame.cycle; });
-        return cycles;
-    }
-};
-
 /// The cycle of a master whose only node, a listener of "count", is the other end of a socket pair.
 class BareCycle
 {
@@ -196,7 +177,7 @@ void tst_ListeningInterval::joiningListenerGetsTheNextCycleAndThenItsInterval()
         return true;
     };
     QVERIFY(goOnTo(23));
-    Viewer viewer;
+    CountListener viewer(every);
     viewer.connectToMaster(kind == QLatin1String("local")
                                ? QPlcUnderlyingProtocol::local(QString::number(master.serverPort()))
                                : master.protocol(kind));
@@ -221,7 +202,7 @@ void tst_ListeningInterval::localListenerIsCalledOnlyOncePerInterval()
 {
     TestMaster master;
     CounterNode counter;
-    Viewer viewer;
+    CountListener viewer(every);
     QVERIFY(master.addLocalNode(&counter));
     QVERIFY(master.addLocalNode(&viewer));
     master.setCycleLimit(35);
@@ -238,7 +219,7 @@ void tst_ListeningInterval::localListenerIsCalledOnlyOncePerInterval()
 void tst_ListeningInterval::lostIntervalsCountAsMissed()
 {
     ScriptedMaster master;
-    Viewer viewer;
+    CountListener viewer(every);
     QVERIFY(master.beginWith(viewer));
     quint64 sent = 0;
     for (const quint64 cycle : {0, 10, 23, 30, 40, 50, 60}) {
@@ -256,7 +237,7 @@ void tst_ListeningInterval::lostIntervalsCountAsMissed()
 void tst_ListeningInterval::masterThatSendsEveryCycleCausesNoLoss()
 {
     ScriptedMaster master;
-    Viewer viewer;
+    CountListener viewer(every);
     QVERIFY(master.beginWith(viewer));
     for (quint64 cycle = 0; cycle < 25; ++cycle)
         master.request(cycle);
@@ -269,7 +250,7 @@ void tst_ListeningInterval::masterThatSendsEveryCycleCausesNoLoss()
 void tst_ListeningInterval::bufferReportsTheListeningInterval()
 {
     ScriptedMaster master;
-    Viewer viewer(7);
+    CountListener viewer(7);
     QCOMPARE(viewer.listeningInterval(), 7);
     QVERIFY(master.beginWith(viewer));
     QCOMPARE(master.messages.at(1).fields().value("every").toInt(), 7);
@@ -323,7 +304,7 @@ void tst_ListeningInterval::stateTellsTheInterval()
 {
     TestMaster master;
     QVERIFY(master.listen());
-    Viewer viewer;
+    CountListener viewer(every);
     QVERIFY(viewer.connectToMasterAndWaitForConnected(master.protocol("udp")));
     ScriptedTool tool;
     QVERIFY(tool.greetAt(master.serverPort()));

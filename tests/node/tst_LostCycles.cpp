@@ -34,26 +34,6 @@ private Q_SLOTS:
 
 namespace {
 
-using Counters = QPlcSlaveNode::Counters;
-
-/// A listener of "count" that keeps what it hears.
-class Listener : public QPlcIOBufferSlaveNode
-{
-    Q_OBJECT
-public:
-    Listener()
-        : QPlcIOBufferSlaveNode(QStringLiteral("Listener"))
-    {
-        setInputSignalIndices(indices({"count"}));
-    }
-    QVector<quint64> takeCycles()
-    {
-        QVector<quint64> cycles;
-        takeFrames([&](const Frame &frame) { cycles << frame.cycle; });
-        return cycles;
-    }
-};
-
 QVector<quint64> cyclesUpTo(quint64 end)
 {
     QVector<quint64> cycles;
@@ -199,7 +179,7 @@ void tst_LostCycles::moreCyclesNotSentThanThereAreCountAsAll()
 void tst_LostCycles::aListenerTakesFramesThatTheStopHasOvertaken()
 {
     ScriptedMaster master;
-    Listener listener;
+    CountListener listener;
     QVERIFY(master.beginWith(listener));
     master.request(0);
     QVERIFY(master.waitForAnswers(1));
@@ -230,7 +210,7 @@ void tst_LostCycles::otherNodesComputeNothingAfterTheStop()
 void tst_LostCycles::aListenerDoesNotWaitForFramesThatNeverCome()
 {
     ScriptedMaster master;
-    Listener listener;
+    CountListener listener;
     QVERIFY(master.beginWith(listener));
     master.request(0);
     QVERIFY(master.waitForAnswers(1));

@@ -153,7 +153,7 @@ bool Operator::goOn()
                         .arg(state.nodes.size());
     if (!areAllThere(state))
         return false;
-    if (state.state == MasterState::SafeStop || state.state == MasterState::Fault)
+    if (messages::isLatched(state.state))
         ask(messages::Reset{state.latch});
     if (state.state == MasterState::Off || state.state == MasterState::Ready) {
         m_history.append(Record::Command, -1);

@@ -406,6 +406,11 @@ void QPlcMasterNodePrivate::tellRefusal(Event event, const char *text)
                       sentence));
 }
 
+bool QPlcMasterNodePrivate::isLatched() const
+{
+    return qplc::messages::isLatched(qplc::messageStateOf(m_state));
+}
+
 void QPlcMasterNodePrivate::enter(QPlcMasterNode::State newState, const QString &reason)
 {
     if (m_state == newState)

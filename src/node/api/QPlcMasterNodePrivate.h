@@ -48,7 +48,7 @@ public:
                   qplc::JournalEvent::Kind kind) override;
     QPlcMasterNode::State state() const override { return m_state; }
     /// Whether only a reset leads on.
-    bool isLatched() const { return m_state == QPlcMasterNode::SafeStop || m_state == QPlcMasterNode::Fault; }
+    bool isLatched() const;
 
     /// All that depends on the signal table, each part after those that it needs.
     struct Parts

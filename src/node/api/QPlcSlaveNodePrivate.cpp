@@ -2,6 +2,7 @@
 #include "QPlcSlaveNodePrivate.h"
 
 #include "node/Logging.h"
+#include "node/session/MasterReplies.h"
 #include "realtime/Host.h"
 #include "transport/TransportRegistry.h"
 
@@ -17,12 +18,6 @@ namespace messages = qplc::messages;
 namespace {
 
 constexpr int lookAgain = 5;  // [ms] whether the rest of a phase is there
-
-bool hasCycles(QPlcMasterNode::State state)
-{
-    return state == QPlcMasterNode::RealTime || state == QPlcMasterNode::WaitingForLateSlaves
-        || state == QPlcMasterNode::SafeStop;
-}
 
 /// What a message of the master means to the node; none: nothing to its state.
 std::optional<SlaveEvent> eventOf(const Message &message)
@@ -130,7 +125,7 @@ void QPlcSlaveNodePrivate::disconnectFromMaster()
 
 void QPlcSlaveNodePrivate::endBeforeDestruction()
 {
-    const bool cyclesRun = localMaster ? hasCycles(localMaster->state()) : m_inPhase;
+    const bool cyclesRun = localMaster ? messages::hasCycles(qplc::messageStateOf(localMaster->state())) : m_inPhase;
     if (!cyclesRun)
         return;
     qCWarning(lcSlave).noquote() << "node" << name

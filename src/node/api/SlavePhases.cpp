@@ -171,6 +171,15 @@ void QPlcSlaveNodePrivate::applyProfile(qplc::SlaveCycle::Phase *phase)
     phase->usualHold = defaults.hold;
 }
 
+/// What the master says to have sent to the node, at the end of the phase.
+std::optional<qplc::SentCycles::Last> QPlcSlaveNodePrivate::lastSent(const Told &told)
+{
+    const auto *stop = std::get_if<messages::RealTimeStopped>(&told);
+    if (!stop || !stop->lastCycle)
+        return {};
+    return qplc::SentCycles::Last{*stop->lastCycle, std::uint32_t(stop->before)};
+}
+
 /// \param last  what the master has sent; none: it is not known
 void QPlcSlaveNodePrivate::haltCycles(const std::optional<qplc::SentCycles::Last> &last)
 {

@@ -36,15 +36,6 @@ bool endsPhase(SlaveEvent event)
 
 }  // namespace
 
-/// What the master says to have sent to the node, at the end of the phase.
-std::optional<qplc::SentCycles::Last> QPlcSlaveNodePrivate::lastSent(const Told &told)
-{
-    const auto *stop = std::get_if<messages::RealTimeStopped>(&told);
-    if (!stop || !stop->lastCycle)
-        return {};
-    return qplc::SentCycles::Last{*stop->lastCycle, std::uint32_t(stop->before)};
-}
-
 void QPlcSlaveNodePrivate::apply(SlaveEvent event, const Told &told)
 {
     if (endsPhase(event))

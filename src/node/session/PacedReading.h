@@ -16,7 +16,7 @@ public:
     /// before next().
     static void begin(QPlcAbstractSocket &socket, std::function<void()> onArrival);
     /// Emits messageReceived() for the next message. A receiver may delete the connection.
-    /// \return false when there is none, or the other end takes in no answers
+    /// \return false if there is no message, or if the other end does not read its answers
     static bool next(QPlcAbstractSocket &socket);
     /// See ControlFrameReader::takeAhead(). Works also when the other end takes in no answers.
     static bool takeAhead(QPlcAbstractSocket &socket, bool (*isUrgent)(QPlcMessage::Kind), QPlcMessage *message);
