@@ -124,6 +124,7 @@ def example_messages():
         (50, "GetStatistics", {}),
         (50, "GetStatistics", dict(histograms=True)),
         (51, "Statistics", example_statistics()),
+        (40, "NodeFault", dict(text="step() threw std::runtime_error: 'sensor lost'", phase=hex64(4096))),
     ]
 
 

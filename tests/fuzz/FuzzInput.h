@@ -27,7 +27,8 @@ public:
     {
         T value = 0;
         const std::size_t size = std::min(sizeof value, m_left);
-        std::memcpy(&value, m_data, size);
+        if (size > 0)
+            std::memcpy(&value, m_data, size);
         skip(size);
         return value;
     }

@@ -330,6 +330,7 @@ void tst_SlaveFaults::aStepThatThrowsGivesSafeValuesAndAFault()
     QCOMPARE(fault.kind(), QPlcMessage::NodeFault);
     QVERIFY2(fault.text("text").contains("division by zero") && fault.text("text").contains("cycle 1"),
              qPrintable(fault.text("text")));
+    QCOMPARE(fault.text("phase"), QPlcMessage::fromHex64(master.first));
     QCOMPARE(master.next(20).kind(), QPlcMessage::Invalid);  // once, not in every cycle
     QCOMPARE(node.error(), QPlcSlaveNode::UserCodeError);
     node.disconnectFromMaster();

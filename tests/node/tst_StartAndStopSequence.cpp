@@ -16,6 +16,7 @@ private Q_SLOTS:
     void startInitializesAnUninitializedMaster();
     void anInitializedMasterStartsWithoutAnotherInitialization();
     void aNodeThatIsNotReadyInTimeEndsTheStart();
+    void aFaultThatArrivesAfterItsPhaseEndsNoStart();
     void stopDuringTheInitializationEndsIt();
     void stopIsAllowedInEveryState();
     void theStateTellsWhoHasStopped();
@@ -140,6 +141,40 @@ void tst_StartAndStopSequence::aNodeThatIsNotReadyInTimeEndsTheStart()
     QVERIFY(master.waitForCycles(3));
     QCOMPARE(good.requests.at(0).cycle, good.messages.last().hex64("cycleZero"));
     master.stop();
+}
+
+void tst_StartAndStopSequence::aFaultThatArrivesAfterItsPhaseEndsNoStart()
+{
+    TestMaster master;
+    QVERIFY(master.listen());
+    ScriptedNode node;
+    node.answerAll();
+    QVERIFY(node.registerAt(master.serverPort()));
+    QVERIFY(master.startRealTime());
+    QVERIFY(node.waitForMessage(QPlcMessage::RealTimeStarted));
+    const QString phase = node.messages.last().text("cycleZero");
+    QVERIFY(master.waitForState(QPlcMasterNode::RealTime));
+    master.stop();
+    QVERIFY(node.waitForMessage(QPlcMessage::RealTimeStopped));
+
+    const auto startWithAFaultOf = [&](const QJsonObject &fields) {
+        node.forgetMessages();
+        node.playsAlong = false;
+        QVERIFY(master.startRealTime());
+        QVERIFY(node.waitForMessage(QPlcMessage::SendYourInitialOutputStates));
+        node.send(QPlcMessage::NodeFault, fields);
+        node.playsAlong = true;
+        node.send(QPlcMessage::ReceiveMyInitialOutputStates, {{"values", QPlcMessage::fromBytes(node.initialValues)}});
+    };
+    startWithAFaultOf({{"text", "cable"}, {"phase", phase}});
+    QVERIFY(master.waitForState(QPlcMasterNode::RealTime));
+    master.stop();
+    QVERIFY(node.waitForMessage(QPlcMessage::RealTimeStopped));
+    QCOMPARE(master.error(), QPlcMasterNode::NoError);
+
+    startWithAFaultOf({{"text", "reset"}});  // in its initialization
+    QVERIFY(master.waitForState(QPlcMasterNode::Off));
+    QVERIFY2(master.errorString().contains("reset"), qPrintable(master.errorString()));
 }
 
 void tst_StartAndStopSequence::stopDuringTheInitializationEndsIt()

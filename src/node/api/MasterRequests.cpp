@@ -46,6 +46,12 @@ public:
             return;
         const QString text = qplc::printable(fault.text);
         const std::shared_ptr<qplc::NodeSession> node = m_connection->session;
+        if (fault.phase && !(d.parts->phase.isRunning() && d.parts->phase.cycleZero() == *fault.phase)) {
+            qCWarning(lcMaster).noquote() << "node" << m_connection->name << "in a phase that has ended:" << text;
+            if (node && d.state() != QPlcMasterNode::Initializing)
+                node->setFailed(true);
+            return;  // no reason to stop what has begun since
+        }
         const bool isRunning = node && node->stage() == qplc::NodeSession::Running;
         const bool hasFailedToJoin = d.parts->phase.isRunning() && !isRunning;
         if (m_connection->slot->listener || hasFailedToJoin) {

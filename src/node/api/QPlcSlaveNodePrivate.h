@@ -90,7 +90,7 @@ private:
     void endRest();
     void haltCycles(const std::optional<qplc::SentCycles::Last> &last = std::nullopt);
     void endPhase(QPlcSlaveNode::SafeStateReason reason);
-    void codeFailed(const QString &text);
+    void codeFailed(const QString &text, const std::optional<qplc::messages::Hex64> &phase = {});
     class FromMaster;
     bool isExpected(const QPlcMessage &message) const;
     void handle(const QPlcMessage &message);

@@ -60,9 +60,10 @@ qplc::SlaveCycle::Group groupOf(const std::optional<messages::GroupPlace> &place
 
 /// The code of the derived class threw: the master is told, and the node waits in its safe state
 /// for the next initialization.
-void QPlcSlaveNodePrivate::codeFailed(const QString &text)
+/// \param phase  cycleZero of the phase in whose cycles it threw
+void QPlcSlaveNodePrivate::codeFailed(const QString &text, const std::optional<messages::Hex64> &phase)
 {
-    send(messages::NodeFault{text});
+    send(messages::NodeFault{text, phase});
     makeSafe(QPlcSlaveNode::CodeFailed);
     apply(SlaveEvent::CodeFailed);
     setError(QPlcSlaveNode::UserCodeError, QStringLiteral("node '%1': %2").arg(name, text));
@@ -121,7 +122,7 @@ void QPlcSlaveNodePrivate::tellInitialized()
 
 bool QPlcSlaveNodePrivate::refusePhase(QPlcSlaveNode::Error reason, const QString &text)
 {
-    send(messages::NodeFault{text});
+    send(messages::NodeFault{text, {}});
     setError(reason, QStringLiteral("node '%1': %2").arg(name, text));
     return false;
 }
@@ -270,7 +271,8 @@ void QPlcSlaveNodePrivate::report(const qplc::CycleEvent &event)
     case qplc::CycleEvent::NodeFaulted:
         codeFailed(QStringLiteral("the code of the node threw in cycle %1: %2")
                        .arg(event.cycle)
-                       .arg(QString::fromLocal8Bit(runtime.faultText())));
+                       .arg(QString::fromLocal8Bit(runtime.faultText())),
+                   m_lastPhase ? std::optional<messages::Hex64>(m_lastPhase->cycleZero) : std::nullopt);
         break;
     case qplc::CycleEvent::ForgedFrame:
         qCWarning(lcSlave).noquote() << "node" << name

@@ -107,8 +107,10 @@ struct NodeFault
 {
     static constexpr QPlcMessage::Kind kind = QPlcMessage::NodeFault;
     QString text;
+    std::optional<Hex64> phase;  // cycleZero of the phase in whose cycles the node failed
 
-    static constexpr auto fields = std::make_tuple(field("text", &NodeFault::text));
+    static constexpr auto fields
+        = std::make_tuple(field("text", &NodeFault::text), field("phase", &NodeFault::phase, Presence::WhenSet));
 };
 
 }  // namespace qplc::messages
