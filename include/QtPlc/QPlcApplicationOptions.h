@@ -2,6 +2,7 @@
 #pragma once
 
 #include "QPlcGlobal.h"
+#include "QPlcManifest.h"
 #include "QPlcProfile.h"
 #include "QPlcRealTimeOptions.h"
 #include "QPlcSecurity.h"
@@ -111,6 +112,13 @@ public:
     /// \return false when the value is not valid; the message was printed and exitCode() is
     ///     UsageError
     bool readProfile(QPlcProfile::Value *profile);
+    /// Adds --manifest FILE to a master: the nodes that the plant needs (QPlcManifest).
+    void addManifestOption();
+    /// Reads the file of --manifest.
+    /// \param manifest  gets the result; empty without the option
+    /// \return false, with the message printed and exitCode() UsageError, when the file cannot be
+    ///     read or has errors
+    bool readManifest(QPlcManifest *manifest);
 
     /// Adds --enable-fault-injection and --faults, which belong together: the faults of a bad
     /// network, for a test.

@@ -4,6 +4,7 @@
 #include "QPlcClock.h"
 #include "QPlcCycleStatistics.h"
 #include "QPlcLease.h"
+#include "QPlcManifest.h"
 #include "QPlcMasterStatistics.h"
 #include "QPlcNodeInfo.h"
 #include "QPlcOverrunPolicy.h"
@@ -187,6 +188,28 @@ public:
     /// Returns why the plant has this profile, for people: "node 'Winch' drives real devices".
     QString profileReason() const;
 
+    /// Sets the nodes that the plant needs. Neither an initialization nor a start begins while a
+    /// node is missing that the manifest calls critical or required: missingNodes() names it. A
+    /// node that the manifest calls critical is critical, whatever it says itself. A node whose
+    /// transport, watchdog or identity differs from the manifest is refused. Watchdogs are not
+    /// checked in the profile Simulation, and neither they nor identities of local nodes.
+    ///
+    /// Without a manifest, the master needs each critical node that has registered, or was
+    /// refused, since the master was made, until it is destroyed. A local node is needed until
+    /// removeLocalNode().
+    ///
+    /// The profile of the manifest counts if setProfile() has not chosen one. If neither has, the
+    /// profile is Plant.
+    /// \param manifest  with at least one node; by default there is none
+    /// \return false when a server or nodes exist already (StateError), or when \a manifest is
+    ///     empty (NodeError)
+    bool setManifest(const QPlcManifest &manifest);
+    /// Returns the manifest; empty: none.
+    QPlcManifest manifest() const;
+    /// Returns which nodes an initialization or a start needs and does not find, why, and what to
+    /// do; empty: none.
+    QString missingNodes() const;
+
     // ---- safe stop (docs/design/states.md) ----
     /// Sets the longest time in the state WaitingForLateSlaves before the plant stops safely. By
     /// default the profile decides: forever or 5 s. Takes effect at the next start. Lockstep waits
@@ -326,7 +349,8 @@ public:
 
 public Q_SLOTS:
     /// Asks all nodes for their initial outputs, and gives all of them their initial inputs.
-    /// statesInitialized() or errorOccurred() follows. Possible in Off and Ready.
+    /// statesInitialized() or errorOccurred() follows. Possible in Off and Ready, when no node is
+    /// missing (missingNodes()).
     /// \return false when it cannot begin, or has failed at once
     bool initializeAllStates();
     /// Permits one start within the next 5 s: the first of two steps, so that a single mistake
@@ -335,8 +359,8 @@ public Q_SLOTS:
     bool arm();
     /// Begins the real-time phase. In the state Off an initialization comes first.
     /// stateChanged(RealTime) or errorOccurred() follows.
-    /// \return false when arming is required and arm() was not called in the last 5 s, or when the
-    ///     state or the real-time options do not permit it
+    /// \return false when arming is required and arm() was not called in the last 5 s, when a node
+    ///     is missing (missingNodes()), or when the state or the real-time options do not permit it
     bool startRealTime();
     /// Ends the real-time phase: nodes go to their safe state, and the signals keep their values
     /// here. In SafeStop and Fault it does nothing.

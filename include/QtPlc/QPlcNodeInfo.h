@@ -6,6 +6,8 @@
 #include <QtCore/QMetaType>
 #include <QtCore/QString>
 
+#include <chrono>
+
 /// What a master knows about one of its nodes.
 ///
 /// \code
@@ -43,6 +45,9 @@ struct QPlcNodeInfo
     quint64 resent = 0;  ///< requests that were sent again
     /// Faults that the node injects into its frames, for a test; empty: none.
     QString faultPlan;
+    /// Watchdog that the node has set itself and that leads to its safe state; 0: none of its own.
+    std::chrono::nanoseconds watchdog{0};
+    QString identity;  ///< identity that the node has proven; empty: none
 };
 
 Q_DECLARE_METATYPE(QPlcNodeInfo)

@@ -28,10 +28,11 @@
 /// default.
 ///
 /// The master chooses the profile when an initialization or a start begins, and tells it to the
-/// nodes. A phase keeps its profile. If setProfile() has not chosen one, the profile is Plant in
-/// two cases: a registered node drives real devices (QPlcSlaveNode::setHardware()), or the master
-/// listens on an address other than loopback while its clock is RealTime or Scaled. Otherwise it is
-/// Simulation.
+/// nodes. A phase keeps its profile. If setProfile() has not chosen one, it is the profile of the
+/// manifest (QPlcManifest). If that is Automatic, too, or there is no manifest, the profile is
+/// Plant in three cases: there is a manifest, a registered node drives real devices
+/// (QPlcSlaveNode::setHardware()), or the master listens on an address other than loopback while
+/// its clock is RealTime or Scaled. Otherwise it is Simulation.
 ///
 /// \threadsafe the functions are
 ///

@@ -182,7 +182,8 @@ public:
 
     /// Sets whether the node is critical; default false. The master stops safely when a critical
     /// node is lost, fails, or is late too often: each late answer counts 2, each answer in time
-    /// takes 1 off, and at 10 the master stops. A listener is never critical.
+    /// takes 1 off, and at 10 the master stops. The master does not start without a critical node
+    /// that has registered before (QPlcMasterNode::setManifest()). A listener is never critical.
     /// \pre the node is not registered
     void setCritical(bool critical);
     /// Returns true if the node was set critical.

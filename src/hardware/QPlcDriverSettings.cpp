@@ -2,7 +2,7 @@
 #include "QPlcDriverSettings.h"
 
 #include "DriverSettingsData.h"
-#include "DurationText.h"
+#include "signals/DurationText.h"
 #include "signals/MessageText.h"
 
 #include <QtCore/QDir>
@@ -12,26 +12,8 @@
 #include <cmath>
 
 using qplc::ConfigurationEntry;
+using qplc::durationText;
 using qplc::quoted;
-
-namespace {
-
-QString durationText(std::chrono::nanoseconds duration)
-{
-    const auto count = duration.count();
-    static constexpr struct
-    {
-        qint64 size;
-        const char *unit;
-    } units[]{{1'000'000'000, "s"}, {1'000'000, "ms"}, {1'000, "us"}, {1, "ns"}};
-    for (const auto &unit : units) {
-        if (count % unit.size == 0)
-            return QStringLiteral("%1 %2").arg(count / unit.size).arg(QLatin1String(unit.unit));
-    }
-    return {};
-}
-
-}  // namespace
 
 const ConfigurationEntry *QPlcDriverSettings::Private::find(const QString &key)
 {

@@ -4,6 +4,8 @@
 #include "MessageText.h"
 #include "Utf8.h"
 
+#include <QtCore/QFile>
+
 namespace qplc {
 
 namespace {
@@ -212,7 +214,7 @@ bool IniParser::refuseBytes(const QByteArray &line, IniItem *item)
         m_position = m_text.size();
         setError(item, line, isUtf16 ? 0 : zero,
                  isUtf16 ? QStringLiteral("the file is UTF-16; save it as UTF-8")
-                         : QStringLiteral("byte 0x00: this is not text; give a signal table in UTF-8"));
+                         : QStringLiteral("byte 0x00: this is not text; give a file in UTF-8"));
         return true;
     }
     if (line.size() > MaximumLine) {
@@ -235,6 +237,27 @@ bool IniParser::refuseBytes(const QByteArray &line, IniItem *item)
         return true;
     }
     return false;
+}
+
+bool IniParser::readFile(const QString &fileName, const QString &what, qint64 largest, QByteArray *text,
+                         QVector<QPlcParseError> *errors)
+{
+    QString error;
+    QFile file(fileName);
+    if (fileName.isEmpty()) {
+        error = QStringLiteral("the name of the file is empty; give the path of %1").arg(what);
+    } else if (!file.open(QIODevice::ReadOnly)) {
+        error = QStringLiteral("cannot open: %1; give the path of %2").arg(file.errorString(), what);
+    } else {
+        *text = file.read(largest + 1);
+        if (file.error() != QFileDevice::NoError)
+            error = QStringLiteral("cannot read: %1").arg(file.errorString());
+        else if (text->size() > largest)
+            error = QStringLiteral("has more than %1 bytes; give %2, which has fewer").arg(largest).arg(what);
+    }
+    if (errors && !error.isEmpty())
+        *errors = {{fileName, 0, 0, error}};
+    return error.isEmpty();
 }
 
 QString IniParser::valueText(const QString &value)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "QPlcParseError.h"
+
 #include <QtCore/QByteArray>
 #include <QtCore/QString>
 
@@ -43,6 +45,13 @@ public:
     /// The next line that is neither blank nor a comment; kind End behind the last. A text that is
     /// no text at all (zero bytes, UTF-16) ends with its first error.
     IniItem next();
+
+    /// Reads a whole file that an IniParser is to cut.
+    /// \param what  "a signal table", for messages
+    /// \param errors  gets the only one; null: nobody wants it
+    /// \return false when the file cannot be read, or has more than \a largest bytes
+    static bool readFile(const QString &fileName, const QString &what, qint64 largest, QByteArray *text,
+                         QVector<QPlcParseError> *errors);
 
     /// The text of a value that next() reads back as \a value, which has no control characters but
     /// \n, \r and \t.

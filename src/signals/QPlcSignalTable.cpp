@@ -6,20 +6,11 @@
 #include "SignalRules.h"
 #include "TableReader.h"
 
-#include <QtCore/QFile>
-
 using qplc::quoted;
 
 namespace {
 
 constexpr qint64 largestFile = 64 * 1024 * 1024;  // [byte] a thousand for each of the most signals
-
-QPlcSignalTable failed(const QString &fileName, const QString &message, QVector<QPlcParseError> *errors)
-{
-    if (errors)
-        *errors = {{fileName, 0, 0, message}};
-    return QPlcSignalTable();
-}
 
 // The definition as the table keeps it: values in the types of the signal where they can be
 // converted, and an initial value.
@@ -71,22 +62,10 @@ QPlcSignalTable QPlcSignalTable::fromMaster(const QByteArray &text, QVector<QPlc
 
 QPlcSignalTable QPlcSignalTable::fromIniFile(const QString &fileName, QVector<QPlcParseError> *errors)
 {
-    if (fileName.isEmpty())
-        return failed(fileName, QStringLiteral("the name of the file is empty; give the path of a signal table"),
-                      errors);
-    QFile file(fileName);
-    if (!file.open(QIODevice::ReadOnly))
-        return failed(fileName,
-                      QStringLiteral("cannot open: %1; give the path of a signal table").arg(file.errorString()),
-                      errors);
-    const QByteArray text = file.read(largestFile + 1);
-    if (file.error() != QFileDevice::NoError)
-        return failed(fileName, QStringLiteral("cannot read: %1").arg(file.errorString()), errors);
-    if (text.size() > largestFile)
-        return failed(fileName,
-                      QStringLiteral("has more than %1 bytes; give a signal table, which has fewer").arg(largestFile),
-                      errors);
-    return fromIni(text, errors, fileName);
+    QByteArray text;
+    if (qplc::IniParser::readFile(fileName, QStringLiteral("a signal table"), largestFile, &text, errors))
+        return fromIni(text, errors, fileName);
+    return QPlcSignalTable();
 }
 
 QByteArray QPlcSignalTable::toIni() const

@@ -104,6 +104,8 @@ int showEvents(const CommandCall &call);
 int findMasters(const CommandCall &call);
 int manageKeys(const CommandCall &call);
 int examineComputer(const CommandCall &call);
+int writeManifest(const CommandCall &call);
+int checkManifest(const CommandCall &call);
 int showHelp(const CommandCall &call);
 int completeWord(const CommandCall &call);
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Makes the inputs that the fuzzers begin with, and the words that they put into them, out of docs/protocol/vectors, signals and tests/hardware.
+"""Makes the inputs that the fuzzers begin with, and the words that they put into them, out of docs/protocol/vectors, signals, examples and tests/hardware.
 
     make_corpus.py --check    says whether corpus/ and the dictionaries hold what this script makes (exit code 1 when not)
     make_corpus.py --write    writes them
@@ -39,6 +39,22 @@ def signal_tables():
     files = {row["name"]: row["table"].encode() for row in vectors("layouts")["layouts"] if len(row["fields"]) < 100}
     files.update({path.stem: path.read_bytes() for path in (ROOT / "signals").glob("*.ini")})
     files.update({name: text.encode() for name, text in ODD_TABLES.items()})
+    return files
+
+
+# ---- manifests: the text as it is -----------------------------------------------------------------------------------
+
+MANIFESTS = {
+    "every key": "; the kite\nprofile = Plant\n\n[Emergency stop]\nneed = critical\ntransport = udp, tcp\nwatchdog = 500 ms ; at most\nidentity = stop-1\n[Camera]\nneed = optional\n",
+    "names alone": "\ufeff[Winch]\r\n[#1; x = y]\r\n[\u00e4]\r\n",
+    "durations": "[a]\nwatchdog = 1e-3 s\n[b]\nwatchdog = 24 h\n[c]\nwatchdog = 1000001 ns\n[d]\nwatchdog = \"0.5 min\"\n",
+    "everything wrong": "need = x\nprofile = y\n[A\n[]\n[A]\nneed = vital\nneed = required\nwatchdog = 0\ntransport = upd,\nidentity = a b\ncolour = red\n[A]\n[Master]\n",
+}
+
+
+def manifests():
+    files = {name: text.encode() for name, text in MANIFESTS.items()}
+    files["example"] = (ROOT / "examples/airborne_wind_energy/manifest.ini").read_bytes()
     return files
 
 
@@ -252,6 +268,10 @@ KEYS = ["type", "unit", "description", "min", "max", "initial", "safe", "hold", 
         "String", "String(", "DateTime", " = ", " ; ", "\\n", "\\\"", "1e308", "2026-01-31T12:00:00Z"]
 
 
+MANIFEST_WORDS = ["profile", "need", "transport", "watchdog", "identity", "critical", "required", "optional", "Plant", "Simulation", "Automatic", "udp", "tcp", "local",
+                  "udp-multicast", "inprocess", "Master", " ms", " h", " = ", " ; "]
+
+
 def texts_of(value):
     """Names and short texts of a JSON value."""
     if isinstance(value, dict):
@@ -268,7 +288,7 @@ def dictionary(words):
 
 def dictionaries():
     fields = set().union(*(texts_of(row["fields"]) for row in vectors("control_frames")["good"]))
-    return {"keys.dict": dictionary(KEYS), "dbc.dict": dictionary(DBC_WORDS), "fields.dict": dictionary(sorted(word for word in fields if word.isascii()))}
+    return {"keys.dict": dictionary(KEYS), "dbc.dict": dictionary(DBC_WORDS), "manifest.dict": dictionary(MANIFEST_WORDS), "fields.dict": dictionary(sorted(word for word in fields if word.isascii()))}
 
 
 # ---- files ----------------------------------------------------------------------------------------------------------
@@ -277,7 +297,7 @@ def main():
     if sys.argv[1:] not in (["--check"], ["--write"]):
         sys.exit(__doc__)
     wanted = {HERE / name: data for name, data in dictionaries().items()}
-    for folder, files in (("signal_table", signal_tables()), ("control_frames", control_frames()), ("cyclic_frames", cyclic_frames()),
+    for folder, files in (("signal_table", signal_tables()), ("manifest", manifests()), ("control_frames", control_frames()), ("cyclic_frames", cyclic_frames()),
                           ("session", sessions()), ("local_link", local_links()), ("dbc_file", dbc_files()), ("nmea", nmea())):
         for name, data in files.items():
             path = HERE / "corpus" / folder / file_name(name)

@@ -91,7 +91,8 @@ void tst_Profiles::chosenProfileOverridesTheDetectedOne()
     QFETCH(QString, hardware);
     QFETCH(QString, network);
     QFETCH(bool, lockstep);
-    const qplc::ChosenProfile chosen = qplc::chooseProfile({Profile::Value(wanted), hardware, network, lockstep});
+    const qplc::ChosenProfile chosen
+        = qplc::chooseProfile({Profile::Value(wanted), false, Profile::Automatic, hardware, network, lockstep});
     QTEST(int(chosen.value), "profile");
     QVERIFY(!chosen.reason.isEmpty());
 }

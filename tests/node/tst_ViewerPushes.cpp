@@ -37,7 +37,7 @@ struct Master
                         hub,
                         5,
                         [] { return messages::MasterHello(); },
-                        [](const NodeDeclaration &) { return Refusal(); },
+                        [](NodeDeclaration *, const MasterConnection &) { return Refusal(); },
                         nullptr};
     EventLog events;
     int pictures = 0;

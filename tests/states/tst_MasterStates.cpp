@@ -41,8 +41,10 @@ void tst_MasterStates::everyTransitionMatchesTheTable_data()
     QTest::addColumn<QString>("outcomes");  // Off, Initializing, Ready, RealTime, Waiting, SafeStop, Fault
     const auto row = [](E event, const char *outcomes) { QTest::newRow(nameOf(event)) << int(event) << outcomes; };
     row(E::Initialize, "In x In x x x x");
+    row(E::InitializeIncomplete, "x x x x x x x");
     row(E::Arm, "x x . x x x x");
     row(E::Start, "In x In x x x x");
+    row(E::StartIncomplete, "x x x x x x x");
     row(E::StartUnarmed, "x x x x x x x");
     row(E::Stop, ". Of Of Of Of . .");
     row(E::SafeStop, ". Of Of Sa Sa . .");
@@ -96,7 +98,7 @@ void tst_MasterStates::refusedEventGivesAReasonAndKeepsTheState()
             QVERIFY2(cell.action == MasterAction::None, where.constData());
         }
     });
-    for (E event : {E::Initialize, E::Arm, E::Start, E::StartUnarmed})
+    for (E event : {E::Initialize, E::InitializeIncomplete, E::Arm, E::Start, E::StartIncomplete, E::StartUnarmed})
         QVERIFY(QByteArray(masterStates().at(S::SafeStop, event).text).startsWith("fault latched: %1"));
 }
 

@@ -52,6 +52,10 @@ def text(old, new):
     return edit
 
 
+def both(first, second):
+    return lambda plant, tables: second(*first(plant, tables))
+
+
 def cell(event, state, outcome):
     """A mutant of the tables: another outcome of one event in one state."""
     def edit(plant, tables):
@@ -131,8 +135,11 @@ RUNS = [
     Run("mutant_node_refuses_values", "a node refuses its initial values: nobody ever moves", "acceptance cycle",
         formula="moves_again", edit=cell("NE_ValuesCame", "N_Initializing", "refuse()"),
         HELPFUL=1, COMMANDS=0, FAULTS=0, LOSS=0, PROMPT=1),
-    Run("mutant_manifest_at_start_only", "the manifest is looked at before a start, not before an initialization", PRESENT,
-        edit=text(":: what == C_Initialize && mayBegin ->", ":: what == C_Initialize ->"), COMMANDS=2, FAULTS=0, LOSS=0),
+    Run("mutant_manifest_at_start_only", "before a start the manifest asks who is registered, before an initialization nothing", PRESENT,
+        edit=both(text(":: what == C_Initialize -> event = (mayBegin -> ME_Initialize : ME_InitializeIncomplete)", ":: what == C_Initialize -> event = ME_Initialize"),
+                  text("(attached[0] && (master != M_Ready || isComplete))", "attached[0]")), COMMANDS=2, FAULTS=0, LOSS=0),
+    Run("mutant_manifest_is_empty_in_ready", "in Ready a start asks for nobody, and an initialization begins without the critical node", PRESENT,
+        edit=text("(attached[0] && (master != M_Ready || isComplete))", "true"), COMMANDS=2, FAULTS=0, LOSS=0),
     Run("mutant_late_answers_are_forgiven", "late answers of a critical node stop nothing", BOUNDED,
         edit=text(":: isCritical(n) && bucket[n] == BucketLimit -> trip(n + 2)", ":: false -> trip(n + 2)"),
         COMMANDS=1, FAULTS=1, LOSS=0, PRESENCE=1),

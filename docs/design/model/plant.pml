@@ -345,6 +345,15 @@ inline startCycles()
 
 #define hasAnswered(n) (!awaited[n] || stage[n] >= (step == Collect -> OutputsGiven : (step == Start -> Running : IsInitialized)))
 
+/* NeededNodes::missingText(), as QPlcMasterNodePrivate asks before an initialization, before a start, and between both */
+#if MANIFEST
+#define isComplete (stage[0] >= IsInitialized)
+#define mayBegin (attached[0] && (master != M_Ready || isComplete))
+#else
+#define isComplete true
+#define mayBegin true
+#endif
+
 /* The step at hand is complete: InitializeSequence::advance(), StartSequence::advance(). */
 inline advance()
 {
@@ -360,8 +369,9 @@ inline advance()
     :: step == Distribute ->
         endStep();
         if
-        :: startAfterwards -> startNodes()
-        :: else -> event = ME_StatesInitialized
+        :: startAfterwards && isComplete -> startNodes()
+        :: startAfterwards && !isComplete -> event = ME_SequenceFailed
+        :: !startAfterwards -> event = ME_StatesInitialized
         fi
     :: step == Start ->
         if
@@ -548,15 +558,11 @@ inline admit(n)
     event = ME_NodeJoined
 }
 
-#if MANIFEST
-#define mayBegin attached[0]
-#else
-#define mayBegin true
-#endif
+#define startOfAll (mayBegin -> ME_Start : ME_StartIncomplete)
 #if ARMING
-#define startEvent (armed -> ME_Start : ME_StartUnarmed)
+#define startEvent (armed -> startOfAll : ME_StartUnarmed)
 #else
-#define startEvent ME_Start
+#define startEvent startOfAll
 #endif
 #if RESET_NAMES_FAULT
 #define mayReset(seen) (master != M_SafeStop || seen)
@@ -572,9 +578,9 @@ inline command(what, seen)
     fi;
     unheard = 0;
     if
-    :: what == C_Initialize && mayBegin -> event = ME_Initialize
+    :: what == C_Initialize -> event = (mayBegin -> ME_Initialize : ME_InitializeIncomplete)
     :: what == C_Arm -> event = ME_Arm
-    :: what == C_Start && mayBegin -> event = startEvent
+    :: what == C_Start -> event = startEvent
     :: what == C_Stop -> event = ME_Stop; stopDone = true
     :: what == C_SafeStop -> blame(0, false); event = ME_SafeStop
     :: what == C_Reset && mayReset(seen) ->

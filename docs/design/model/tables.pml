@@ -20,33 +20,35 @@
 #define M_Fault 6
 
 #define ME_Initialize 0
-#define ME_Arm 1
-#define ME_Start 2
-#define ME_StartUnarmed 3
-#define ME_Stop 4
-#define ME_SafeStop 5
-#define ME_Reset 6
-#define ME_ResetTooEarly 7
-#define ME_Listen 8
-#define ME_AddNode 9
-#define ME_End 10
-#define ME_StatesInitialized 11
-#define ME_CyclesStarted 12
-#define ME_SequenceFailed 13
-#define ME_ThreadFailed 14
-#define ME_ServerListens 15
-#define ME_ServerFailed 16
-#define ME_NodeJoined 17
-#define ME_ListenerJoined 18
-#define ME_NodeLeft 19
-#define ME_CriticalNodeLeft 20
-#define ME_NodeFailed 21
-#define ME_CriticalNodeFailed 22
-#define ME_WaitBegan 23
-#define ME_WaitEnded 24
-#define ME_CyclesTripped 25
-#define ME_CycleLimitReached 26
-#define ME_OverrunStop 27
+#define ME_InitializeIncomplete 1
+#define ME_Arm 2
+#define ME_Start 3
+#define ME_StartIncomplete 4
+#define ME_StartUnarmed 5
+#define ME_Stop 6
+#define ME_SafeStop 7
+#define ME_Reset 8
+#define ME_ResetTooEarly 9
+#define ME_Listen 10
+#define ME_AddNode 11
+#define ME_End 12
+#define ME_StatesInitialized 13
+#define ME_CyclesStarted 14
+#define ME_SequenceFailed 15
+#define ME_ThreadFailed 16
+#define ME_ServerListens 17
+#define ME_ServerFailed 18
+#define ME_NodeJoined 19
+#define ME_ListenerJoined 20
+#define ME_NodeLeft 21
+#define ME_CriticalNodeLeft 22
+#define ME_NodeFailed 23
+#define ME_CriticalNodeFailed 24
+#define ME_WaitBegan 25
+#define ME_WaitEnded 26
+#define ME_CyclesTripped 27
+#define ME_CycleLimitReached 28
+#define ME_OverrunStop 29
 
 #define MA_None 0
 #define MA_CollectOutputs 1
@@ -69,6 +71,10 @@ inline masterTable(state, event)
         :: state == M_Off || state == M_Ready -> go(M_Initializing, MA_CollectOutputs)
         :: state == M_Initializing || state == M_RealTime || state == M_WaitingForLateSlaves || state == M_SafeStop || state == M_Fault -> refuse()
         fi
+    :: event == ME_InitializeIncomplete ->
+        if
+        :: state == M_Off || state == M_Initializing || state == M_Ready || state == M_RealTime || state == M_WaitingForLateSlaves || state == M_SafeStop || state == M_Fault -> refuse()
+        fi
     :: event == ME_Arm ->
         if
         :: state == M_Off || state == M_Initializing || state == M_RealTime || state == M_WaitingForLateSlaves || state == M_SafeStop || state == M_Fault -> refuse()
@@ -79,6 +85,10 @@ inline masterTable(state, event)
         :: state == M_Off -> go(M_Initializing, MA_CollectThenStart)
         :: state == M_Initializing || state == M_RealTime || state == M_WaitingForLateSlaves || state == M_SafeStop || state == M_Fault -> refuse()
         :: state == M_Ready -> go(M_Initializing, MA_StartNodes)
+        fi
+    :: event == ME_StartIncomplete ->
+        if
+        :: state == M_Off || state == M_Initializing || state == M_Ready || state == M_RealTime || state == M_WaitingForLateSlaves || state == M_SafeStop || state == M_Fault -> refuse()
         fi
     :: event == ME_StartUnarmed ->
         if

@@ -18,6 +18,7 @@ struct MasterSettings
     QHostAddress multicastGroup;  // null: none
     QPlcRealTimeOptions realTime;
     QPlcProfile::Value profile = QPlcProfile::Automatic;
+    QPlcManifest manifest;
     double initializationTimeout = 2.0;  // [s]
     QString faultPlan;
     QPlcSecurity security;
@@ -69,6 +70,7 @@ void addMasterOptions(QPlcCoreApplication &application)
                            QStringLiteral("Wind speed that eta is related to [m/s]. 0: what the signals show."),
                            QStringLiteral("SPEED"), QStringLiteral("0")));
     application.addProfileOption();
+    application.addManifestOption();
     application.addOption(QCommandLineOption(
         QStringLiteral("initialization-timeout"),
         QStringLiteral("Longest wait for each answer of a node while it is initialized or started [s]."),
@@ -132,7 +134,8 @@ bool readMasterOptions(QPlcCoreApplication &application, MasterSettings *setting
         || !application.number(QStringLiteral("mean-wind"), 0.0, 100.0, &settings->run.nominalWindSpeed)
         || !application.number(QStringLiteral("initialization-timeout"), 0.001, 3600.0,
                                &settings->initializationTimeout)
-        || !application.readProfile(&settings->profile) || !application.readRealTimeOptions(&settings->realTime)
+        || !application.readProfile(&settings->profile) || !application.readManifest(&settings->manifest)
+        || !application.readRealTimeOptions(&settings->realTime)
         || !application.readSecurityOptions(QPlcSecurity::MasterSide, &settings->security)
         || !application.readFaultPlan(&settings->faultPlan))
         return false;
@@ -172,6 +175,8 @@ int main(int argc, char **argv)
     QPlcMasterNode master;
     master.setRealTimeOptions(settings.realTime);
     master.setProfile(settings.profile);
+    if (!settings.manifest.isEmpty())
+        master.setManifest(settings.manifest);
     master.setInitializationTimeout(std::chrono::milliseconds(qRound64(settings.initializationTimeout * 1e3)));
     master.setInsecureNetworkAllowed(application.isSet(QStringLiteral("insecure-network")));
     master.setSecurity(settings.security);

@@ -3,7 +3,7 @@
 
 #include "CanBus.h"
 #include "QPlcDriverSettings.h"
-#include "hardware/DurationText.h"
+#include "signals/DurationText.h"
 #include "signals/MessageText.h"
 
 #include <QtCore/QDir>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "GpioLineWords.h"
 
-#include "hardware/DurationText.h"
+#include "signals/DurationText.h"
 #include "signals/MessageText.h"
 
 #include <QtCore/QRegularExpression>

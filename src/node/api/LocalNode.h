@@ -40,7 +40,7 @@ public:
     const QPlcSlaveNode *object() const override;
     QPlcSlaveNode::State state() const override;
     QString codeFailed() override;
-    QString transportName() const override { return QStringLiteral("inprocess"); }
+    QString transportName() const override { return inProcess(); }
     QString address() const override { return {}; }
 
 private:

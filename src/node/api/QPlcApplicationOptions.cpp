@@ -303,6 +303,25 @@ bool QPlcApplicationOptions::readProfile(QPlcProfile::Value *profile)
     return false;
 }
 
+void QPlcApplicationOptions::addManifestOption()
+{
+    addOption(QCommandLineOption(
+        QStringLiteral("manifest"),
+        QStringLiteral("Manifest of the plant: the nodes without which it does not start. Without one, the critical "
+                       "nodes that have been there since the start of the master. 'qtplc manifest' writes one."),
+        QStringLiteral("FILE")));
+}
+
+bool QPlcApplicationOptions::readManifest(QPlcManifest *manifest)
+{
+    QVector<QPlcParseError> errors;
+    if (isSet(QStringLiteral("manifest")))
+        *manifest = QPlcManifest::fromIniFile(value(QStringLiteral("manifest")), &errors);
+    if (!errors.isEmpty())
+        usageError(QPlcParseError::toString(errors));
+    return errors.isEmpty();
+}
+
 void QPlcApplicationOptions::addFaultOptions()
 {
     addOption(

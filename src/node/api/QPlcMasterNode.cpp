@@ -193,6 +193,27 @@ QString QPlcMasterNode::profileReason() const
     return d->profile().reason;
 }
 
+bool QPlcMasterNode::setManifest(const QPlcManifest &manifest)
+{
+    if (serverPort() != 0 || (d->parts && !d->parts->registry.nodes().empty()))
+        return d->setError(StateError, QStringLiteral("the manifest can only be set before servers and nodes"));
+    if (manifest.isEmpty())
+        return d->setError(NodeError,
+                           QStringLiteral("the manifest names no node; read one with QPlcManifest::fromIniFile()"));
+    d->needed.setManifest(manifest);
+    return d->succeed();
+}
+
+QPlcManifest QPlcMasterNode::manifest() const
+{
+    return d->needed.manifest();
+}
+
+QString QPlcMasterNode::missingNodes() const
+{
+    return d->missingText();
+}
+
 bool QPlcMasterNode::setLongestWait(std::chrono::nanoseconds time)
 {
     const bool isGood = isLimit(*d, time, 0ns, QStringLiteral("a longest wait"));
@@ -317,7 +338,7 @@ QVector<QPlcNodeInfo> QPlcMasterNode::nodes() const
     if (!d->parts)
         return infos;
     for (const std::shared_ptr<qplc::NodeSlot> &slot : d->parts->registry.nodes()) {
-        if (const auto node = d->parts->nodes.of(slot.get()))  // else its cyclic channel is not there yet
+        if (const auto node = d->nodes.of(slot.get()))  // else its cyclic channel is not there yet
             infos.append(qplc::infoOf(*node));
     }
     return infos;

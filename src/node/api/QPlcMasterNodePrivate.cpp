@@ -65,6 +65,8 @@ qplc::ProfileFacts factsOf(const QPlcMasterNodePrivate &master)
 {
     qplc::ProfileFacts facts;
     facts.wanted = master.phaseSettings.profile;
+    facts.hasManifest = !master.needed.manifest().isEmpty();
+    facts.ofManifest = master.needed.manifest().profile;
     facts.isLockstep = master.phaseSettings.clock.isLockstep();
     if (!master.parts)
         return facts;
@@ -79,6 +81,16 @@ qplc::ProfileFacts factsOf(const QPlcMasterNodePrivate &master)
     return facts;
 }
 
+/// Of a node that has set no watchdog, in the next phase; 0: watchdogs only report.
+std::chrono::nanoseconds usualWatchdog(const QPlcMasterNodePrivate &master)
+{
+    const qplc::ProfileDefaults &defaults = qplc::ProfileDefaults::of(master.profile().value);
+    if (defaults.reaction == QPlcSlaveNode::WatchdogReaction::Report)
+        return {};
+    return std::max<std::chrono::nanoseconds>(defaults.watchdog,
+                                              defaults.watchdogPeriods * master.phaseSettings.interval);
+}
+
 }  // namespace
 
 QPlcMasterNodePrivate::QPlcMasterNodePrivate(QPlcMasterNode *master)
@@ -86,6 +98,7 @@ QPlcMasterNodePrivate::QPlcMasterNodePrivate(QPlcMasterNode *master)
     , phaseProfile(journal, [this] { return factsOf(*this); })
     , session(newSession())
     , uuid(qplc::newUuid())
+    , needed(nodes, [this] { return usualWatchdog(*this); })
 {
 }
 
@@ -95,25 +108,26 @@ QPlcMasterNodePrivate::Parts::Parts(QPlcMasterNodePrivate &master)
     , settings(registry, cycle, master.leaseBooks)
     , leases(master.leaseBooks, registry, cycle, settings)
     , ownSignals(registry, master.table, master.leaseBooks, settings)
-    , rosters(master.table, registry, nodes, master.leaseBooks)
+    , rosters(master.table, registry, master.nodes, master.leaseBooks)
     , phase(cycle, registry, rosters, ownSignals, master.phaseSettings, master.phaseProfile, master.journal)
     , server(
           registry, cycle.image(), master.hub, master.session, [&master] { return helloOf(master); },
-          [this, &master](const qplc::NodeDeclaration &node) {
-              return isPhaseUnderWay() ? master.phaseProfile.objectionTo(node) : qplc::Refusal();
+          [this, &master](qplc::NodeDeclaration *node, const Connection &from) {
+              const qplc::Refusal refusal = master.needed.judge(node, from.cyclicKind, from.provenIdentity());
+              return refusal.error.isEmpty() && isPhaseUnderWay() ? master.phaseProfile.objectionTo(*node) : refusal;
           },
           nullptr)
-    , faults(master, nodes, phase)
-    , reports(master, cycle, registry, nodes, phase, faults, master.phaseSettings, master.journal)
+    , faults(master, master.nodes, phase)
+    , reports(master, cycle, registry, master.nodes, phase, faults, master.phaseSettings, master.journal)
     , audit(server, master.journal, phase)
     , viewers(server, master.journal, settings, leases, phase, master.table)
     , values(cycle, registry, master.leaseBooks, ownSignals.statistics())
     , starts(master.phaseSettings, master.phaseProfile, phase, master.hub, master.session)
     , step(master.stepTimer)
     , joining(step, values, starts, phase, master.phaseProfile, master.journal)
-    , initialization(master, step, nodes, values, master.phaseProfile, joining)
-    , starting(master, step, nodes, starts, master.phaseProfile, phase, joining)
-    , stopping(master, step, nodes)
+    , initialization(master, step, master.nodes, values, master.phaseProfile, joining)
+    , starting(master, step, master.nodes, starts, master.phaseProfile, phase, joining)
+    , stopping(master, step, master.nodes)
 {
 }
 
@@ -127,9 +141,11 @@ void QPlcMasterNodePrivate::connectParts()
                      [this](Connection *gone, const QString &reason) { nodeLost(gone, reason); });
     QObject::connect(&server, &MasterServer::received, q,
                      [this](Connection *asker, const QPlcMessage &message) { receive(asker, message); });
-    QObject::connect(
-        &server, &MasterServer::refused, q,
-        [this](const QString &name, const QString &, const QString &reason) { Q_EMIT q->nodeRefused(name, reason); });
+    QObject::connect(&server, &MasterServer::refused, q,
+                     [this](const QString &name, const QString &, const QString &reason) {
+                         needed.tellFate(name, QStringLiteral("was refused: %1").arg(reason));
+                         Q_EMIT q->nodeRefused(name, reason);
+                     });
     QObject::connect(&parts->leases, &qplc::MasterLeases::changed, q, &QPlcMasterNode::leaseChanged);
     QObject::connect(&parts->reports, &qplc::MasterReports::realTimeViolated, q, &QPlcMasterNode::realTimeViolated);
     const qplc::InitializeSequence &initialization = parts->initialization;
@@ -137,7 +153,7 @@ void QPlcMasterNodePrivate::connectParts()
                      &QPlcMasterNode::statesInitialized);
     QObject::connect(&initialization, &qplc::InitializeSequence::done, q, [this] {
         if (m_startAfterwards) {
-            carryOut(Action::StartNodes, {});
+            startInitialized();
             return;
         }
         apply(Event::StatesInitialized);
@@ -198,7 +214,9 @@ bool QPlcMasterNodePrivate::startServer(const QPlcUnderlyingProtocol &protocol)
 {
     if (!prepare() || !apply(Event::Listen))
         return false;
-    const QString fault = serverSettings.security.errorString(QPlcSecurity::MasterSide);
+    QString fault = serverSettings.security.errorString(QPlcSecurity::MasterSide);
+    if (fault.isEmpty() && serverSettings.security.isNone())
+        fault = needed.identityFault();
     if (!fault.isEmpty()) {
         setError(QPlcMasterNode::ServerError, fault);
         apply(Event::ServerFailed, errorString);
@@ -244,13 +262,16 @@ bool QPlcMasterNodePrivate::addLocalNode(QPlcSlaveNode *node)
     if (!qplc::LocalNode::bind(program, table, &text))
         return setError(QPlcMasterNode::SignalError, text);
     qplc::Refusal refusal;
-    const std::shared_ptr<NodeSlot> slot = parts->registry.admit(qplc::LocalNode::declarationOf(program), &refusal);
+    qplc::NodeDeclaration declaration = qplc::LocalNode::declarationOf(program);
+    refusal = needed.judge(&declaration, qplc::NodeSession::inProcess(), QString());
+    const std::shared_ptr<NodeSlot> slot
+        = refusal.error.isEmpty() ? parts->registry.admit(declaration, &refusal) : nullptr;
     if (!slot)
         return setError(QPlcMasterNode::NodeError, refusal.text);
     slot->prepare(parts->cycle.image(), session);
     parts->settings.leaveToWriters();
     const auto local = std::make_shared<qplc::LocalNode>(program, slot);
-    parts->nodes.add(local);
+    nodes.add(local);
     local->join(q);
     Q_EMIT q->nodeRegistered(slot->name);
     return succeed();
@@ -261,11 +282,13 @@ void QPlcMasterNodePrivate::removeLocalNode(QPlcSlaveNode *node)
     if (!parts)
         return;
     apply(Event::End, QStringLiteral("node '%1' is removed").arg(node->name()));
-    const std::shared_ptr<qplc::NodeSession> local = parts->nodes.of(node);
+    const std::shared_ptr<qplc::NodeSession> local = nodes.of(node);
     if (!local)
         return;
-    parts->nodes.remove(*local);
+    nodes.remove(*local);
     parts->registry.remove(local->slot());
+    needed.forget(node->name());
+    needed.tellFate(node->name(), QStringLiteral("was removed"));
     local->leave();
 }
 
@@ -274,7 +297,7 @@ void QPlcMasterNodePrivate::nodeAttached(Connection *connection)
     const QString name = connection->name;
     const auto node = std::make_shared<qplc::RemoteNode>(parts->server, *connection);
     connection->session = node;
-    parts->nodes.add(node);
+    nodes.add(node);
     parts->settings.leaveToWriters();
     journal.tell(JournalEvent::Info, JournalEvent::Node, name,
                  QStringLiteral("node %1 registered over %2").arg(name, connection->cyclicKind));
@@ -302,9 +325,10 @@ void QPlcMasterNodePrivate::nodeLost(Connection *connection, const QString &reas
     else
         journal.tell(JournalEvent::Info, JournalEvent::Node, slot->name,
                      QStringLiteral("node %1 has left: %2").arg(slot->name, reason));
+    needed.tellFate(slot->name, QStringLiteral("has left: %1").arg(reason));
     const bool wasAwaited = node && parts->step.leave(*node);
     if (node) {
-        parts->nodes.remove(*node);
+        nodes.remove(*node);
         node->leave();
     }
     parts->phase.nodeLeft(node.get(), *slot);
@@ -335,7 +359,8 @@ void QPlcMasterNodePrivate::answerRequester(bool done, const QString &text)
 
 bool QPlcMasterNodePrivate::initializeAllStates()
 {
-    return prepare() && succeed() && apply(Event::Initialize) && error == QPlcMasterNode::NoError;
+    return prepare() && succeed() && apply(missingText().isEmpty() ? Event::Initialize : Event::InitializeIncomplete)
+        && error == QPlcMasterNode::NoError;
 }
 
 bool QPlcMasterNodePrivate::startRealTime(quint64 cycles, quint64 token)
@@ -347,9 +372,8 @@ bool QPlcMasterNodePrivate::startRealTime(quint64 cycles, quint64 token)
         return setError(QPlcMasterNode::RealTimeError, optionError);
     succeed();
     const quint64 cyclesOfThisPhase = std::exchange(phaseSettings.cyclesWanted, cycles);
-    if (apply(arming.permitsStart(token, qplc::monotonicNow(), serverSettings.isArmingRequired())
-                  ? Event::Start
-                  : Event::StartUnarmed))
+    const bool isArmed = arming.permitsStart(token, qplc::monotonicNow(), serverSettings.isArmingRequired());
+    if (apply(!isArmed ? Event::StartUnarmed : missingText().isEmpty() ? Event::Start : Event::StartIncomplete))
         return error == QPlcMasterNode::NoError;
     phaseSettings.cyclesWanted = cyclesOfThisPhase;
     return false;
@@ -369,6 +393,12 @@ bool QPlcMasterNodePrivate::reset()
 void QPlcMasterNodePrivate::stop(const QString &reason)
 {
     apply(Event::Stop, m_state == QPlcMasterNode::Initializing ? QStringLiteral("stopped: %1").arg(reason) : reason);
+}
+
+QString QPlcMasterNodePrivate::missingText() const
+{
+    return needed.missingText(m_state == QPlcMasterNode::Ready ? qplc::NodeSession::Initialized
+                                                               : qplc::NodeSession::Idle);
 }
 
 qplc::ChosenProfile QPlcMasterNodePrivate::profile() const
@@ -400,6 +430,8 @@ void QPlcMasterNodePrivate::tellRefusal(Event event, const char *text)
     sentence.replace(QStringLiteral("%1"), stateReason);
     if (event == Event::ResetTooEarly)
         sentence.replace(QStringLiteral("%2"), parts->faults.remainingCause());
+    else
+        sentence.replace(QStringLiteral("%2"), missingText());
     setError(QPlcMasterNode::StateError,
              QStringLiteral("%1 is not possible in state %2: %3")
                  .arg(QLatin1String(qplc::requestName(event)), qplc::stateText(QLatin1String(qplc::nameOf(m_state))),
@@ -428,6 +460,17 @@ void QPlcMasterNodePrivate::enter(QPlcMasterNode::State newState, const QString 
     if (!isTransient || parts->reports.isWaitTold())
         journal.stateChanged(reason.isEmpty() ? words : QStringLiteral("%1: %2").arg(words, reason), isTransient);
     Q_EMIT q->stateChanged(newState);
+}
+
+/// A critical node that came during the initialization has no values yet: the others must not start
+/// without it.
+void QPlcMasterNodePrivate::startInitialized()
+{
+    const QString missing = needed.missingText(qplc::NodeSession::Initialized);
+    if (missing.isEmpty())
+        carryOut(Action::StartNodes, {});
+    else
+        apply(Event::SequenceFailed, missing);
 }
 
 /// What has to be done before the next state is there.
@@ -468,7 +511,7 @@ void QPlcMasterNodePrivate::carryOut(Action action, const QString &reason)
         if (!parts->phase.takeEnd())
             break;
         parts->stopping.stop(reason);
-        for (const auto &node : parts->nodes.all())
+        for (const auto &node : nodes.all())
             journal.nodeReturned(node->name());
         parts->reports.takeLast();
         Q_EMIT q->realTimeHasStopped();

@@ -9,6 +9,7 @@
 #include "node/session/MasterBeacon.h"
 #include "node/session/MasterReports.h"
 #include "node/session/MasterViewers.h"
+#include "node/session/NeededNodes.h"
 #include "node/session/ServerSettings.h"
 #include "node/session/StartSequence.h"
 #include "node/session/StopSequence.h"
@@ -36,6 +37,8 @@ public:
     bool arm();
     bool reset();
     void stop(const QString &reason);
+    /// Which nodes an initialization or a start needs now, and why they are missing; empty: none.
+    QString missingText() const;
     /// Of the phase at hand, else of the next one.
     qplc::ChosenProfile profile() const;
 
@@ -62,7 +65,6 @@ public:
         qplc::MasterWrites settings;
         qplc::MasterLeases leases;
         qplc::OwnSignals ownSignals;
-        qplc::NodeSessions nodes;
         qplc::RosterMaker rosters;
         qplc::RealTimePhase phase;
         qplc::MasterServer server;
@@ -98,6 +100,8 @@ public:
     const QString uuid;
     qplc::CyclicHub hub;
     qplc::MasterBeacon beacon;
+    qplc::NodeSessions nodes;
+    qplc::NeededNodes needed;
     std::unique_ptr<Parts> parts;  // null: there is no table yet
 
 private:
@@ -105,6 +109,7 @@ private:
     class Requests;
 
     void connectParts();
+    void startInitialized();
     void announce(const qplc::messages::StatesInitialized &news) override;
     void nodeAttached(Connection *connection);
     void nodeLost(Connection *connection, const QString &reason);

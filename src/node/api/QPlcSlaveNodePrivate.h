@@ -105,6 +105,7 @@ private:
     void greet();
     void proceedAfterHello();
     bool chooseTable(QPlcSignalTable *table);
+    std::optional<std::chrono::nanoseconds> ownWatchdog() const;
     void registerAtMaster();
     void proceedAfterRegistered(const qplc::messages::Registered &registered);
     bool hasSealedFrames() const;

@@ -119,10 +119,22 @@ bool QPlcSlaveNodePrivate::beginLink(messages::Register *request)
     return hasBegun;
 }
 
+/// The watchdog that the program has set, if it leads to the safe state; 0: it does not.
+std::optional<std::chrono::nanoseconds> QPlcSlaveNodePrivate::ownWatchdog() const
+{
+    constexpr std::chrono::nanoseconds none{0};
+    if (watchdogReaction == QPlcSlaveNode::WatchdogReaction::Report)
+        return none;
+    if (!watchdog || *watchdog == none)
+        return watchdog;
+    return std::max<std::chrono::nanoseconds>(*watchdog, watchdogPeriods * control.master().period);
+}
+
 void QPlcSlaveNodePrivate::registerAtMaster()
 {
     messages::Register request = qplc::NodeDeclaration::fromRuntime(runtime).toMessage();
     request.uuid = m_uuid;
+    request.watchdog = ownWatchdog();
     request.cyclic = master.kindName();
     request.faults = faultPlan;
     if (beginLink(&request))

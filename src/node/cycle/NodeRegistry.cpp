@@ -40,16 +40,23 @@ bool NodeDeclaration::fromMessage(const messages::Register &message, NodeDeclara
     declaration->twoPhase = message.twoPhase;
     declaration->quality = message.quality;
     declaration->outputQuality = message.outputQuality;
+    declaration->watchdog = message.watchdog;
     declaration->inputs = message.inputs;
     declaration->outputs = message.outputs;
-    if (declaration->name.isEmpty() || declaration->name.size() > LongestName)
-        *error = QStringLiteral("a node needs a name of 1 ... %1 characters").arg(LongestName);
-    else if (declaration->name != printable(declaration->name))
-        *error = QStringLiteral("the name '%1' has characters that cannot be shown").arg(printable(declaration->name));
-    else if (!knownPolicy)
+    *error = nameError(declaration->name);
+    if (error->isEmpty() && !knownPolicy)
         *error = QStringLiteral("unknown policy '%1'").arg(message.policy);
     declaration->policy = QPlcSlaveNode::RealTimeViolationPolicy(policy);
     return error->isEmpty();
+}
+
+QString NodeDeclaration::nameError(const QString &name)
+{
+    if (name.isEmpty() || name.size() > LongestName)
+        return QStringLiteral("a node needs a name of 1 ... %1 characters").arg(LongestName);
+    if (name != printable(name))
+        return QStringLiteral("the name '%1' has characters that cannot be shown").arg(printable(name));
+    return {};
 }
 
 messages::Register NodeDeclaration::toMessage() const
@@ -166,6 +173,7 @@ std::shared_ptr<NodeSlot> NodeRegistry::admit(const NodeDeclaration &declaration
     slot->listener = declaration.listener;
     slot->critical = declaration.critical;
     slot->hardware = declaration.hardware;
+    slot->watchdog = declaration.watchdog.value_or(std::chrono::nanoseconds(0));
     slot->interval = declaration.interval;
     slot->twoPhase = declaration.twoPhase;
     for (const messages::DeclaredSignal &input : declaration.inputs)

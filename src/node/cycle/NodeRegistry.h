@@ -18,6 +18,9 @@ struct NodeDeclaration : NodeTraits
 {
     std::vector<messages::DeclaredSignal> inputs;
     std::vector<messages::DeclaredSignal> outputs;
+    /// That the node has set itself, and that leads to its safe state. 0: it has none; not set: the
+    /// one of the profile.
+    std::optional<std::chrono::nanoseconds> watchdog;
 
     /// Whether the cycle has an order because of this node.
     bool isOrdered() const
@@ -28,7 +31,9 @@ struct NodeDeclaration : NodeTraits
     }
     /// \return false, with the reason in \a error, when \a message names nothing that there is
     static bool fromMessage(const messages::Register &message, NodeDeclaration *declaration, QString *error);
-    /// The contrary, without what belongs to one connection: uuid, cyclic, faults.
+    /// Why a node cannot have this name; empty: it can.
+    static QString nameError(const QString &name);
+    /// The contrary, without what the node adds itself: uuid, cyclic, faults, watchdog.
     messages::Register toMessage() const;
     /// What the node of \a runtime says. \pre it is bound
     static NodeDeclaration fromRuntime(const NodeRuntime &runtime);

@@ -36,6 +36,7 @@ struct NodeSlot
     bool listener = false;
     bool critical = false;                     // the plant must not go on without it
     bool hardware = false;                     // drives real devices
+    std::chrono::nanoseconds watchdog{0};      // that it has set itself; 0: none
     ListeningInterval interval;                // longer than a cycle for listeners alone
     const TransportKind *transport = nullptr;  // null for a local node
     bool twoPhase = false;                     // the answer to cycle k holds the outputs of cycle k + 1

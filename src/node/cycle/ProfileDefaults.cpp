@@ -21,6 +21,10 @@ ChosenProfile chooseProfile(const ProfileFacts &facts)
 {
     if (facts.wanted != QPlcProfile::Automatic)
         return {facts.wanted, QStringLiteral("set at the master")};
+    if (facts.ofManifest != QPlcProfile::Automatic)
+        return {facts.ofManifest, QStringLiteral("set by the manifest")};
+    if (facts.hasManifest)
+        return {QPlcProfile::Plant, QStringLiteral("the plant has a manifest")};
     if (!facts.hardwareNode.isEmpty())
         return {QPlcProfile::Plant, QStringLiteral("node '%1' drives real devices").arg(facts.hardwareNode)};
     if (facts.networkAddress.isEmpty())

@@ -41,6 +41,8 @@ struct ChosenProfile
 struct ProfileFacts
 {
     QPlcProfile::Value wanted = QPlcProfile::Automatic;
+    bool hasManifest = false;
+    QPlcProfile::Value ofManifest = QPlcProfile::Automatic;
     QString hardwareNode;    // name of a registered node with real devices; empty: there is none
     QString networkAddress;  // that the master listens on; empty: loopback, or none
     bool isLockstep = false;

@@ -52,6 +52,8 @@ struct MasterConnection
 
     /// Whether it is TLS, and the peer proven: secrets may travel over it.
     bool isSecured() const { return peer.isSecured && socket->isSecured(); }
+    /// Empty: none.
+    QString provenIdentity() const { return peer.isSecured ? peer.identity : QString(); }
     QString shownName() const { return qplc::shownName(peer, name); }
     bool isNode() const { return slot != nullptr; }
     /// Whether a message of \a kind is the answer that the master waits for: there are as many of

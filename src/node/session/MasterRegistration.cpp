@@ -111,17 +111,17 @@ void MasterServer::open(MasterConnection *connection, const messages::Register &
     QString error;
     connection->cyclicKind = registration.cyclic;
     connection->transport = TransportRegistry::instance().named(connection->cyclicKind);
-    if (!NodeDeclaration::fromMessage(registration, &declaration, &error))
+    if (!NodeDeclaration::fromMessage(registration, &declaration, &error)) {
         refusal = {messages::errorWord::malformedMessage, error};
-    else if (Refusal channel = channelRefusal(*connection, newcomer(*connection, declaration, registration));
-             !channel.error.isEmpty())
-        refusal = channel;
-    else {
-        replace(connection, declaration.name);
+    } else {
         declaration.hardware = connection->isHardware;
-        refusal = m_objection(declaration);
+        refusal = m_objection(&declaration, *connection);
         if (refusal.error.isEmpty())
+            refusal = channelRefusal(*connection, newcomer(*connection, declaration, registration));
+        if (refusal.error.isEmpty()) {
+            replace(connection, declaration.name);
             connection->slot = m_registry.admit(declaration, &refusal);
+        }
     }
     if (!connection->slot) {
         connection->name = declaration.name.isEmpty() ? connection->name : nameOf(declaration.name);

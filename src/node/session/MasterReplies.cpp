@@ -63,6 +63,8 @@ QPlcNodeInfo infoOf(const NodeSession &node)
     info.faultPlan = slot.faultPlan;
     info.transport = node.transportName();
     info.address = node.address();
+    info.watchdog = slot.watchdog;
+    info.identity = node.identity();
     return info;
 }
 
@@ -92,6 +94,7 @@ messages::State stateReply(const QPlcMasterNode &master, const ChosenProfile &pr
     reply.state = messageStateOf(master.state());
     reply.reason = master.stateReason();
     reply.remains = master.causeThatRemains();
+    reply.missing = master.missingNodes();
     reply.armed = master.isArmed();
     reply.armingRequired = master.isArmingRequired();
     reply.cycle = master.cycle();

@@ -31,7 +31,8 @@ bool isUrgent(Message::Kind kind)
 
 MasterServer::MasterServer(NodeRegistry &registry, const ProcessImage &image, CyclicHub &hub, quint64 session,
                            std::function<messages::MasterHello()> hello,
-                           std::function<Refusal(const NodeDeclaration &)> objection, QObject *parent)
+                           std::function<Refusal(NodeDeclaration *, const MasterConnection &)> objection,
+                           QObject *parent)
     : QObject(parent)
     , m_registry(registry)
     , m_image(image)

@@ -25,10 +25,10 @@ public:
     /// \param master what greetings need to know of the master: its Hello without what depends on
     ///         the client
     /// \param objection why the master does not take a node now that the registry would take; no
-    ///         error: it takes it
+    ///         error: it takes it, and may have changed what the node says of itself
     MasterServer(NodeRegistry &registry, const ProcessImage &image, CyclicHub &hub, quint64 session,
                  std::function<messages::MasterHello()> hello,
-                 std::function<Refusal(const NodeDeclaration &)> objection, QObject *parent);
+                 std::function<Refusal(NodeDeclaration *, const MasterConnection &)> objection, QObject *parent);
     ~MasterServer() override;
 
     /// Takes effect with listen().
@@ -105,7 +105,7 @@ private:
     CyclicHub &m_hub;
     const quint64 m_session;
     std::function<messages::MasterHello()> m_hello;
-    std::function<Refusal(const NodeDeclaration &)> m_objection;
+    std::function<Refusal(NodeDeclaration *, const MasterConnection &)> m_objection;
     const QString m_tableText;  // for who has another one
     MasterDoor m_door;
     LocalName m_name;

@@ -31,6 +31,9 @@ public:
         Starting,  ///< start() is under way
         Running    ///< answers cycles
     };
+    /// Transport of a node in the process of the master.
+    static QString inProcess() { return QStringLiteral("inprocess"); }
+
     enum class Answers : quint8 { Later, AtOnce };
 
     /// What a node says to a request.
@@ -94,6 +97,8 @@ public:
     virtual QString transportName() const = 0;
     /// Empty: in this process.
     virtual QString address() const = 0;
+    /// That it has proven; empty: none.
+    virtual QString identity() const { return {}; }
 
 private:
     const std::shared_ptr<NodeSlot> m_slot;

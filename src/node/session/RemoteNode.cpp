@@ -92,4 +92,9 @@ QString RemoteNode::address() const
     return m_connection ? m_connection->socket->peerName() : QString();
 }
 
+QString RemoteNode::identity() const
+{
+    return m_connection ? m_connection->provenIdentity() : QString();
+}
+
 }  // namespace qplc

@@ -29,6 +29,7 @@ public:
     QString codeFailed() override { return QStringLiteral("its code failed"); }
     QString transportName() const override;
     QString address() const override;
+    QString identity() const override;
 
 private:
     messages::RealTimeStopped stopMessage(const QString &reason) const;

@@ -19,6 +19,7 @@ constexpr const char *underWay = "an initialization or a start is under way; wai
 constexpr const char *cyclesRun = "cycles run; stop them first";
 constexpr const char *notInitialized = "not initialized; initialize first";
 constexpr const char *faultLatched = "fault latched: %1; reset first";
+constexpr const char *missing = "%2";  // names and remedy
 constexpr const char *nothingLatched = "nothing is latched";
 
 constexpr R::Rule rules[] = {
@@ -26,6 +27,11 @@ constexpr R::Rule rules[] = {
     R::on(E::Initialize, R::in(S::Initializing), R::refuse(underWay)),
     R::on(E::Initialize, cycling, R::refuse(cyclesRun)),
     R::on(E::Initialize, latched, R::refuse(faultLatched)),
+
+    R::on(E::InitializeIncomplete, calm, R::refuse(missing)),
+    R::on(E::InitializeIncomplete, R::in(S::Initializing), R::refuse(underWay)),
+    R::on(E::InitializeIncomplete, cycling, R::refuse(cyclesRun)),
+    R::on(E::InitializeIncomplete, latched, R::refuse(faultLatched)),
 
     R::on(E::Arm, R::in(S::Ready), R::stay(A::IssueToken)),
     R::on(E::Arm, R::in(S::Off), R::refuse(notInitialized)),
@@ -38,6 +44,11 @@ constexpr R::Rule rules[] = {
     R::on(E::Start, R::in(S::Initializing), R::refuse(underWay)),
     R::on(E::Start, cycling, R::refuse(cyclesRun)),
     R::on(E::Start, latched, R::refuse(faultLatched)),
+
+    R::on(E::StartIncomplete, calm, R::refuse(missing)),
+    R::on(E::StartIncomplete, R::in(S::Initializing), R::refuse(underWay)),
+    R::on(E::StartIncomplete, cycling, R::refuse(cyclesRun)),
+    R::on(E::StartIncomplete, latched, R::refuse(faultLatched)),
 
     R::on(E::StartUnarmed, R::in(S::Off), R::refuse("not initialized; initialize, arm, then start")),
     R::on(E::StartUnarmed, R::in(S::Ready), R::refuse("not armed in the last 5 s; arm, then start")),
@@ -155,8 +166,10 @@ const char *nameOf(QPlcMasterNode::State state)
 const char *nameOf(MasterEvent event)
 {
     static constexpr const char *names[MasterEventCount] = {"Initialize",
+                                                            "InitializeIncomplete",
                                                             "Arm",
                                                             "Start",
+                                                            "StartIncomplete",
                                                             "StartUnarmed",
                                                             "Stop",
                                                             "SafeStop",
@@ -189,10 +202,12 @@ const char *requestName(MasterEvent event)
 {
     switch (event) {
     case E::Initialize:
+    case E::InitializeIncomplete:
         return "initialization";
     case E::Arm:
         return "arming";
     case E::Start:
+    case E::StartIncomplete:
     case E::StartUnarmed:
         return "a start";
     case E::Reset:

@@ -10,9 +10,11 @@ namespace qplc {
 enum class MasterEvent : std::uint8_t {
     // asked for by people and programs
     Initialize,
+    InitializeIncomplete,  ///< an initialization while a node is missing
     Arm,
     Start,
-    StartUnarmed,  ///< a start, where arming is required and the token is missing, wrong or too old
+    StartIncomplete,  ///< a start while a node is missing
+    StartUnarmed,     ///< a start, where arming is required and the token is missing, wrong or too old
     Stop,
     SafeStop,
     Reset,

@@ -25,7 +25,8 @@ struct DeclaredSignal
 struct Register
 {
     static constexpr QPlcMessage::Kind kind = QPlcMessage::Register;
-    static constexpr int longestInterval = 1'000'000;  // [cycles]
+    static constexpr int longestInterval = 1'000'000;   // [cycles]
+    static constexpr double longestWatchdog = 86400e9;  // [ns]
     QString name;
     QString uuid;
     QString policy;
@@ -37,7 +38,8 @@ struct Register
     bool twoPhase = false;
     bool quality = false;
     bool outputQuality = false;
-    QString cyclic;  // name of the transport
+    std::optional<std::chrono::nanoseconds> watchdog;  // its own, that leads to its safe state; 0: it has none
+    QString cyclic;                                    // name of the transport
     QString faults;
     QJsonObject transport;  // with the fields that the transport adds
 
@@ -51,6 +53,7 @@ struct Register
         field("twoPhase", &Register::twoPhase, Presence::WhenSet),
         field("quality", &Register::quality, Presence::WhenSet),
         field("outputQuality", &Register::outputQuality, Presence::WhenSet),
+        field("watchdog", &Register::watchdog, Presence::Checked, Range{0, longestWatchdog}),
         field("cyclic", &Register::cyclic, Presence::Required), field("faults", &Register::faults, Presence::WhenSet),
         rest(&Register::transport));
 };

@@ -23,7 +23,8 @@ struct Description<QPlcNodeInfo>
         field("state", &N::state), field("every", &N::every), field("policy", &N::policy),
         field("transport", &N::transport), field("address", &N::address), field("lateAnswers", &N::lateAnswers),
         field("duplicates", &N::duplicates), field("rejected", &N::rejected), field("forged", &N::forged),
-        field("resent", &N::resent), field("faults", &N::faultPlan, Presence::WhenSet));
+        field("resent", &N::resent), field("faults", &N::faultPlan, Presence::WhenSet),
+        field("watchdog", &N::watchdog, Presence::WhenSet), field("identity", &N::identity, Presence::WhenSet));
 };
 
 /// A Stop that ended the phase that ran last.
@@ -56,6 +57,7 @@ struct State
     MasterState state = MasterState::Unknown;
     QString reason;     // why it is SafeStop or Fault
     QString remains;    // what still keeps Reset from being done
+    QString missing;    // nodes that an initialization and a start need
     quint64 latch = 0;  // number of the newest safe stop or fault of this session, from 1; 0: there was none
     bool armed = false;
     bool armingRequired = false;
@@ -74,9 +76,10 @@ struct State
 
     static constexpr auto fields = std::make_tuple(
         field("state", &State::state), field("reason", &State::reason), field("remains", &State::remains),
-        field("latch", &State::latch), field("armed", &State::armed), field("armingRequired", &State::armingRequired),
-        field("cycle", &State::cycle), field("period", &State::period), field("clock", &State::clock),
-        field("scale", &State::scale), field("profile", &State::profile), field("profileReason", &State::profileReason),
+        field("missing", &State::missing, Presence::WhenSet), field("latch", &State::latch),
+        field("armed", &State::armed), field("armingRequired", &State::armingRequired), field("cycle", &State::cycle),
+        field("period", &State::period), field("clock", &State::clock), field("scale", &State::scale),
+        field("profile", &State::profile), field("profileReason", &State::profileReason),
         field("session", &State::session), field("nodes", &State::nodes), field("counters", &State::counters),
         field("digest", &State::digest), field("stopped", &State::stopped, Presence::WhenSet),
         field("faults", &State::faults, Presence::WhenSet));

@@ -29,6 +29,7 @@ constexpr QLatin1String signalHasWriter = word("SignalHasWriter");
 constexpr QLatin1String writerNotNamed = word("WriterNotNamed");
 constexpr QLatin1String leaseHeld = word("LeaseHeld");
 constexpr QLatin1String profileMismatch = word("ProfileMismatch");
+constexpr QLatin1String manifestMismatch = word("ManifestMismatch");
 constexpr QLatin1String tooManyNodes = word("TooManyNodes");
 constexpr QLatin1String algebraicLoop = word("AlgebraicLoop");
 constexpr QLatin1String wrongState = word("WrongState");
@@ -41,9 +42,10 @@ constexpr QLatin1String denied = word("Denied");
 constexpr QLatin1String timedOut = word("TimedOut");
 constexpr QLatin1String tooMuch = word("TooMuch");
 constexpr QLatin1String all[]
-    = {versionMismatch, nameInUse,       unknownSignal,  typeMismatch,  unitMismatch, signalHasWriter,  writerNotNamed,
-       leaseHeld,       profileMismatch, tooManyNodes,   algebraicLoop, wrongState,   malformedMessage, invalidValue,
-       nodeError,       tooLong,         securityNeeded, denied,        timedOut,     tooMuch};
+    = {versionMismatch, nameInUse,        unknownSignal,   typeMismatch,     unitMismatch, signalHasWriter,
+       writerNotNamed,  leaseHeld,        profileMismatch, manifestMismatch, tooManyNodes, algebraicLoop,
+       wrongState,      malformedMessage, invalidValue,    nodeError,        tooLong,      securityNeeded,
+       denied,          timedOut,         tooMuch};
 /// Of a client itself: the connection ended before there was an answer. Never sent.
 constexpr QLatin1String lost = word("Lost");
 }  // namespace errorWord

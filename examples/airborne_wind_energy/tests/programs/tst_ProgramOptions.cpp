@@ -56,7 +56,7 @@ void tst_ProgramOptions::helpNamesEveryOption_data()
     row("awe_autopilot", QByteArray(node) + autopilot);
     row("awe_master",
         QByteArray("--listen --port --multicast --insecure-network --beacon --start-with --mean-wind --plant --winch "
-                   "--priority --cpu "
+                   "--manifest --priority --cpu "
                    "--lock-memory --enable-fault-injection --faults")
             + run);
     row("awe_sil", QByteArray("--processes --transport --same-cycle --controls") + run + model + autopilot);

@@ -20,4 +20,19 @@ bool durationFromText(const QString &text, double *nanoseconds)
     return match.hasMatch() && isNumber && std::isfinite(*nanoseconds);
 }
 
+QString durationText(std::chrono::nanoseconds duration)
+{
+    const auto count = duration.count();
+    static constexpr struct
+    {
+        qint64 size;
+        const char *unit;
+    } units[]{{1'000'000'000, "s"}, {1'000'000, "ms"}, {1'000, "us"}, {1, "ns"}};
+    for (const auto &unit : units) {
+        if (count % unit.size == 0)
+            return QStringLiteral("%1 %2").arg(count / unit.size).arg(QLatin1String(unit.unit));
+    }
+    return {};
+}
+
 }  // namespace qplc
