@@ -6,6 +6,7 @@
 #include "FaultBanner.h"
 #include "InsecureNotice.h"
 #include "LongPress.h"
+#include "MissingNotice.h"
 #include "PanelKeysFirst.h"
 #include "QPlcSignalTree.h"
 #include "SignalPlaceActions.h"
@@ -82,6 +83,7 @@ void QPlcControlCenter::Private::makeCentre()
     column->addWidget(stopQuestion);
     column->addWidget(connectStrip);
     column->addWidget(new InsecureNotice(&context, centre));
+    column->addWidget(new MissingNotice(&context, centre));
     stopNotice = new StopNotice(&context, centre);
     column->addWidget(stopNotice);
     column->addWidget(hint);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "../../common/Waiting.h"
 #include "WindowFixtures.h"
+#include "gui/window/MissingNotice.h"
 
 using namespace qplc;
 
@@ -13,6 +14,7 @@ private Q_SLOTS:
     void aSafeStopIsShownWithItsReasonUntilItIsReset_data();
     void aSafeStopIsShownWithItsReasonUntilItIsReset();
     void bannerNamesPendingConditionsAndDisablesReset();
+    void missingNodeIsNamedUntilItIsBack();
     void nextButtonStepsThroughInitializeArmAndStart();
     void safeStopOfAnUnselectedPlantIsShown();
 
@@ -80,6 +82,26 @@ void tst_LatchBanner::bannerNamesPendingConditionsAndDisablesReset()
     QTRY_VERIFY_WITH_TIMEOUT(banner->resetButton()->isEnabled(), patience);
     fixture.press(Qt::Key_F7);
     QVERIFY(master.waitForState(QPlcMasterNode::Off));
+    critical.disconnectFromMaster();
+}
+
+void tst_LatchBanner::missingNodeIsNamedUntilItIsBack()
+{
+    RunningMaster master;
+    EchoNode critical;
+    critical.setCritical(true);
+    QVERIFY(critical.connectToMasterAndWaitForConnected(master.protocol(QStringLiteral("udp"))));
+    WindowFixture fixture;
+    fixture.window.connectToMaster(master.address(), QStringLiteral("kite"));
+    QTRY_VERIFY_WITH_TIMEOUT(fixture.window.isConnected(QStringLiteral("kite")), patience);
+    auto *notice = fixture.part<MissingNotice>();
+    QCOMPARE(notice->text(), QString());
+    critical.disconnectFromMaster();
+    QTRY_VERIFY_WITH_TIMEOUT(notice->text().startsWith(QLatin1String("kite: critical node 'Echo' (has left: ")),
+                             patience);
+    QVERIFY(notice->isVisible());
+    QVERIFY(critical.connectToMasterAndWaitForConnected(master.protocol(QStringLiteral("udp"))));
+    QTRY_COMPARE_WITH_TIMEOUT(notice->text(), QString(), patience);
     critical.disconnectFromMaster();
 }
 
