@@ -3,7 +3,7 @@
 import struct
 import sys
 
-from wire import HEADER, INPUTS, OUTPUTS, GROUP_INPUTS, FAULT, PART, RESENT, SAFE_STOP, SESSION, Channel, check_aead, crc32c, fnv1a64, hex64, layout
+from wire import HEADER, INPUTS, OUTPUTS, GROUP_INPUTS, FAULT, PART, RESENT, SAFE_STOP, SESSION, Channel, check_aead, crc32c, fnv1a64, hex64, layout, short_time
 
 
 def make_layouts():
@@ -71,9 +71,9 @@ def make_refused(channel, payload):
         ("one byte long", good + b"\0", "WrongLength"),
         ("two frames in one datagram", good + good, "WrongLength"),
         ("the length of part 1 in part 0", sealed(good[:HEADER] + long_part[HEADER:-4]), "WrongLength"),
-        ("part number 0", sealed(good[:1] + bytes([PART]) + good[2:8] + struct.pack("<I", 0) + good[12:-4]), "WrongLength"),
-        ("a part number beyond the last", sealed(long_part[:8] + struct.pack("<I", 2) + long_part[12:-4]), "WrongLength"),
-        ("part number 2^32 - 1", sealed(long_part[:8] + b"\xff" * 4 + long_part[12:-4]), "WrongLength"),
+        ("part number 0", sealed(good[:1] + bytes([PART]) + good[2:8] + struct.pack("<H", 0) + good[10:-4]), "WrongLength"),
+        ("a part number beyond the last", sealed(long_part[:8] + struct.pack("<H", 2) + long_part[10:-4]), "WrongLength"),
+        ("part number 2^16 - 1", sealed(long_part[:8] + b"\xff" * 2 + long_part[10:-4]), "WrongLength"),
         ("version 0", channel.part(0, 42, 1000, payload, version=0), "WrongVersion"),
         ("version 1", channel.part(0, 42, 1000, payload, version=1), "WrongVersion"),
         ("the kind of the other direction", Channel(OUTPUTS, channel.node, channel.layout_hash, channel.borders)
@@ -144,6 +144,16 @@ def make_sequences(single, double):
     ]
 
 
+def make_times():
+    """What a time in `info` is on the wire, and what it is behind it."""
+    def row(time):
+        wire = short_time(time)
+        exponent, fraction = wire >> 11, wire & 0x7FF
+        return {"time": time, "hex": struct.pack("<H", wire).hex(), "read": (0x800 | fraction) << exponent - 1 if exponent else fraction}
+
+    return [row(time) for time in (0, 1, 2047, 2048, 2049, 4095, 4096, 4097, 4098, 8191, 8192, 25001, 1000000, 123456789, 2**31 - 1, 2**31, 2**32 - 1)]
+
+
 def make_cyclic():
     reals = layout("", [("bodyControlPitchSpeed", "Real32"), ("bodyControlYawSpeed", "Real32"), ("tetherSpeed", "Real32")])
     layout_hash = int(reals["hash"], 16)
@@ -151,20 +161,20 @@ def make_cyclic():
     example = Channel(INPUTS, 7, layout_hash, [0, 12])
     answer = Channel(OUTPUTS, 7, fnv1a64(b"tetherForce:Real64@0\n"), [0, 8])
     split = Channel(INPUTS, 2, 0x1122334455667788, [0, 8, 13])
-    largest = Channel(OUTPUTS, 65535, 0xFFFFFFFFFFFFFFFF, [0, 1452, 2904, 2920], 0xFFFFFFFFFFFFFFFF)
+    largest = Channel(OUTPUTS, 65535, 0xFFFFFFFFFFFFFFFF, [0, 1456, 2912, 2920], 0xFFFFFFFFFFFFFFFF)
     largest_payload = bytes((i * 7 + i // 256) & 0xFF for i in range(2920))
     frames = [
         good_frame("the worked example", example, 42, 1000, payload),
         good_frame("the same, resent", example, 42, 1000, payload, RESENT),
         good_frame("three cycles were not sent before", example, 46, 1000, payload, before=3),
-        good_frame("the answer, after that to cycle 39", answer, 42, 25000, struct.pack("<d", 1234.5), before=39),
-        good_frame("the first answer of a phase", answer, 42, 25000, struct.pack("<d", 1234.5), before=42),
-        good_frame("the answer of a node with a fault", answer, 43, 0, struct.pack("<d", 1234.5), FAULT, before=42),
+        good_frame("the answer, after that to cycle 39", answer, 42, 25000, struct.pack("<d", 1234.5), before=3),
+        good_frame("the first answer of a phase", answer, 42, 25000, struct.pack("<d", 1234.5)),
+        good_frame("the answer of a node with a fault", answer, 43, 0, struct.pack("<d", 1234.5), FAULT, before=1),
         good_frame("the master stops safely", example, 44, 1000, bytes(12), SAFE_STOP),
         good_frame("the answer of a node in its safe state", answer, 44, 0, bytes(8), SAFE_STOP),
         good_frame("the answer of a node in its safe state, with a fault", answer, 45, 0, bytes(8), SAFE_STOP | FAULT),
         good_frame("no signal", Channel(OUTPUTS, 1, fnv1a64(b""), [0, 0], 1), 0, 0, b""),
-        good_frame("largest numbers", example, 0xFFFFFFFF, 0xFFFFFFFF, b"\xff" * 12, 0x7F, before=0xFFFFFFFF),
+        good_frame("largest numbers", example, 0xFFFFFFFF, 0xFFF00000, b"\xff" * 12, 0x7F, before=0xFFFF),
         good_frame("one byte", Channel(INPUTS, 3, 5, [0, 1]), 1, 2, b"\x5a"),
         good_frame("two parts", split, 9, 77, bytes(range(13)), RESENT),
         good_frame("three datagrams of the largest size", largest, 1, 5, largest_payload),
@@ -172,7 +182,7 @@ def make_cyclic():
                    Channel(GROUP_INPUTS, 0, fnv1a64(b"7:12@2\n9:4@14\n"), [0, 18]), 42, 1000, struct.pack("<H", 1) + payload + struct.pack("<f", 8.0)),
     ]
     refused = make_refused(Channel(INPUTS, 7, layout_hash, [0, 12, 20]), payload + bytes(8))
-    return {"frames": frames, "refused": refused,
+    return {"frames": frames, "refused": refused, "times": make_times(),
             "sequences": make_sequences(Channel(INPUTS, 7, layout_hash, [0, 4]), split)}
 
 
@@ -203,7 +213,7 @@ def make_sealed_refused(channel, payload):
         ("the cycle changed on the way", good[:4] + bytes([43]) + good[5:], "Forged"),
         ("a flag set on the way", good[:1] + bytes([RESENT]) + good[2:], "Forged"),
         ("the time changed on the way", good[:8] + bytes([good[8] ^ 1]) + good[9:], "Forged"),
-        ("the number of cycles before it changed on the way", good[:12] + bytes([good[12] ^ 1]) + good[13:], "Forged"),
+        ("the number of cycles before it changed on the way", good[:10] + bytes([good[10] ^ 1]) + good[11:], "Forged"),
         ("a bit of the payload", good[:HEADER] + bytes([good[HEADER] ^ 1]) + good[HEADER + 1:], "Forged"),
         ("a bit of the tag", good[:-1] + bytes([good[-1] ^ 0x80]), "Forged"),
         ("a tag of zeros", good[:-16] + bytes(16), "Forged"),
@@ -221,14 +231,14 @@ def make_sealed():
     example = Channel(INPUTS, 7, layout_hash, [0, 12], key=key)
     answer = Channel(OUTPUTS, 7, fnv1a64(b"tetherForce:Real64@0\n"), [0, 8], key=bytes(range(0xC0, 0xE0)))
     split = Channel(INPUTS, 2, 0x1122334455667788, [0, 8, 13], key=key)
-    largest = Channel(OUTPUTS, 65535, 0xFFFFFFFFFFFFFFFF, [0, 1440, 2880, 2900], 0xFFFFFFFFFFFFFFFF, key=bytes([0xFF]) * 32)
+    largest = Channel(OUTPUTS, 65535, 0xFFFFFFFFFFFFFFFF, [0, 1444, 2888, 2900], 0xFFFFFFFFFFFFFFFF, key=bytes([0xFF]) * 32)
     largest_payload = bytes((i * 7 + i // 256) & 0xFF for i in range(2900))
     frames = [
         good_frame("the worked example, sealed", example, 42, 1000, payload),
         good_frame("the same, resent", example, 42, 1000, payload, RESENT),
         good_frame("the next cycle", example, 43, 1000, payload),
-        good_frame("the answer, after that to cycle 39", answer, 42, 25000, struct.pack("<d", 1234.5), before=39),
-        good_frame("the answer of a node with a fault", answer, 43, 0, struct.pack("<d", 1234.5), FAULT, before=42),
+        good_frame("the answer, after that to cycle 39", answer, 42, 25000, struct.pack("<d", 1234.5), before=3),
+        good_frame("the answer of a node with a fault", answer, 43, 0, struct.pack("<d", 1234.5), FAULT, before=1),
         good_frame("no signal", Channel(OUTPUTS, 1, fnv1a64(b""), [0, 0], 1, key=key), 0, 0, b""),
         good_frame("two parts", split, 9, 77, bytes(range(13)), RESENT),
         good_frame("three datagrams of the largest size", largest, 1, 5, largest_payload),

@@ -5,7 +5,7 @@ import struct
 INPUTS, OUTPUTS, GROUP_INPUTS = 1, 2, 3
 RESENT, FAULT, SAFE_STOP, PART = 0x01, 0x02, 0x04, 0x80
 VERSION = 2
-HEADER = 16
+HEADER = 12
 SESSION = 0x8F3A61C2D4E5B097
 
 
@@ -98,7 +98,7 @@ def size_of(type_name):
     return SIZES[type_name]
 
 
-def layout(name, fields, table=None, maximum=1452, qualities=False):
+def layout(name, fields, table=None, maximum=1456, qualities=False):
     """fields: (signal, canonical type); table: type names as written in the signal table, where they differ; qualities: they follow the values."""
     table = table or {}
     offset, lines, placed, borders = 0, [], [], [0]
@@ -124,6 +124,12 @@ def layout(name, fields, table=None, maximum=1452, qualities=False):
 
 # ---- cyclic frames --------------------------------------------------------------------------------------------------
 
+def short_time(time):
+    """5 bits exponent, 11 bits fraction; what does not fit is cut."""
+    exponent = max(0, time.bit_length() - 11)
+    return exponent << 11 | (time >> exponent - 1) & 0x7FF if exponent else time
+
+
 class Channel:
     """One direction of one node."""
 
@@ -134,7 +140,8 @@ class Channel:
     def part(self, number, cycle, info, payload, flags=0, version=VERSION, before=0):
         if number > 0:
             flags, info = flags | PART, number
-        body = struct.pack("<BBHIII", version << 4 | self.kind, flags, self.session & 0xFFFF, cycle & 0xFFFFFFFF, info, before & 0xFFFFFFFF)
+        body = struct.pack("<BBHIHH", version << 4 | self.kind, flags, self.session & 0xFFFF, cycle & 0xFFFFFFFF,
+                           info if flags & PART else short_time(info), before)
         if self.key:
             nonce = struct.pack("<QH", cycle ^ self.session, number ^ self.node) + body[:2]
             return body + aead(self.key, nonce, payload[self.borders[number]:self.borders[number + 1]], body)

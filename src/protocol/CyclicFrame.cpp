@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
 #include <utility>
 
 namespace qplc {
@@ -17,7 +18,9 @@ constexpr std::size_t FlagsAt = 1;
 constexpr std::size_t SessionAt = 2;
 constexpr std::size_t CycleAt = 4;
 constexpr std::size_t InfoAt = 8;
-constexpr std::size_t BeforeAt = 12;
+constexpr std::size_t BeforeAt = 10;
+
+constexpr unsigned FractionBits = 11;  // of a time
 
 constexpr std::size_t PartsPerWord = 64;
 
@@ -70,6 +73,23 @@ std::size_t partOf(const FrameHeader &header)
 
 }  // namespace
 
+std::uint16_t shortTime(std::uint32_t time) noexcept
+{
+    unsigned exponent = 0;
+    while (time >> exponent >= 2U << FractionBits)
+        ++exponent;
+    return std::uint16_t((exponent << FractionBits) + (time >> exponent));  // a leading one adds 1 to the exponent
+}
+
+std::uint32_t timeOfShort(std::uint16_t wire) noexcept
+{
+    constexpr std::uint32_t one = 1U << FractionBits;
+    const std::uint32_t fraction = wire & (one - 1);
+    const unsigned exponent = wire >> FractionBits;
+    const std::uint64_t time = exponent == 0 ? fraction : std::uint64_t(one + fraction) << (exponent - 1);
+    return std::uint32_t(std::min<std::uint64_t>(time, std::numeric_limits<std::uint32_t>::max()));
+}
+
 FrameEncoder::FrameEncoder(FrameKind kind, const FrameSeed &seed, std::vector<std::uint32_t> partBorders,
                            const SealKey *key)
     : m_kind(kind)
@@ -85,15 +105,12 @@ bool FrameEncoder::encode(std::size_t part, FrameHeader header, const char *payl
     const std::size_t begin = m_borders[part];
     const std::size_t size = m_borders[part + 1] - begin;
     header.flags = std::uint8_t(part == 0 ? header.flags & ~PartFlag : header.flags | PartFlag);
-    if (part > 0)
-        header.info = std::uint32_t(part);
-
     char head[CyclicHeaderSize];
     head[0] = versionAndKind(m_kind);
     storeLittle(header.flags, head + FlagsAt);
     storeLittle(m_session, head + SessionAt);
     storeLittle(std::uint32_t(header.cycle), head + CycleAt);
-    storeLittle(header.info, head + InfoAt);
+    storeLittle(part == 0 ? shortTime(header.info) : std::uint16_t(part), head + InfoAt);
     storeLittle(header.before, head + BeforeAt);
     if (m_seal)
         return m_seal->seal(header.cycle, std::uint16_t(part), head, payload + begin, size, target);
@@ -146,8 +163,9 @@ FrameHeader FrameDecoder::readHeader(const char *bytes) const noexcept
     header.kind = m_kind;
     header.flags = loadLittle<std::uint8_t>(bytes + FlagsAt);
     header.cycle = extendCycle(loadLittle<std::uint32_t>(bytes + CycleAt), m_newest);
-    header.info = loadLittle<std::uint32_t>(bytes + InfoAt);
-    header.before = loadLittle<std::uint32_t>(bytes + BeforeAt);
+    const auto info = loadLittle<std::uint16_t>(bytes + InfoAt);
+    header.info = (header.flags & PartFlag) != 0 ? info : timeOfShort(info);
+    header.before = loadLittle<std::uint16_t>(bytes + BeforeAt);
     return header;
 }
 
@@ -169,7 +187,7 @@ std::size_t FrameDecoder::claimedSize(const char *header) const noexcept
 {
     std::size_t part = 0;
     if ((loadLittle<std::uint8_t>(header + FlagsAt) & PartFlag) != 0) {
-        part = loadLittle<std::uint32_t>(header + InfoAt);
+        part = loadLittle<std::uint16_t>(header + InfoAt);
         if (part == 0)
             return 0;
     }

@@ -12,13 +12,13 @@
 namespace qplc {
 
 /// The frames that carry values in every cycle: little-endian,
-///   u8 version << 4 | kind, u8 flags, u16 session, u32 cycle, u32 info, u32 before, payload, u32
+///   u8 version << 4 | kind, u8 flags, u16 session, u32 cycle, u16 info, u16 before, payload, u32
 ///   CRC-32C
-/// = 20 bytes + payload. The CRC is seeded with session id, node id and layout hash. A sealed frame
-/// has a sealed payload, and a tag of 16 bytes in the place of the CRC: 32 bytes + payload. See
+/// = 16 bytes + payload. The CRC is seeded with session id, node id and layout hash. A sealed frame
+/// has a sealed payload, and a tag of 16 bytes in the place of the CRC: 28 bytes + payload. See
 /// docs/protocol.md.
 constexpr std::uint8_t CyclicVersion = 2;
-constexpr std::size_t CyclicHeaderSize = 16;
+constexpr std::size_t CyclicHeaderSize = 12;
 constexpr std::size_t CyclicOverhead = CyclicHeaderSize + sizeof(std::uint32_t);
 /// Longest frame: an Ethernet MTU without IPv4 and UDP headers.
 constexpr std::size_t MaximumCyclicFrame = 1472;
@@ -50,14 +50,13 @@ struct FrameHeader
     FrameKind kind = FrameKind::Inputs;
     std::uint8_t flags = 0;
     std::uint64_t cycle = 0;  ///< the wire carries its low 32 bits
-    /// Inputs: lateness of the cycle [ns]; outputs: execution time [ns]; saturated. Parts > 0:
-    /// number of the part.
+    /// Inputs: lateness of the cycle [ns]; outputs: execution time [ns]; saturated. The wire
+    /// carries the 12 highest bits. Parts > 0: number of the part.
     std::uint32_t info = 0;
     /// Inputs: how many cycles before this one, from the first one of the node on, the master has
-    /// not sent to it, modulo 2^32. Outputs: low 32 bits of the number of the cycle that the node
-    /// computed before this one in this phase. In its first answer of a phase, a node gives the
-    /// number of this cycle.
-    std::uint32_t before = 0;
+    /// not sent to it, modulo 2^16. Outputs: how many cycles before this one is the one that the
+    /// node computed before, at most 2^16 - 1; 0 in its first answer of a phase.
+    std::uint16_t before = 0;
 };
 
 /// What binds a frame to one session, one node and one layout; mixed into the CRC, never sent.
@@ -82,6 +81,11 @@ enum class FrameStatus : std::uint8_t {
     Forged,
     Early  ///< good, but of a cycle that is not due yet
 };
+
+/// How the wire carries a time of FrameHeader::info: 5 bits exponent, 11 bits fraction.
+std::uint16_t shortTime(std::uint32_t time) noexcept;
+/// The time that the wire carries as \a wire: up to 1/2048 shorter than what it was made of.
+std::uint32_t timeOfShort(std::uint16_t wire) noexcept;
 
 /// The 64-bit number of the cycle whose low 32 bits are \a wire, nearest to \a reference.
 constexpr std::uint64_t extendCycle(std::uint32_t wire, std::uint64_t reference) noexcept

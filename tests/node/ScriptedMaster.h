@@ -55,7 +55,7 @@ public:
     QVector<QPlcMessage> messages;  // of all connections
     QVector<Answer> answers;
     quint64 first = 100;  // number on the wire of cycle 0
-    quint32 before = 0;   // of its frames: cycles that it has not sent
+    quint16 before = 0;   // of its frames: cycles that it has not sent
 
     /// Where frames travel one by one.
     QPlcUnderlyingProtocol place() const { return over(datagrams()); }

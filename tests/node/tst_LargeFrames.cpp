@@ -170,10 +170,10 @@ void tst_LargeFrames::payloadsAroundTheFrameLimitTravelUnchanged_data()
     QTest::addColumn<int>("second");  // [byte] of the second signal; the first one has 1440
     QTest::addColumn<int>("third");   // [byte]
     QTest::addColumn<int>("parts");
-    QTest::newRow("1451 bytes") << 8 << 3 << 1;
-    QTest::newRow("1452 bytes") << 8 << 4 << 1;
-    QTest::newRow("1453 bytes") << 8 << 5 << 2;
-    QTest::newRow("1440 and 1452 bytes") << 12 << 1440 << 2;
+    QTest::newRow("1455 bytes") << 8 << 7 << 1;
+    QTest::newRow("1456 bytes") << 8 << 8 << 1;
+    QTest::newRow("1457 bytes") << 8 << 9 << 2;
+    QTest::newRow("1440 and 1456 bytes") << 16 << 1440 << 2;
     QTest::newRow("1440, 1440 and 17 bytes") << 1440 << 17 << 3;
 }
 

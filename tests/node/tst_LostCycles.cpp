@@ -50,9 +50,9 @@ QJsonObject endOf(const ScriptedMaster &master, qint64 cycle)
             {"before", double(master.before)}};
 }
 
-quint32 beforeOf(const QByteArray &frame)
+int beforeOf(const QByteArray &frame)
 {
-    return qplc::loadLittle<quint32>(frame.constData() + 12);
+    return qplc::loadLittle<quint16>(frame.constData() + 10);
 }
 
 /// Lets \a listener, for which nobody waits, take part in the initialization.
@@ -95,7 +95,12 @@ void tst_LostCycles::lostCyclesAndThoseNotSentAreToldApart()
     QVERIFY(master.waitForAnswers(4));
     QCOMPARE(node.counters().missed, quint64(4));
     QCOMPARE(node.counters().skipped, quint64(3));
-    QCOMPARE(missed, (QVector<quint64>{0, 2, 2, 3}));  // for a model both are time that has passed
+    master.before = 2;
+    master.request(11 + 65535);  // 65535 were not sent: the count of 16 bits begins again
+    QVERIFY(master.waitForAnswers(5));
+    QCOMPARE(node.counters().missed, quint64(4));
+    QCOMPARE(node.counters().skipped, quint64(3 + 65535));
+    QCOMPARE(missed, (QVector<quint64>{0, 2, 2, 3, 65535}));  // for a model both are time that has passed
     node.disconnectFromMaster();
 }
 
@@ -228,16 +233,22 @@ void tst_LostCycles::answersTellTheCycleComputedBefore()
     QVERIFY(master.beginWith(node));
     master.request(2);
     QVERIFY(master.waitForAnswers(1));
-    QCOMPARE(quint64(beforeOf(master.answers.at(0).bytes)), master.first + 2);  // the first one of the phase
+    QCOMPARE(beforeOf(master.answers.at(0).bytes), 0);  // the first one of the phase
     master.request(5);
     QVERIFY(master.waitForAnswers(2));
-    QCOMPARE(quint64(beforeOf(master.answers.at(1).bytes)), master.first + 2);
+    QCOMPARE(beforeOf(master.answers.at(1).bytes), 3);
     master.request(5, qplc::ResentFlag);
     QVERIFY(master.waitForAnswers(3));
-    QCOMPARE(quint64(beforeOf(master.answers.at(2).bytes)), master.first + 2);
+    QCOMPARE(beforeOf(master.answers.at(2).bytes), 3);
     master.request(6);
     QVERIFY(master.waitForAnswers(4));
-    QCOMPARE(quint64(beforeOf(master.answers.at(3).bytes)), master.first + 5);
+    QCOMPARE(beforeOf(master.answers.at(3).bytes), 1);
+    master.request(6 + 65535);
+    QVERIFY(master.waitForAnswers(5));
+    QCOMPARE(beforeOf(master.answers.at(4).bytes), 65535);
+    master.request(6 + 65535 + 65536);
+    QVERIFY(master.waitForAnswers(6));
+    QCOMPARE(beforeOf(master.answers.at(5).bytes), 65535);  // or more
     node.disconnectFromMaster();
 }
 
@@ -256,7 +267,7 @@ void tst_LostCycles::theMasterTellsHowManyCyclesItHasNotSent()
     QVERIFY(node.waitForMessage(QPlcMessage::RealTimeStopped));
     QVERIFY(node.waitForRequests(3));
     for (int i = 0; i < 3; ++i)
-        QCOMPARE(beforeOf(node.requests.at(i).bytes), quint32(2 * i));
+        QCOMPARE(beforeOf(node.requests.at(i).bytes), 2 * i);
 }
 
 void tst_LostCycles::theMasterTellsTheLastCycleItHasSent()
@@ -319,7 +330,7 @@ void tst_LostCycles::aListenerHearsEveryCycleOfAPhase()
     QCOMPARE(listener.messages.last().hex64("lastCycle"), zero + cycles - 1);
     for (int i = 0; i < cycles; ++i) {
         QCOMPARE(listener.frames.at(i).cycle, zero + quint64(i));
-        QCOMPARE(beforeOf(listener.frames.at(i).bytes), quint32(0));
+        QCOMPARE(beforeOf(listener.frames.at(i).bytes), 0);
     }
 }
 

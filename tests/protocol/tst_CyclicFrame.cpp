@@ -2,6 +2,7 @@
 #include "protocol/CyclicFrame.h"
 
 #include "Vectors.h"
+#include "protocol/LittleEndian.h"
 
 #include <QtTest/QtTest>
 
@@ -27,6 +28,7 @@ private Q_SLOTS:
     void sizeOfAFrameIsReadFromItsHeader_data() { goodFrames(); }
     void sizeOfAFrameIsReadFromItsHeader();
     void headerOfAnotherChannelHasNoSize();
+    void aTimeHasTwelveBitsOnTheWire();
     void defaultDecoderRefusesEverything();
     void encoderSetsItsOwnHeaderFields();
     void randomBytesAreNeverAccepted();
@@ -61,7 +63,7 @@ static FrameHeader headerOf(const QJsonObject &row)
     header.flags = std::uint8_t(row[QStringLiteral("flags")].toInt());
     header.cycle = std::uint64_t(row[QStringLiteral("cycle")].toDouble());
     header.info = std::uint32_t(row[QStringLiteral("info")].toDouble());
-    header.before = std::uint32_t(row[QStringLiteral("before")].toDouble());
+    header.before = std::uint16_t(row[QStringLiteral("before")].toDouble());
     return header;
 }
 
@@ -212,7 +214,7 @@ void tst_CyclicFrame::headerOfAnotherChannelHasNoSize()
     const FrameDecoder decoder(FrameKind::Inputs, seed, {0, 8, 12});
     QByteArray frame
         = vectors::encode(FrameEncoder(FrameKind::Inputs, seed, {0, 8, 12}), 1, FrameHeader(), QByteArray(12, 'x'));
-    QCOMPARE(decoder.frameSize(frame.constData()), std::size_t(24));
+    QCOMPARE(decoder.frameSize(frame.constData()), std::size_t(20));
 
     for (const int bit : {0, 1, 4, 7, 16, 31}) {  // kind, version, session
         QByteArray strange = frame;
@@ -223,6 +225,21 @@ void tst_CyclicFrame::headerOfAnotherChannelHasNoSize()
         frame[8] = char(part);
         QCOMPARE(decoder.frameSize(frame.constData()), std::size_t(0));
     }
+}
+
+void tst_CyclicFrame::aTimeHasTwelveBitsOnTheWire()
+{
+    const QJsonArray rows = vectors::file(QStringLiteral("cyclic_frames.json"))[QStringLiteral("times")].toArray();
+    QVERIFY(!rows.isEmpty());
+    for (const QJsonValue row : rows) {
+        const QByteArray hex = vectors::bytes(row[QStringLiteral("hex")]);
+        const auto wire = loadLittle<std::uint16_t>(hex.constData());
+        const double time = row[QStringLiteral("time")].toDouble();
+        QCOMPARE(int(shortTime(std::uint32_t(time))), int(wire));
+        QCOMPARE(double(timeOfShort(wire)), row[QStringLiteral("read")].toDouble());
+        QVERIFY(timeOfShort(wire) <= time && time - timeOfShort(wire) <= time / 2048);
+    }
+    QCOMPARE(timeOfShort(0xFFFF), std::numeric_limits<std::uint32_t>::max());  // longer than a program can hold
 }
 
 void tst_CyclicFrame::defaultDecoderRefusesEverything()

@@ -178,7 +178,7 @@ std::optional<qplc::SentCycles::Last> QPlcSlaveNodePrivate::lastSent(const Told 
     const auto *stop = std::get_if<messages::RealTimeStopped>(&told);
     if (!stop || !stop->lastCycle)
         return {};
-    return qplc::SentCycles::Last{*stop->lastCycle, std::uint32_t(stop->before)};
+    return qplc::SentCycles::Last{*stop->lastCycle, std::uint16_t(stop->before)};
 }
 
 /// \param last  what the master has sent; none: it is not known

@@ -18,7 +18,7 @@ public:
     struct Last
     {
         std::uint64_t cycle = 0;   // number on the wire
-        std::uint32_t before = 0;  // as in its frames
+        std::uint16_t before = 0;  // as in its frames
     };
 
     /// A phase begins: \a first is the first cycle that may be sent (number on the wire).
@@ -27,8 +27,8 @@ public:
         m_first = first;
         m_count = 0;
     }
-    /// How many cycles before \a cycle were not sent, modulo 2^32.
-    std::uint32_t unsentBefore(std::uint64_t cycle) const noexcept { return std::uint32_t(cycle - m_first - m_count); }
+    /// How many cycles before \a cycle were not sent, modulo 2^16.
+    std::uint16_t unsentBefore(std::uint64_t cycle) const noexcept { return std::uint16_t(cycle - m_first - m_count); }
     /// The frames with \a header were given to the transport.
     void note(const FrameHeader &header) noexcept
     {

@@ -260,10 +260,10 @@ void SlaveCycle::skipToNewest(std::int64_t now) noexcept
 
 /// How many cycles between the last one that was computed and \a cycle were sent to the node.
 /// \param before  as in the frames of \a cycle. A number that cannot be counts as none
-std::uint64_t SlaveCycle::lostBefore(std::uint64_t cycle, std::uint32_t before) const noexcept
+std::uint64_t SlaveCycle::lostBefore(std::uint64_t cycle, std::uint16_t before) const noexcept
 {
     const std::uint64_t between = m_computedAny ? cycle - m_lastCycle - 1 : cycle - m_phase.firstCycle;
-    return between - std::min<std::uint64_t>(between, before - m_lastBefore);
+    return between - std::min<std::uint64_t>(between, std::uint16_t(before - m_lastBefore));
 }
 
 /// What was sent until the end and is there, or comes now: the master has sent its last frame.
@@ -298,7 +298,7 @@ void SlaveCycle::countMissing() noexcept
 void SlaveCycle::compute() noexcept
 {
     const std::uint64_t cycle = m_decoder.cycle();
-    const std::uint32_t before = m_decoder.header().before;
+    const std::uint16_t before = m_decoder.header().before;
     const std::uint64_t lost = lostBefore(cycle, before);
     const std::uint64_t missed
         = m_computedAny ? m_phase.interval.missed(m_lastCycle - m_phase.cycleZero, cycle - m_phase.cycleZero) : lost;
@@ -314,7 +314,8 @@ void SlaveCycle::compute() noexcept
     if (!computed && !m_faulted)
         m_reports.post({CycleEvent::NodeFaulted, m_identity.node, 0, cycle - m_phase.cycleZero});
     m_faulted = !computed;
-    m_answer.before = std::uint32_t(m_computedAny ? m_lastCycle : cycle);
+    m_answer.before = std::uint16_t(
+        m_computedAny ? std::min<std::uint64_t>(cycle - m_lastCycle, std::numeric_limits<std::uint16_t>::max()) : 0);
     m_computedAny = true;
     m_lastCycle = cycle;
     m_lastBefore = before;

@@ -96,7 +96,7 @@ private:
     FrameStatus decode(const char *frame, std::size_t size) noexcept;
     void skipToNewest(std::int64_t now) noexcept;
     void compute() noexcept;
-    std::uint64_t lostBefore(std::uint64_t cycle, std::uint32_t before) const noexcept;
+    std::uint64_t lostBefore(std::uint64_t cycle, std::uint16_t before) const noexcept;
     void takeRest() noexcept;
     void countMissing() noexcept;
     bool isRepeatedRequest() const noexcept;
@@ -129,7 +129,7 @@ private:
     bool m_computedAny = false;
     bool m_faulted = false;
     std::uint64_t m_lastCycle = 0;   // computed last
-    std::uint32_t m_lastBefore = 0;  // as in the frames of that cycle
+    std::uint16_t m_lastBefore = 0;  // as in the frames of that cycle
     Watchdog m_watchdog;             // hears new frames; not in lockstep
     std::optional<InterruptibleWaits> m_waits;
 

@@ -129,7 +129,7 @@ struct RealTimeStopped
 
     static constexpr auto fields = std::make_tuple(
         field("reason", &RealTimeStopped::reason), field("lastCycle", &RealTimeStopped::lastCycle, Presence::WhenSet),
-        field("before", &RealTimeStopped::before, Presence::WhenSet, {0, 4294967295.0}));
+        field("before", &RealTimeStopped::before, Presence::WhenSet, {0, 65535}));
 };
 
 struct SafeStop
