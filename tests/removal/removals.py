@@ -322,7 +322,7 @@ REMOVALS = [
             "if (d.isLatched() && reset.latch != d.latch)", "if (d.isLatched() && reset.latch > d.latch)",
             "tst_SafeStop", "aResetEndsOnlyTheSafeStopThatItsSenderHasSeen"),
     Removal("loss: cycles that were not sent are none", "src/node/cycle/SlaveCycle.cpp",
-            "std::min<std::uint64_t>(between, before - m_lastBefore)", "0",
+            "std::min<std::uint64_t>(between, std::uint16_t(before - m_lastBefore))", "0",
             "tst_LostCycles", "lostCyclesAndThoseNotSentAreToldApart"),
     Removal("loss before the first frame", "src/node/cycle/SlaveCycle.cpp",
             ": cycle - m_phase.firstCycle;", ": 0;",
