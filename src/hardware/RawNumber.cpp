@@ -18,11 +18,6 @@ To sameBits(From from) noexcept
     return to;
 }
 
-quint64 lowBits(int count) noexcept
-{
-    return count >= 64 ? ~quint64(0) : (quint64(1) << count) - 1;
-}
-
 // A double that is no float stays finite: the largest float is the nearest one.
 quint64 nearestFloat(double value, RawNumber::Fit *fit) noexcept
 {
@@ -43,7 +38,7 @@ quint64 nearestInteger(double value, double lowest, double beyond, RawNumber::Fi
     if (*fit == RawNumber::Fits)
         return rounded < 0.0 ? static_cast<quint64>(static_cast<qint64>(rounded)) : static_cast<quint64>(rounded);
     // The largest one may be no double: its bits are those below that of the number beyond it.
-    return rounded < 0.0 ? static_cast<quint64>(static_cast<qint64>(lowest)) : lowBits(std::ilogb(beyond));
+    return rounded < 0.0 ? static_cast<quint64>(static_cast<qint64>(lowest)) : RawNumber::lowBits(std::ilogb(beyond));
 }
 
 }  // namespace

@@ -18,6 +18,11 @@ struct RawNumber
     Kind kind = Unsigned;
     int bits = 16;  // 1 ... 64; of a float 32 or 64
 
+    /// The lowest \a count of 64 bits are 1, the others 0. \a count: 0 ... 64
+    static constexpr quint64 lowBits(int count) noexcept
+    {
+        return count >= 64 ? ~quint64(0) : (quint64(1) << count) - 1;
+    }
     /// The number of a device for \a value = number * factor + offset; finite if the value is.
     static double scaled(double value, double factor, double offset) noexcept;
 

@@ -20,7 +20,7 @@ QString place(const FoundMaster &master)
     return master.isLocal ? QStringLiteral("this computer") : QStringLiteral("network");
 }
 
-void print(const QVector<FoundMaster> &masters)
+void printMasters(const QVector<FoundMaster> &masters)
 {
     TextTable table;
     for (const char *title : {"address", "name", "where", "security", "table"})
@@ -32,7 +32,7 @@ void print(const QVector<FoundMaster> &masters)
     table.print();
 }
 
-void printJson(const QVector<FoundMaster> &masters)
+void printMastersAsJson(const QVector<FoundMaster> &masters)
 {
     QJsonArray array;
     for (const FoundMaster &master : masters)
@@ -41,7 +41,7 @@ void printJson(const QVector<FoundMaster> &masters)
                                  {QStringLiteral("local"), master.isLocal},
                                  {QStringLiteral("secured"), master.isSecured},
                                  {QStringLiteral("tableHash"), QPlcMessage::fromHex64(master.tableHash)}});
-    tools::printJson(QJsonDocument(array));
+    printJson(QJsonDocument(array));
 }
 
 /// Until the application quits. A person sees how long that takes.
@@ -76,9 +76,9 @@ int findMasters(const CommandCall &call)
     finder.look();
     const QVector<FoundMaster> masters = finder.masters();
     if (call.isJson())
-        printJson(masters);
+        printMastersAsJson(masters);
     else if (!masters.isEmpty())
-        print(masters);
+        printMasters(masters);
     if (!masters.isEmpty())
         return QPlcCoreApplication::Success;
     QPlcCoreApplication::printError(QStringLiteral("found no master in %1 s; start one, or give one on the network the "

@@ -11,7 +11,7 @@ namespace qplc {
 
 namespace {
 
-const QString onKey = QStringLiteral("on");
+const QString savesKey = QStringLiteral("on");
 const QString folderKey = QStringLiteral("folder");
 const QString mostKey = QStringLiteral("most");
 const QString begins = QStringLiteral("event_");
@@ -30,7 +30,7 @@ QJsonObject EventFileSettings::toJson() const
 {
     QJsonObject object;
     if (isOn)
-        object.insert(onKey, true);
+        object.insert(savesKey, true);
     if (!folder.isEmpty())
         object.insert(folderKey, folder);
     if (most != UsualMost)
@@ -40,7 +40,7 @@ QJsonObject EventFileSettings::toJson() const
 
 EventFileSettings EventFileSettings::fromJson(const QJsonObject &object)
 {
-    return {object.value(onKey).toBool(), object.value(folderKey).toString(),
+    return {object.value(savesKey).toBool(), object.value(folderKey).toString(),
             std::clamp(object.value(mostKey).toInt(UsualMost), 1, LargestMost)};
 }
 

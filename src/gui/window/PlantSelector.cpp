@@ -14,7 +14,7 @@ namespace qplc {
 namespace {
 
 constexpr int refreshPause = 250;  // [ms] of ages and of what is left until the next attempt
-constexpr int textLeft = 28;       // [px]
+constexpr int nameLeft = 28;       // [px]
 
 /// "Profile Simulation: no real devices, and the master listens on this computer only"; empty
 /// before the master has told it.
@@ -162,11 +162,11 @@ void PlantSelector::paintEvent(QPaintEvent * /*event*/)
     QFont bold = font();
     bold.setBold(true);
     const QFontMetrics boldSize(bold);
-    const QString name = boldSize.elidedText(m_name, Qt::ElideMiddle, (right - textLeft) * 6 / 10);
+    const QString name = boldSize.elidedText(m_name, Qt::ElideMiddle, (right - nameLeft) * 6 / 10);
     painter.setFont(bold);
     painter.setPen(theme.text);
-    painter.drawText(QRect(textLeft, 4, right - textLeft, 20), Qt::AlignLeft | Qt::AlignVCenter, name);
-    const int conditionLeft = textLeft + boldSize.horizontalAdvance(name) + 10;
+    painter.drawText(QRect(nameLeft, 4, right - nameLeft, 20), Qt::AlignLeft | Qt::AlignVCenter, name);
+    const int conditionLeft = nameLeft + boldSize.horizontalAdvance(name) + 10;
     painter.setFont(font());
     painter.setPen(m_color);
     const QRect conditionRect(conditionLeft, 4, right - conditionLeft, 20);
@@ -176,7 +176,7 @@ void PlantSelector::paintEvent(QPaintEvent * /*event*/)
     QFont smaller = font();
     smaller.setPointSizeF(smaller.pointSizeF() * 0.9);
     painter.setFont(smaller);
-    drawFigures(&painter, QRect(textLeft, 23, right - textLeft, 17));
+    drawFigures(&painter, QRect(nameLeft, 23, right - nameLeft, 17));
     painter.setPen(QPen(theme.mutedText, 1.5));
     painter.drawPolyline(QPolygonF(QVector<QPointF>{{width() - 18.0, height() / 2 - 2.0},
                                                     {width() - 13.5, height() / 2 + 2.5},

@@ -7,11 +7,6 @@ namespace qplc {
 
 namespace {
 
-constexpr quint64 lowBits(int count)
-{
-    return count >= 64 ? ~quint64(0) : (quint64(1) << count) - 1;
-}
-
 // Place of the most significant bit of a Motorola value, when bits are counted in the order of the
 // bus: bit 7 of byte 0 is the first.
 constexpr int busOrder(int bit)
@@ -25,7 +20,7 @@ quint64 intelBits(const quint8 *data, int start, int length) noexcept
     for (int done = 0; done < length;) {
         const int shift = (start + done) % 8;
         const int count = std::min(8 - shift, length - done);
-        value |= ((quint64(data[(start + done) / 8]) >> shift) & lowBits(count)) << done;
+        value |= ((quint64(data[(start + done) / 8]) >> shift) & RawNumber::lowBits(count)) << done;
         done += count;
     }
     return value;
@@ -38,7 +33,7 @@ quint64 motorolaBits(const quint8 *data, int start, int length) noexcept
     for (int left = length; left > 0;) {
         const int count = std::min(8 - position % 8, left);
         const int shift = 8 - position % 8 - count;
-        value = (value << count) | ((quint64(data[position / 8]) >> shift) & lowBits(count));
+        value = (value << count) | ((quint64(data[position / 8]) >> shift) & RawNumber::lowBits(count));
         position += count;
         left -= count;
     }
@@ -47,7 +42,7 @@ quint64 motorolaBits(const quint8 *data, int start, int length) noexcept
 
 void putBits(quint8 *byte, int shift, int count, quint64 value) noexcept
 {
-    const quint64 mask = lowBits(count) << shift;
+    const quint64 mask = RawNumber::lowBits(count) << shift;
     *byte = quint8((*byte & ~mask) | ((value << shift) & mask));
 }
 
