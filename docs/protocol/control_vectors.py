@@ -4,7 +4,7 @@ import base64
 import json
 import struct
 
-from wire import SESSION, beacon, control, crc32c, fnv1a64, hex64
+from wire import SESSION, beacon, control, crc32c, fnv1a64, hex64, table_lines
 
 
 def compact(fields):
@@ -125,6 +125,10 @@ def example_messages():
         (50, "GetStatistics", dict(histograms=True)),
         (51, "Statistics", example_statistics()),
         (40, "NodeFault", dict(text="step() threw std::runtime_error: 'sensor lost'", phase=hex64(4096))),
+        (2, "Register", dict(name="Winch", uuid=uuid, policy="ErrorZeroOrderHold", listener=False, cyclic="tcp",
+                             inputs=[dict(name="tetherSpeed", type="Real32", unit="m/s",
+                                          safety=hex64(fnv1a64(table_lines("", "", safe=bytes(4))[1].encode())))], outputs=[])),
+        (4, "Rejected", dict(error="SafetyMismatch", text="safety parameters (min, max, safe, hold, nan, slope, writer) of 'tetherSpeed' are other ones")),
     ]
 
 

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Vectors of layouts, of cyclic frames, and of sealed ones."""
+import math
 import struct
 import sys
 
-from wire import HEADER, INPUTS, OUTPUTS, GROUP_INPUTS, FAULT, PART, RESENT, SAFE_STOP, SESSION, Channel, check_aead, crc32c, fnv1a64, hex64, layout, short_time
+from wire import FAULT, GROUP_INPUTS, HEADER, INPUTS, OUTPUTS, PART, RESENT, SAFE_STOP, SESSION, Channel, check_aead, crc32c, fnv1a64, hex64, layout, short_time, table_lines
 
 
 def make_layouts():
@@ -43,8 +44,34 @@ def make_layouts():
         ("String(6)", "Höhe", b"\x05\0H\xc3\xb6he\0"), ("DateTime", "1970-01-01T00:00:00Z", b"\0" * 8),
         ("DateTime", "2026-01-31T12:00:00.5Z", struct.pack("<q", 1769860800500000000)),
     ]
-    return {"layouts": layouts,
+    return {"layouts": layouts, "tables": make_tables(),
             "values": [{"type": t, "text": text, "hex": value.hex()} for t, text, value in values]}
+
+
+def make_tables():
+    def real(number):
+        return struct.pack("<f", number)
+
+    def table(ini, *lines):
+        text = "".join(first + second for first, second in lines)
+        return {"table": ini, "text": text, "hash": hex64(fnv1a64(text.encode())),
+                "safety": [hex64(fnv1a64(second.encode())) for _, second in lines]}
+
+    return [
+        table("[tetherSpeed]\ntype = Real\nunit = m/s\ndescription = reels out\ninitial = 1\n", table_lines("tetherSpeed", "Real32", "m/s")),
+        table("[tetherSpeed]\ntype = Real\nunit = m/s\nmin = -10\nmax = 10\nsafe = 0\nhold = 5\nnan = allowed\n"
+              "slope = 2.5 per second\nwriter = Winch > Model\n[flightPhase]\ntype = Int8\nmax = 2\nvalues = 0: Launch, 1: Power\n",
+              table_lines("tetherSpeed", "Real32", "m/s", real(-10), real(10), real(0), "5", "allowed", 2.5, "Winch > Model"),
+              table_lines("flightPhase", "Int8", maximum=b"\x02")),
+        table("[position]\ntype = RealTriple\nunit = m\nmin = 0\nsafe = 1, 2, 3\n[limit]\ntype = Real64[2]\nsafe = 0.1\nhold = 0\n"
+              "[title]\ntype = String(5)\nsafe = kite\nwriter = Model\n[now]\ntype = DateTime\nsafe = 1970-01-01T00:00:01Z\n"
+              "[force]\ntype = Real64\nunit = N\nmax = inf\nnan = allowed\n",
+              table_lines("position", "Real32[3]", "m", minimum=real(0), safe=struct.pack("<3f", 1, 2, 3)),
+              table_lines("limit", "Real64[2]", safe=struct.pack("<2d", 0.1, 0.1), hold="0"),
+              table_lines("title", "String(5)", safe=b"\x04\0kite\0", writer="Model"),
+              table_lines("now", "DateTime", safe=struct.pack("<q", 10**9)),
+              table_lines("force", "Real64", "N", maximum=struct.pack("<d", math.inf), nan="allowed")),
+    ]
 
 
 def good_frame(name, channel, cycle, info, payload, flags=0, before=0):

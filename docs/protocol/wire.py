@@ -122,6 +122,12 @@ def layout(name, fields, table=None, maximum=1456, qualities=False):
             "size": offset, "maximum": maximum, "borders": borders, "qualities": qualities}
 
 
+def table_lines(name, type_name, unit="", minimum=b"", maximum=b"", safe=b"", hold="", nan="", slope=None, writer=""):
+    """The two lines of a signal in the text of the table hash; the second one is that of its safety hash. Values are their bytes in a payload."""
+    slope = struct.pack("<d", slope).hex() if slope else ""
+    return f"{name}:{type_name}:{unit}\n", ":".join([minimum.hex(), maximum.hex(), safe.hex(), hold, nan, slope, writer]) + "\n"
+
+
 # ---- cyclic frames --------------------------------------------------------------------------------------------------
 
 def short_time(time):

@@ -117,10 +117,14 @@ public:
     /// mean 'y'?"
     QString unknownSignalText(const QString &name) const;
 
-    /// Returns the FNV-1a-64 hash of "name:type:unit" and a line feed for each signal, in their
-    /// order, with canonical type names. Equal tables have equal hashes on all machines. Limits and
-    /// descriptions do not count.
+    /// Returns the FNV-1a-64 hash of two lines for each signal, in their order: its name, canonical
+    /// type and unit, and its safety parameters (`min`, `max`, `safe`, `hold`, `writer`, `nan`,
+    /// `slope`). Section 6.3 of docs/protocol.md has the exact text. Equal tables have equal hashes
+    /// on all machines. Descriptions, names of values and initial values do not count.
     quint64 hash() const { return m_hash; }
+    /// Returns true if fromMaster() has read the table, and nothing has been appended since. A node
+    /// with such a table takes a newer one of its master if the signals are the same.
+    bool isFromMaster() const { return m_isFromMaster; }
 
 private:
     Q_DECL_HIDDEN static QPlcSignalTable read(qplc::TableReader reader, QVector<QPlcParseError> *errors);
@@ -129,6 +133,7 @@ private:
     QVector<QPlcSignalDefinition> m_signals;
     QHash<QString, QPlcSignalIndex> m_indices;
     quint64 m_hash = 0xCBF29CE484222325;  // as FNV-1a-64 begins
+    bool m_isFromMaster = false;
 };
 
 Q_DECLARE_METATYPE(QPlcSignalTable)

@@ -57,7 +57,10 @@ QPlcSignalTable QPlcSignalTable::read(qplc::TableReader reader, QVector<QPlcPars
 
 QPlcSignalTable QPlcSignalTable::fromMaster(const QByteArray &text, QVector<QPlcParseError> *errors)
 {
-    return read({text, QStringLiteral("table of the master"), qplc::TableReader::UnknownKeys::Ignored}, errors);
+    QPlcSignalTable table
+        = read({text, QStringLiteral("table of the master"), qplc::TableReader::UnknownKeys::Ignored}, errors);
+    table.m_isFromMaster = !table.isEmpty();
+    return table;
 }
 
 QPlcSignalTable QPlcSignalTable::fromIniFile(const QString &fileName, QVector<QPlcParseError> *errors)
@@ -92,9 +95,11 @@ bool QPlcSignalTable::append(const QPlcSignalDefinition &definition, QString *er
             reason += (reason.isEmpty() ? QString() : QStringLiteral("; ")) + complaint.text;
     if (error)
         *error = reason.isEmpty() ? QString() : QStringLiteral("signal %1: %2").arg(quoted(signal.name), reason);
-    if (reason.isEmpty())
-        add(signal);
-    return reason.isEmpty();
+    if (!reason.isEmpty())
+        return false;
+    add(signal);
+    m_isFromMaster = false;
+    return true;
 }
 
 void QPlcSignalTable::add(const QPlcSignalDefinition &definition)
@@ -103,7 +108,7 @@ void QPlcSignalTable::add(const QPlcSignalDefinition &definition)
     m_signals.append(definition);
     const QString text = definition.name + QLatin1Char(':') + definition.type.name() + QLatin1Char(':')
         + definition.unit + QLatin1Char('\n');
-    m_hash = qplc::fnv1a64(text.toUtf8(), m_hash);
+    m_hash = qplc::fnv1a64(text.toUtf8() + qplc::safetyLine(definition), m_hash);
 }
 
 QStringList QPlcSignalTable::closeNames(const QString &name, int count) const

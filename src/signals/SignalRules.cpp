@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SignalRules.h"
 
+#include "Fnv1a.h"
 #include "IniParser.h"
 #include "MessageText.h"
 #include "ValueOrder.h"
@@ -291,6 +292,22 @@ QVector<Complaint> complaintsAbout(const QPlcSignalDefinition &signal)
     }
     checkLines(signal, &complaints);
     return complaints;
+}
+
+QByteArray safetyLine(const QPlcSignalDefinition &signal)
+{
+    // Bytes, because a number has several texts.
+    const auto hex = [](const QPlcValue &value) { return value.isValid() ? value.toBytes().toHex() : QByteArray(); };
+    const QByteArray slope = signal.slope > 0.0 ? hex(QPlcValue(signal.slope)) : QByteArray();
+    const QByteArray hold = signal.hold ? QByteArray::number(*signal.hold) : QByteArray();
+    const QByteArray nan = signal.nanAllowed ? nanAllowedText().toLatin1() : QByteArray();
+    const QByteArrayList parts = {hex(signal.minimum), hex(signal.maximum), hex(signal.safe), hold, nan, slope};
+    return parts.join(':') + ':' + writersText(signal.writers).toUtf8() + '\n';
+}
+
+quint64 safetyHash(const QPlcSignalDefinition &signal)
+{
+    return fnv1a64(safetyLine(signal));
 }
 
 QString iniSection(const QPlcSignalDefinition &signal)

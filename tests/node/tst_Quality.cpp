@@ -3,6 +3,7 @@
 // scripted ones that break the rules.
 #include "../common/Waiting.h"
 #include "QualityFixtures.h"
+#include "ScriptedMaster.h"
 
 #include <QtCore/QProcess>
 
@@ -247,24 +248,27 @@ void tst_Quality::theNextPhaseBeginsWithoutOldValues()
 
 void tst_Quality::nodeRefusesInputsOutsideItsOwnLimits()
 {
-    // The table of the node is stricter than that of the master.
-    TestMaster master(QPlcClock::lockstep(), qualityTable());
-    QVERIFY(master.listen());
-    Source source;
-    source.idea = [](quint64 cycle) { return cycle == 3 ? 50.0 : 1.0; };
+    ScriptedMaster master(qualityTable());  // takes no care of limits
     Actuator actuator;
-    actuator.setSignalTable(QPlcSignalTable::fromIni(qualityTable().toIni().replace("max = 100", "max = 10")));
-    QVERIFY(master.admit(source, "tcp") && master.admit(actuator, "tcp"));
-    master.setCycleLimit(7);
-    QVERIFY(master.startRealTime());
-    QVERIFY(master.waitForState(QPlcMasterNode::Off));
-    QCOMPARE(actuator.record, (QStringList{"0.5 good", "1 good", "1 good", "1 good", "1 held 1", "1 good", "1 good"}));
+    actuator.setSignalTable(qualityTable());
+    QVERIFY(master.beginWith(actuator));
+    const auto echo = [](double value) { return QPlcValue(value).toBytes() + QPlcValue(0.0f).toBytes(); };
+    for (int cycle = 0; cycle < 5; ++cycle) {
+        master.request(quint64(cycle), echo(cycle == 3 ? 500.0 : 1.0));
+        QVERIFY(master.waitForAnswers(cycle + 1));
+    }
+    QCOMPARE(actuator.record, (QStringList{"1 good", "1 good", "1 good", "1 held 1", "1 good"}));
     QCOMPARE(actuator.counters().refused, quint64(1));
-    source.idea = [](quint64) { return 1.0; };
-    QVERIFY(master.startRealTime());  // each phase counts its own
-    QVERIFY(master.waitForState(QPlcMasterNode::Off));
+    master.send(QPlcMessage::RealTimeStopped);
+    master.send(QPlcMessage::SendYourInitialOutputStates);
+    QCOMPARE(master.next().kind(), QPlcMessage::ReceiveMyInitialOutputStates);
+    master.send(QPlcMessage::InitializeWithValues, {{"values", QPlcMessage::fromBytes(echo(1.0))}});
+    QCOMPARE(master.next().kind(), QPlcMessage::Initialized);
+    master.first += 10;
+    QVERIFY(master.start(QStringLiteral("Lockstep")));  // each phase counts its own
+    master.request(0, echo(1.0));
+    QVERIFY(master.waitForAnswers(6));
     QCOMPARE(actuator.counters().refused, quint64(0));
-    source.disconnectFromMaster();
     actuator.disconnectFromMaster();
 }
 

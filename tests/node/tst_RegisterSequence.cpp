@@ -2,6 +2,7 @@
 #include "../common/Waiting.h"
 #include "ScriptedMaster.h"
 #include "ScriptedNode.h"
+#include "signals/Fnv1a.h"
 
 // Figure 4.14 of the thesis: server start of the master, connection and registration of a slave.
 class tst_RegisterSequence : public QObject
@@ -126,7 +127,10 @@ void tst_RegisterSequence::slaveSpeaksStepByStep()
     QCOMPARE(request.text("cyclic"), QString(udp ? "udp" : "tcp"));
     QCOMPARE(request.fields().value("listener").toBool(true), false);
     const QJsonObject input = request.fields().value("inputs").toArray().at(0).toObject();
-    QCOMPARE(input, (QJsonObject{{"name", "echo"}, {"type", "Real64"}, {"unit", ""}}));
+    const quint64 safety = qplc::fnv1a64(QByteArrayLiteral(":::1000:::\n"));
+    QCOMPARE(
+        input,
+        (QJsonObject{{"name", "echo"}, {"type", "Real64"}, {"unit", ""}, {"safety", QPlcMessage::fromHex64(safety)}}));
     QCOMPARE(request.fields().value("outputs").toArray().size(), 2);
     QCOMPARE(request.fields().value("udpPort").toInt() > 0, udp);
     QCOMPARE(node.state(), QPlcSlaveNode::Registering);

@@ -189,7 +189,8 @@ void tst_SameCycle::defaultNodesRegisterWithoutNewFields()
     const QJsonObject request = master.messages.at(1).fields();
     QCOMPARE(master.messages.at(1).kind(), QPlcMessage::Register);
     QVERIFY(!request.contains("twoPhase"));
-    QCOMPARE(request.value("inputs").toArray().at(0).toObject().keys(), (QStringList{"name", "type", "unit"}));
+    QCOMPARE(request.value("inputs").toArray().at(0).toObject().keys(),
+             (QStringList{"name", "safety", "type", "unit"}));
     node.disconnectFromMaster();
 }
 

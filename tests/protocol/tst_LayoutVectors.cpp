@@ -2,6 +2,7 @@
 #include "QPlcValue.h"
 #include "Vectors.h"
 #include "signals/PayloadLayout.h"
+#include "signals/SignalRules.h"
 
 #include <QtTest/QtTest>
 
@@ -13,6 +14,8 @@ class tst_LayoutVectors : public QObject
 private Q_SLOTS:
     void layoutsMatchTheVectors_data();
     void layoutsMatchTheVectors();
+    void tablesMatchTheVectors_data();
+    void tablesMatchTheVectors();
     void valuesMatchTheVectors_data();
     void valuesMatchTheVectors();
 };
@@ -55,6 +58,28 @@ void tst_LayoutVectors::layoutsMatchTheVectors()
     for (const quint32 border : layout.partBorders(quint32(row[QStringLiteral("maximum")].toInt())))
         borders.append(int(border));
     QCOMPARE(borders, row[QStringLiteral("borders")].toArray());
+}
+
+void tst_LayoutVectors::tablesMatchTheVectors_data()
+{
+    addRows(QStringLiteral("tables"));
+}
+
+void tst_LayoutVectors::tablesMatchTheVectors()
+{
+    QFETCH(QJsonObject, row);
+    QVector<QPlcParseError> errors;
+    const QPlcSignalTable table = QPlcSignalTable::fromIni(row[QStringLiteral("table")].toString().toUtf8(), &errors);
+    QVERIFY2(errors.isEmpty(), qPrintable(QPlcParseError::toString(errors)));
+    const QStringList lines = row[QStringLiteral("text")].toString().split(QLatin1Char('\n'));
+    const QJsonArray safety = row[QStringLiteral("safety")].toArray();
+    QCOMPARE(safety.size(), table.size());
+    for (int i = 0; i < table.size(); ++i) {
+        QCOMPARE(QString::fromUtf8(qplc::safetyLine(table.at(QPlcSignalIndex(i)))).chopped(1), lines.at(2 * i + 1));
+        QCOMPARE(qplc::safetyHash(table.at(QPlcSignalIndex(i))), vectors::number(safety.at(i)));
+    }
+    QCOMPARE(table.hash(), vectors::number(row[QStringLiteral("hash")]));
+    QCOMPARE(QPlcSignalTable::fromIni(table.toIni()).hash(), table.hash());
 }
 
 void tst_LayoutVectors::valuesMatchTheVectors_data()

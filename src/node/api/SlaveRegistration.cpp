@@ -9,10 +9,24 @@
 #include "transport/FaultLink.h"
 #include "transport/TransportRegistry.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace messages = qplc::messages;
 namespace feature = messages::feature;
+
+namespace {
+
+/// Whether an index means the same signal in both tables.
+bool hasSameSignals(const QPlcSignalTable &a, const QPlcSignalTable &b)
+{
+    const auto isSame = [](const QPlcSignalDefinition &one, const QPlcSignalDefinition &other) {
+        return one.name == other.name && one.type == other.type && one.unit == other.unit;
+    };
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), isSame);
+}
+
+}  // namespace
 
 /// Whether cycles have an order because of this node. Before the table is known.
 bool QPlcSlaveNodePrivate::isOrdered() const
@@ -49,18 +63,28 @@ void QPlcSlaveNodePrivate::greet()
     control.setCaller(caller);
 }
 
+/// A table of the node's own stays. One that came from a master gives way to that of the present
+/// master, which may have other safety parameters.
 bool QPlcSlaveNodePrivate::chooseTable(QPlcSignalTable *table)
 {
     *table = q->signalTable();
-    if (!table->isEmpty())
+    const bool isOwn = !table->isEmpty() && !table->isFromMaster();
+    const bool isCurrent = !table->isEmpty() && control.master().table.isEmpty();
+    if (isOwn || isCurrent)
         return true;
     QVector<QPlcParseError> errors;
-    *table = QPlcSignalTable::fromMaster(control.master().table.toUtf8(), &errors);
-    if (table->isEmpty()) {
+    const QPlcSignalTable offered = QPlcSignalTable::fromMaster(control.master().table.toUtf8(), &errors);
+    if (offered.isEmpty()) {
         giveUp(QPlcSlaveNode::ProtocolError, QPlcParseError::toString(errors));
         return false;
     }
-    QPlcSignalIndexTable::setCurrent(*table);
+    if (!table->isEmpty() && !hasSameSignals(*table, offered))
+        return true;  // lists of the program have indices of this table
+    *table = offered;
+    if (ownTable.isEmpty())
+        QPlcSignalIndexTable::setCurrent(offered);
+    else
+        ownTable = offered;
     return true;
 }
 

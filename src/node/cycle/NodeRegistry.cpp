@@ -4,6 +4,7 @@
 #include "Roster.h"
 #include "node/Logging.h"
 #include "protocol/messages/Vocabulary.h"
+#include "signals/SignalRules.h"
 
 #include <QtCore/QMetaEnum>
 #include <QtCore/QSet>
@@ -22,9 +23,19 @@ QMetaEnum policies()
 std::vector<messages::DeclaredSignal> describe(const QPlcSignalTable &table, const PayloadLayout &layout)
 {
     std::vector<messages::DeclaredSignal> declared;
-    for (const PayloadLayout::Field &field : layout.fields())
-        declared.push_back({table.at(field.signal).name, field.type.name(), table.at(field.signal).unit, false});
+    for (const PayloadLayout::Field &field : layout.fields()) {
+        const QPlcSignalDefinition &signal = table.at(field.signal);
+        declared.push_back({signal.name, field.type.name(), signal.unit, false, messages::Hex64(safetyHash(signal))});
+    }
     return declared;
+}
+
+/// "'a', 'b', 'c' and 2 more"
+QString someOf(const QStringList &names)
+{
+    constexpr int most = 5;
+    const QString some = QStringLiteral("'%1'").arg(names.mid(0, most).join(QStringLiteral("', '")));
+    return names.size() <= most ? some : QStringLiteral("%1 and %2 more").arg(some).arg(names.size() - most);
 }
 
 }  // namespace
@@ -131,6 +142,27 @@ bool NodeRegistry::resolve(const QString &node, const std::vector<messages::Decl
     return true;
 }
 
+/// A node that loses the master becomes safe by its own table: with other parameters it would do
+/// what the plant does not expect.
+bool NodeRegistry::agreeOnSafety(const NodeDeclaration &declaration, Refusal *refusal) const
+{
+    QStringList others;
+    for (const auto *direction : {&declaration.inputs, &declaration.outputs}) {
+        for (const messages::DeclaredSignal &signal : *direction) {
+            if (signal.safety && *signal.safety != safetyHash(m_table.at(m_table.indexOf(signal.name))))
+                others.append(signal.name);
+        }
+    }
+    others.removeDuplicates();
+    if (!others.isEmpty())
+        *refusal = {messages::errorWord::safetyMismatch,
+                    QStringLiteral("safety parameters (min, max, safe, hold, nan, slope, writer) of %1 are other ones "
+                                   "in the table of the master than in that of node '%2'; use the same table, or "
+                                   "start the node without one")
+                        .arg(someOf(others), declaration.name)};
+    return others.isEmpty();
+}
+
 std::shared_ptr<NodeSlot> NodeRegistry::admit(const NodeDeclaration &declaration, Refusal *refusal)
 {
     const auto sameName = [&](const std::shared_ptr<NodeSlot> &slot) { return slot->name == declaration.name; };
@@ -160,7 +192,7 @@ std::shared_ptr<NodeSlot> NodeRegistry::admit(const NodeDeclaration &declaration
     QVector<QPlcSignalIndex> inputs;
     QVector<QPlcSignalIndex> outputs;
     if (!resolve(declaration.name, declaration.inputs, &inputs, refusal)
-        || !resolve(declaration.name, declaration.outputs, &outputs, refusal))
+        || !resolve(declaration.name, declaration.outputs, &outputs, refusal) || !agreeOnSafety(declaration, refusal))
         return nullptr;
     for (QPlcSignalIndex output : outputs) {
         if (!mayWrite(declaration.name, output, refusal))

@@ -14,12 +14,14 @@ struct DeclaredSignal
     QString name;
     QString type;  // canonical
     QString unit;
-    bool sameCycle = false;  // inputs only
+    bool sameCycle = false;       // inputs only
+    std::optional<Hex64> safety;  // of its safety parameters; none: the node takes those of the master
 
     static constexpr auto fields = std::make_tuple(field("name", &DeclaredSignal::name, Presence::Required),
                                                    field("type", &DeclaredSignal::type, Presence::Required),
                                                    field("unit", &DeclaredSignal::unit),
-                                                   field("sameCycle", &DeclaredSignal::sameCycle, Presence::WhenSet));
+                                                   field("sameCycle", &DeclaredSignal::sameCycle, Presence::WhenSet),
+                                                   field("safety", &DeclaredSignal::safety, Presence::Checked));
 };
 
 struct Register

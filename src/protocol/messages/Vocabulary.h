@@ -25,6 +25,7 @@ constexpr QLatin1String nameInUse = word("NameInUse");
 constexpr QLatin1String unknownSignal = word("UnknownSignal");
 constexpr QLatin1String typeMismatch = word("TypeMismatch");
 constexpr QLatin1String unitMismatch = word("UnitMismatch");
+constexpr QLatin1String safetyMismatch = word("SafetyMismatch");
 constexpr QLatin1String signalHasWriter = word("SignalHasWriter");
 constexpr QLatin1String writerNotNamed = word("WriterNotNamed");
 constexpr QLatin1String leaseHeld = word("LeaseHeld");
@@ -45,7 +46,7 @@ constexpr QLatin1String all[]
     = {versionMismatch, nameInUse,        unknownSignal,   typeMismatch,     unitMismatch, signalHasWriter,
        writerNotNamed,  leaseHeld,        profileMismatch, manifestMismatch, tooManyNodes, algebraicLoop,
        wrongState,      malformedMessage, invalidValue,    nodeError,        tooLong,      securityNeeded,
-       denied,          timedOut,         tooMuch};
+       denied,          timedOut,         tooMuch,         safetyMismatch};
 /// Of a client itself: the connection ended before there was an answer. Never sent.
 constexpr QLatin1String lost = word("Lost");
 }  // namespace errorWord
