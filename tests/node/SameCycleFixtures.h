@@ -137,6 +137,7 @@ inline bool registerOrdered(ScriptedNode &node, quint16 port, bool twoPhase, boo
 {
     if (!node.connectTo(port))
         return false;
+    node.features = QStringList{"sameCycle"};
     node.send(QPlcMessage::Hello, node.helloFields());
     const QPlcMessage hello = node.next();
     node.session = hello.hex64("session");

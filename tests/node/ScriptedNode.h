@@ -55,6 +55,7 @@ public:
     // ---- what it is; to be set before registerAt() ----
     QString name;
     QString uuid;
+    QStringList features;
     QString policy = QStringLiteral("ErrorZeroOrderHold");
     QString cyclic = datagrams();
     bool listener = false;
@@ -110,7 +111,8 @@ public:
         return {{QStringLiteral("protocol"), 2},
                 {QStringLiteral("name"), name},
                 {QStringLiteral("uuid"), uuid},
-                {QStringLiteral("role"), QStringLiteral("node")}};
+                {QStringLiteral("role"), QStringLiteral("node")},
+                {QStringLiteral("features"), QJsonArray::fromStringList(features)}};
     }
     QJsonArray describe(const QStringList &names) const
     {

@@ -114,6 +114,7 @@ void tst_AlgebraicLoops::refusedNodeChangesNoOtherNode()
     ScriptedNode node("Second");
     node.inputs = QStringList{"setpoint"};
     node.outputs = QStringList{"echo"};
+    node.features = QStringList{"sameCycle"};
     QVERIFY(node.connectTo(master.serverPort()));
     node.send(QPlcMessage::Hello, node.helloFields());
     QCOMPARE(node.next().kind(), QPlcMessage::Hello);

@@ -12,6 +12,8 @@ private Q_SLOTS:
     void cleanup();
     void aWrongRegistrationIsRejected_data();
     void aWrongRegistrationIsRejected();
+    void aRegistrationThatDoesNotFitItsGreetingIsRejected_data();
+    void aRegistrationThatDoesNotFitItsGreetingIsRejected();
     void aGoodRegistrationIsNotRejected();
     void bothWritersOfASignalAreNamed();
     void aNameInUseIsRefusedUnlessItIsTheSameNode();
@@ -103,6 +105,8 @@ void tst_Refusals::aWrongRegistrationIsRejected()
     QFETCH(QStringList, words);
     QSignalSpy refused(m_master.data(), &QPlcMasterNode::nodeRefused);
     ScriptedNode node;
+    if (changes.contains("name"))
+        node.name = changes.value("name").toString();
     QVERIFY(node.connectTo(m_master->serverPort()));
     node.send(QPlcMessage::Hello, node.helloFields());
     QCOMPARE(node.next().kind(), QPlcMessage::Hello);
@@ -119,6 +123,47 @@ void tst_Refusals::aWrongRegistrationIsRejected()
     QCOMPARE(refused.size(), 1);
     QCOMPARE(refused.at(0).at(1).toString(), answer.text("text"));
     QCOMPARE(m_master->writer("echo"), QString());
+}
+
+void tst_Refusals::aRegistrationThatDoesNotFitItsGreetingIsRejected_data()
+{
+    QTest::addColumn<QJsonObject>("changes");
+    QTest::addColumn<QString>("offered");
+    QTest::addColumn<QString>("words");
+    const QJsonObject input{{"name", "setpoint"}, {"type", "Real64"}, {"unit", "m/s"}, {"sameCycle", true}};
+    QTest::newRow("name") << QJsonObject{{"name", "Other"}} << "quality"
+                          << "'Scripted' registers as 'Other'";
+    QTest::newRow("uuid") << QJsonObject{{"uuid", "another"}} << "quality"
+                          << "uuid";
+    QTest::newRow("two phases") << QJsonObject{{"twoPhase", true}} << "quality"
+                                << "'sameCycle'";
+    QTest::newRow("same cycle") << QJsonObject{{"inputs", QJsonArray{input}}} << "quality"
+                                << "'sameCycle'";
+    QTest::newRow("quality") << QJsonObject{{"quality", true}} << "outputQuality"
+                             << "'quality'";
+    QTest::newRow("quality of outputs") << QJsonObject{{"outputQuality", true}} << "quality"
+                                        << "'outputQuality'";
+}
+
+void tst_Refusals::aRegistrationThatDoesNotFitItsGreetingIsRejected()
+{
+    QFETCH(QJsonObject, changes);
+    QFETCH(QString, offered);
+    QFETCH(QString, words);
+    ScriptedNode node;
+    node.features = QStringList{offered};
+    QVERIFY(node.connectTo(m_master->serverPort()));
+    node.send(QPlcMessage::Hello, node.helloFields());
+    QCOMPARE(node.next().kind(), QPlcMessage::Hello);
+    QJsonObject fields = node.registerFields();
+    for (auto it = changes.begin(); it != changes.end(); ++it)
+        fields.insert(it.key(), it.value());
+    node.send(QPlcMessage::Register, fields);
+    const QPlcMessage answer = node.next();
+    QCOMPARE(answer.kind(), QPlcMessage::Rejected);
+    QCOMPARE(answer.text("error"), QString("MalformedMessage"));
+    QVERIFY2(answer.text("text").contains(words), qPrintable(answer.text("text")));
+    QCOMPARE(m_master->nodes().size(), 1);
 }
 
 void tst_Refusals::aGoodRegistrationIsNotRejected()

@@ -34,16 +34,14 @@ struct MasterConnection
     ConnectionGate::Ticket ticket = 0;  // of the door
     QString name;                       // as greeted
     QString uuid;
-    QString cyclicKind;                        // "udp", "tcp"
-    const TransportKind *transport = nullptr;  // of this name; null: there is none
-    TokenBucket messages{1000, 4000};          // that nobody has asked it for
-    quint64 token = 0;                         // names this node on its cyclic TCP connection
-    std::shared_ptr<NodeSlot> slot;            // null: no node
-    std::shared_ptr<NodeSession> session;      // null: no node that is attached
-    qint64 stageSince = 0;                     // [ms] for time-outs
-    bool wantsLeases = false;                  // has offered the feature, and so the next ones
-    bool wantsEvents = false;
-    bool isHardware = false;                             // has offered the feature
+    QString cyclicKind;                                  // "udp", "tcp"
+    const TransportKind *transport = nullptr;            // of this name; null: there is none
+    TokenBucket messages{1000, 4000};                    // that nobody has asked it for
+    quint64 token = 0;                                   // names this node on its cyclic TCP connection
+    std::shared_ptr<NodeSlot> slot;                      // null: no node
+    std::shared_ptr<NodeSession> session;                // null: no node that is attached
+    qint64 stageSince = 0;                               // [ms] for time-outs
+    QStringList features;                                // that both ends have offered
     bool leasesDue = false;                              // they have changed and it was not told yet
     quint64 eventsTold = 0;                              // sequence number of the newest event that was sent
     std::unique_ptr<messages::ListAnswer> listAnswer{};  // being made; null: none. What it asks next waits
@@ -54,6 +52,7 @@ struct MasterConnection
     bool isSecured() const { return peer.isSecured && socket->isSecured(); }
     /// Empty: none.
     QString provenIdentity() const { return peer.isSecured ? peer.identity : QString(); }
+    bool uses(QLatin1String feature) const { return features.contains(feature); }
     QString shownName() const { return qplc::shownName(peer, name); }
     bool isNode() const { return slot != nullptr; }
     /// Whether a message of \a kind is the answer that the master waits for: there are as many of

@@ -60,6 +60,27 @@ QStringList commonFeatures(const messages::ClientHello &greeting)
     return common;
 }
 
+/// How \a registration contradicts the greeting of its connection; no error: it does not.
+Refusal contradictionOf(const MasterConnection &connection, const NodeDeclaration &declaration,
+                        const messages::Register &registration)
+{
+    const bool hasOtherUuid = !registration.uuid.isEmpty() && registration.uuid.left(LongestUuid) != connection.uuid;
+    if (nameOf(registration.name) != connection.name || hasOtherUuid)
+        return {messages::errorWord::malformedMessage,
+                QStringLiteral("'%1' registers as '%2', or with another uuid than it greeted with; send those of Hello")
+                    .arg(connection.name, nameOf(registration.name))};
+    const std::pair<QLatin1String, bool> used[] = {{messages::feature::sameCycle, declaration.isOrdered()},
+                                                   {messages::feature::quality, declaration.quality},
+                                                   {messages::feature::outputQuality, declaration.outputQuality}};
+    for (const auto &[feature, isUsed] : used) {
+        if (isUsed && !connection.uses(feature))
+            return {messages::errorWord::malformedMessage,
+                    QStringLiteral("node '%1' uses '%2' and has not offered it; name it in 'features' of Hello")
+                        .arg(connection.name, feature)};
+    }
+    return {};
+}
+
 }  // namespace
 
 void MasterServer::open(MasterConnection *connection, const messages::ClientHello &greeting)
@@ -89,9 +110,7 @@ void MasterServer::open(MasterConnection *connection, const messages::ClientHell
     connection->stage = MasterConnection::Greeted;
     connection->socket->setMessageLimit(MaximumControlFrame);
     m_door.know(connection->ticket);
-    connection->wantsLeases = hello.features.contains(messages::feature::leases);
-    connection->wantsEvents = hello.features.contains(messages::feature::events);
-    connection->isHardware = hello.features.contains(messages::feature::hardware);
+    connection->features = hello.features;
     Q_EMIT greeted(connection);
     if (!connection->send(hello))
         reject(connection, messages::errorWord::tooLong,
@@ -114,8 +133,10 @@ void MasterServer::open(MasterConnection *connection, const messages::Register &
     if (!NodeDeclaration::fromMessage(registration, &declaration, &error)) {
         refusal = {messages::errorWord::malformedMessage, error};
     } else {
-        declaration.hardware = connection->isHardware;
-        refusal = m_objection(&declaration, *connection);
+        declaration.hardware = connection->uses(messages::feature::hardware);
+        refusal = contradictionOf(*connection, declaration, registration);
+        if (refusal.error.isEmpty())
+            refusal = m_objection(&declaration, *connection);
         if (refusal.error.isEmpty())
             refusal = channelRefusal(*connection, newcomer(*connection, declaration, registration));
         if (refusal.error.isEmpty()) {

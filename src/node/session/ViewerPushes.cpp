@@ -29,7 +29,7 @@ ViewerPushes::ViewerPushes(const MasterServer &server, const EventLog &events,
 void ViewerPushes::leasesChanged()
 {
     for (const std::unique_ptr<MasterConnection> &connection : m_server.connections())
-        connection->leasesDue = connection->wantsLeases;
+        connection->leasesDue = connection->uses(messages::feature::leases);
     pushSoon(gatherPause);
 }
 
@@ -57,7 +57,7 @@ void ViewerPushes::push()
 
 int ViewerPushes::pushTo(MasterConnection *connection)
 {
-    const bool eventsDue = connection->wantsEvents && connection->eventsTold < m_events.newest();
+    const bool eventsDue = connection->uses(messages::feature::events) && connection->eventsTold < m_events.newest();
     if (!connection->leasesDue && !eventsDue)
         return 0;
     if (connection->socket->bytesToSend() > mostWaiting)
