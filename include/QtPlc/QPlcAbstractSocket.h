@@ -61,8 +61,8 @@ public:
     /// Returns true if the connection uses TLS and the other end has proven its identity.
     bool isSecured() const;
     /// Sends a message. A slow receiver does not block the call: see bytesToSend().
-    /// \return false without a connection, and for a message of more than 1 MiB or nested deeper
-    ///     than 16 levels
+    /// \return false without a connection, and for a message that is longer than setSendLimit()
+    ///     allows, or nested deeper than 16 levels
     bool sendMessage(const QPlcMessage &message);
     /// Returns the number of bytes that wait here because the other end is slow.
     qint64 bytesToSend() const;
@@ -89,6 +89,9 @@ public:
     /// Sets the longest message that is accepted from now on; a longer one is a ProtocolError.
     /// \param bytes  default 1 MiB
     void setMessageLimit(quint32 bytes);
+    /// Sets the longest message that the other end accepts from now on.
+    /// \param bytes  default 1 MiB
+    void setSendLimit(quint32 bytes);
 
     /// Takes the connection out of this object, for a cyclic channel. The caller owns the
     /// descriptor and closes it. This object disconnects without emitting disconnected().

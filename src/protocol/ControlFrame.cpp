@@ -46,16 +46,16 @@ QString jsonErrorText(const QJsonParseError &error)
 
 }  // namespace
 
-QByteArray encodeControlFrame(const QPlcMessage &message)
+QByteArray encodeControlFrame(const QPlcMessage &message, quint32 limit)
 {
     const QByteArray json = QJsonDocument(message.fields()).toJson(QJsonDocument::Compact);
-    return nestingDepth(json) > MaximumControlDepth ? QByteArray() : encodeControlFrame(message.kind(), json);
+    return nestingDepth(json) > MaximumControlDepth ? QByteArray() : encodeControlFrame(message.kind(), json, limit);
 }
 
-QByteArray encodeControlFrame(QPlcMessage::Kind kind, const QByteArray &json)
+QByteArray encodeControlFrame(QPlcMessage::Kind kind, const QByteArray &json, quint32 limit)
 {
     const quint32 length = quint32(KindSize + json.size());
-    if (length > MaximumControlFrame)
+    if (length > limit)
         return QByteArray();
 
     QByteArray frame(LengthSize, Qt::Uninitialized);

@@ -9,17 +9,20 @@
 
 namespace qplc {
 
-/// Largest control frame behind its length field [byte].
-constexpr quint32 MaximumControlFrame = 1024 * 1024;
+/// Largest control frame behind its length field [byte] on a connection that has agreed on no other
+/// one, and of every answer to a question.
+constexpr quint32 UsualControlFrame = 1024 * 1024;
+/// Largest one of all: what a client takes from its master, for the sake of large tables.
+constexpr quint32 MaximumControlFrame = 64 * 1024 * 1024;
 /// Deepest nesting of arrays and objects in the JSON of a control frame.
 constexpr int MaximumControlDepth = 16;
 
-/// The bytes of \a message on the wire; empty when it is longer than MaximumControlFrame or nested
-/// deeper than MaximumControlDepth, which no receiver would take.
-QByteArray encodeControlFrame(const QPlcMessage &message);
+/// The bytes of \a message on the wire; empty when it is longer than \a limit or nested deeper than
+/// MaximumControlDepth, which no receiver would take.
+QByteArray encodeControlFrame(const QPlcMessage &message, quint32 limit = UsualControlFrame);
 
 /// The bytes of a message whose fields are \a json already; empty when they are too long.
-QByteArray encodeControlFrame(QPlcMessage::Kind kind, const QByteArray &json);
+QByteArray encodeControlFrame(QPlcMessage::Kind kind, const QByteArray &json, quint32 limit = UsualControlFrame);
 
 /// Cuts a byte stream into control messages. Nothing is allocated for a frame before its length has
 /// been checked.
@@ -38,7 +41,7 @@ public:
     };
 
     /// Frames behind those that were taken already may have so many bytes behind their length
-    /// field; MaximumControlFrame unless set.
+    /// field; UsualControlFrame unless set.
     void setLimit(quint32 bytes) { m_limit = bytes; }
     /// Takes bytes of the stream.
     void append(const QByteArray &bytes);
@@ -69,7 +72,7 @@ private:
     QString place() const;
     bool setError(Error error, const QString &text);
 
-    quint32 m_limit = MaximumControlFrame;  // [byte]
+    quint32 m_limit = UsualControlFrame;  // [byte]
     QByteArray m_buffer;
     int m_begin = 0;  // [byte] of m_buffer: what is before it has been used
     QByteArray m_lastFrame;

@@ -12,12 +12,13 @@ bool CommandCall::tell(bool succeeded) const
 
 bool CommandCall::connect() const
 {
+    client.control().leaveTableOut();
     return tell(client.connectToMaster(master));
 }
 
 bool CommandCall::connect(QPlcSignalTable *table) const
 {
-    if (!connect())
+    if (!tell(client.connectToMaster(master)))
         return false;
     *table = client.table();
     if (table->isEmpty())

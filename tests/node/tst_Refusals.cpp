@@ -261,7 +261,7 @@ void tst_Refusals::garbageOnTheControlPortClosesTheConnection_data()
     };
     QTest::newRow("http") << QByteArray("GET / HTTP/1.1\r\nHost: plant\r\n\r\n");
     QTest::newRow("zeros") << QByteArray(64, '\0');
-    QTest::newRow("too long") << QByteArray("\x01\x00\x10\x00", 4);
+    QTest::newRow("too long") << QByteArray("\x01\x00\x00\x04", 4);
     QTest::newRow("four gigabytes") << QByteArray("\xff\xff\xff\xff", 4);
     QTest::newRow("no JSON") << frame("\x1e{nonsense}");
     QTest::newRow("no object") << frame("\x1e[1,2]");

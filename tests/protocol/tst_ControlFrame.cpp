@@ -27,6 +27,7 @@ private Q_SLOTS:
     void errorsNamePositionAndReason();
     void readerStopsAfterAnError();
     void readerAcceptsFramesUpToTheMaximumLength();
+    void longerFramesAreForThoseWhoHaveAgreedOnThem();
     void encoderRefusesMessagesThatNoReceiverAccepts();
     void readerReturnsTheRestOfTheStream();
     void urgentMessageIsTakenBeforeTheOthers();
@@ -221,10 +222,10 @@ void tst_ControlFrame::readerStopsAfterAnError()
 
 void tst_ControlFrame::readerAcceptsFramesUpToTheMaximumLength()
 {
-    const int room = int(MaximumControlFrame) - 1 - int(qstrlen("{\"text\":\"\"}"));
+    const int room = int(UsualControlFrame) - 1 - int(qstrlen("{\"text\":\"\"}"));
     const QPlcMessage longest(QPlcMessage::NodeFault, {{QStringLiteral("text"), QString(room, QLatin1Char('x'))}});
     const QByteArray frame = encodeControlFrame(longest);
-    QCOMPARE(quint32(frame.size()), MaximumControlFrame + 4);
+    QCOMPARE(quint32(frame.size()), UsualControlFrame + 4);
     ControlFrameReader reader;
     reader.append(frame.left(frame.size() - 1));
     QVERIFY(takeAll(reader).isEmpty());
@@ -232,9 +233,26 @@ void tst_ControlFrame::readerAcceptsFramesUpToTheMaximumLength()
     QCOMPARE(takeAll(reader), QVector<QPlcMessage>{longest});
 }
 
+void tst_ControlFrame::longerFramesAreForThoseWhoHaveAgreedOnThem()
+{
+    const int size = 3 * int(UsualControlFrame);
+    const QPlcMessage large(QPlcMessage::Hello, {{QStringLiteral("table"), QString(size, QLatin1Char('x'))}});
+    QVERIFY(encodeControlFrame(large).isEmpty());
+    const QByteArray frame = encodeControlFrame(large, MaximumControlFrame);
+    QVERIFY(frame.size() > size);
+    ControlFrameReader usual;
+    usual.append(frame);
+    QVERIFY(takeAll(usual).isEmpty());
+    QCOMPARE(usual.error(), ControlFrameReader::FrameTooLong);
+    ControlFrameReader other;
+    other.setLimit(MaximumControlFrame);
+    other.append(frame);
+    QCOMPARE(takeAll(other), QVector<QPlcMessage>{large});
+}
+
 void tst_ControlFrame::encoderRefusesMessagesThatNoReceiverAccepts()
 {
-    const int room = int(MaximumControlFrame) - 1 - int(qstrlen("{\"text\":\"\"}"));
+    const int room = int(UsualControlFrame) - 1 - int(qstrlen("{\"text\":\"\"}"));
     const QString text(room + 1, QLatin1Char('x'));
     QVERIFY(encodeControlFrame(QPlcMessage(QPlcMessage::NodeFault, {{QStringLiteral("text"), text}})).isEmpty());
 

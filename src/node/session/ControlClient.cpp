@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ControlClient.h"
 
+#include "protocol/ControlFrame.h"
 #include "protocol/messages/Vocabulary.h"
 #include "realtime/Host.h"
 #include "realtime/TimeSource.h"
@@ -88,8 +89,10 @@ void ControlClient::greet()
     if (socket != m_socket)
         return;  // closed by who heard of it
     const QString uuid = m_caller.uuid.isEmpty() ? newUuid() : m_caller.uuid;
-    const messages::ClientHello hello{messages::protocolVersion, m_caller.name,    uuid, m_caller.role,
-                                      m_caller.tableHash,        m_caller.features};
+    const messages::ClientHello hello{
+        messages::protocolVersion, m_caller.name,      uuid, m_caller.role, m_caller.tableHash,
+        m_caller.features,         m_caller.wantsTable};
+    m_socket->setMessageLimit(MaximumControlFrame);
     m_socket->sendMessage(messages::toMessage(hello));
 }
 
@@ -146,6 +149,7 @@ void ControlClient::receiveGreeting(const messages::MasterHello &hello)
         return;
     }
     m_master = hello;
+    m_socket->setSendLimit(std::max(hello.longestMessage, UsualControlFrame));
     m_isGreeted = true;
     m_greetingDeadline = Never;
     watchDeadlines();

@@ -58,6 +58,7 @@ public:
         QStringList features;
         QString uuid{};                              // empty: a new one for each connection
         std::optional<messages::Hex64> tableHash{};  // of the table that it has
+        bool wantsTable = true;                      // if the master has another one
     };
     /// Why there is no connection any more.
     enum class Loss : quint8 {
@@ -81,6 +82,8 @@ public:
     void setCaller(const Caller &caller) { m_caller = caller; }
     /// Offers a feature of the protocol. As setCaller().
     void offer(const QString &feature) { m_caller.features.append(feature); }
+    /// Asks for no table: it may have many megabytes. As setCaller().
+    void leaveTableOut() { m_caller.wantsTable = false; }
     /// Without a call: as the process does (QPlcSecurity::current()). Takes effect with
     /// connectToMaster().
     void setSecurity(const QPlcSecurity &security) { m_security = security; }

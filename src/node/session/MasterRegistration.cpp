@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The registration of nodes at MasterServer: from the greeting to the cyclic channel that is there.
 #include "MasterServer.h"
+#include "PacedReading.h"
 #include "node/Logging.h"
 #include "node/security/SealFields.h"
 #include "protocol/ControlFrame.h"
@@ -81,6 +82,27 @@ Refusal contradictionOf(const MasterConnection &connection, const NodeDeclaratio
     return {};
 }
 
+/// Why the inputs of the node of \a connection are too long for it; no error: they are not.
+Refusal sizeRefusal(const MasterConnection &connection)
+{
+    const quint32 size = connection.slot->inputLayout.size();
+    if (connection.transport->hasGroup() && size > MulticastParts::MaximumInputs)
+        return {
+            messages::errorWord::tooLong,
+            QStringLiteral("node '%1' has %2 bytes of inputs, more than the %3 of a datagram for many nodes; use udp")
+                .arg(connection.name)
+                .arg(size)
+                .arg(MulticastParts::MaximumInputs)};
+    constexpr quint32 longest = MaximumControlFrame / 4 * 3 - 1024;  // [byte] of values in InitializeWithValues
+    if (size > longest)
+        return {messages::errorWord::tooLong,
+                QStringLiteral("node '%1' has %2 bytes of inputs, more than the %3 of a message; divide it")
+                    .arg(connection.name)
+                    .arg(size)
+                    .arg(longest)};
+    return {};
+}
+
 }  // namespace
 
 void MasterServer::open(MasterConnection *connection, const messages::ClientHello &greeting)
@@ -105,14 +127,17 @@ void MasterServer::open(MasterConnection *connection, const messages::ClientHell
         hello.identity = connection->peer.identity;
         hello.role = roleName(connection->peer.role);
     }
-    if (greeting.tableHash.value_or(messages::Hex64()) != m_image.table().hash())
-        hello.table = m_tableText;
+    hello.longestMessage = m_longestMessage;
     connection->stage = MasterConnection::Greeted;
-    connection->socket->setMessageLimit(MaximumControlFrame);
+    connection->socket->setMessageLimit(m_longestMessage);
+    connection->socket->setSendLimit(MaximumControlFrame);
     m_door.know(connection->ticket);
     connection->features = hello.features;
     Q_EMIT greeted(connection);
-    if (!connection->send(hello))
+    const bool needsTable
+        = greeting.wantsTable && greeting.tableHash.value_or(messages::Hex64()) != m_image.table().hash();
+    const QByteArray text = needsTable ? m_greeting.withTable(hello) : messages::HelloText::withoutTable(hello);
+    if (!PacedReading::send(*connection->socket, hello.kind, text))
         reject(connection, messages::errorWord::tooLong,
                QStringLiteral("the signal table is too long to be sent; give '%1' the same table as the master")
                    .arg(connection->name));
@@ -150,13 +175,8 @@ void MasterServer::open(MasterConnection *connection, const messages::Register &
         return;
     }
     connection->name = declaration.name;
-    if (connection->transport->hasGroup() && connection->slot->inputLayout.size() > MulticastParts::MaximumInputs) {
-        reject(
-            connection, messages::errorWord::tooLong,
-            QStringLiteral("node '%1' has %2 bytes of inputs, more than the %3 of a datagram for many nodes; use udp")
-                .arg(declaration.name)
-                .arg(connection->slot->inputLayout.size())
-                .arg(MulticastParts::MaximumInputs));
+    if (Refusal size = sizeRefusal(*connection); !size.error.isEmpty()) {
+        reject(connection, size.error, size.text);
         return;
     }
     connection->slot->transport = connection->transport;

@@ -21,6 +21,17 @@ namespace {
 constexpr quint32 LongestGreeting = 64 * 1024;  // [byte]
 constexpr int LongestReason = 4000;             // [characters] of a refusal, which may quote what was sent
 
+/// What a client may have to send: Register with all signals both ways, all values as texts, or the
+/// outputs of a node that writes all signals.
+quint32 longestMessageFor(const QPlcSignalTable &table)
+{
+    constexpr quint64 described = 256;  // [byte] of an input and an output without their texts
+    quint64 bytes = UsualControlFrame;
+    for (const QPlcSignalDefinition &signal : table)  // of each character of a unit, JSON may make six
+        bytes += described + quint64(2 * signal.name.size() + 12 * signal.unit.size() + 8 * signal.type.size());
+    return quint32(std::min<quint64>(bytes, MaximumControlFrame));
+}
+
 /// What waits behind nothing that anybody has asked.
 bool isUrgent(Message::Kind kind)
 {
@@ -40,7 +51,8 @@ MasterServer::MasterServer(NodeRegistry &registry, const ProcessImage &image, Cy
     , m_session(session)
     , m_hello(std::move(hello))
     , m_objection(std::move(objection))
-    , m_tableText(QString::fromUtf8(image.table().toIni()))
+    , m_greeting(image.table())
+    , m_longestMessage(longestMessageFor(image.table()))
     , m_door(this)
     , m_turns([this](FairTurns::Client client) { return serve(static_cast<MasterConnection *>(client)); })
 {

@@ -6,6 +6,7 @@
 #include "MasterDoor.h"
 #include "QPlcMasterStatistics.h"
 #include "QPlcUnderlyingProtocol.h"
+#include "protocol/messages/HelloText.h"
 #include "transport/LocalName.h"
 
 #include <QtCore/QObject>
@@ -106,7 +107,8 @@ private:
     const quint64 m_session;
     std::function<messages::MasterHello()> m_hello;
     std::function<Refusal(NodeDeclaration *, const MasterConnection &)> m_objection;
-    const QString m_tableText;  // for who has another one
+    const messages::HelloText m_greeting;
+    const quint32 m_longestMessage;  // [byte] that a client may send
     MasterDoor m_door;
     LocalName m_name;
     QHostAddress m_address;

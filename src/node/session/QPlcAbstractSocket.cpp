@@ -18,6 +18,7 @@ struct QPlcAbstractSocket::Private
     QTcpSocket *socket = nullptr;
     qplc::Tls *tls = nullptr;  // of the socket, when it is or will be encrypted, or comes from a master with security
     qplc::ControlFrameReader reader;
+    quint32 sendLimit = qplc::UsualControlFrame;  // [byte]
     bool isSending = false;
     bool isPaused = false;            // the other end takes nothing in
     std::function<void()> onArrival;  // null: messages are given away as they come
@@ -88,6 +89,7 @@ void QPlcAbstractSocket::setSocket(QTcpSocket *socket)
     d->socket = socket;
     d->tls = qplc::Tls::of(socket);
     d->reader = qplc::ControlFrameReader();
+    d->sendLimit = qplc::UsualControlFrame;
     socket->setParent(this);
     setControlOptions(socket);
     const auto nowConnected = [this] {
@@ -136,11 +138,16 @@ void QPlcAbstractSocket::setMessageLimit(quint32 bytes)
     d->reader.setLimit(bytes);
 }
 
+void QPlcAbstractSocket::setSendLimit(quint32 bytes)
+{
+    d->sendLimit = bytes;
+}
+
 bool QPlcAbstractSocket::sendMessage(const QPlcMessage &message)
 {
     if (!isConnected())
         return false;
-    return sendFrame(qplc::encodeControlFrame(message), message.kind());
+    return sendFrame(qplc::encodeControlFrame(message, d->sendLimit), message.kind());
 }
 
 bool QPlcAbstractSocket::sendFrame(const QByteArray &frame, QPlcMessage::Kind kind)
@@ -309,7 +316,7 @@ bool PacedReading::isOvertaken(const QPlcAbstractSocket &socket)
 
 bool PacedReading::send(QPlcAbstractSocket &socket, QPlcMessage::Kind kind, const QByteArray &json)
 {
-    return socket.isConnected() && socket.sendFrame(encodeControlFrame(kind, json), kind);
+    return socket.isConnected() && socket.sendFrame(encodeControlFrame(kind, json, socket.d->sendLimit), kind);
 }
 
 }  // namespace qplc

@@ -32,11 +32,12 @@ struct ClientHello
     Part role = Part::Tool;
     std::optional<Hex64> tableHash;  // of the table that it has
     QStringList features;            // that it offers
+    bool wantsTable = true;          // if it has another one
 
     static constexpr auto fields = std::make_tuple(
         field("protocol", &ClientHello::protocol), field("name", &ClientHello::name), field("uuid", &ClientHello::uuid),
         field("role", &ClientHello::role), field("tableHash", &ClientHello::tableHash, Presence::WhenSet),
-        field("features", &ClientHello::features));
+        field("features", &ClientHello::features), field("wantsTable", &ClientHello::wantsTable, Presence::WhenSet));
 };
 
 /// The security of a master that listens to a network, and asks nobody who he is.
@@ -55,8 +56,9 @@ struct MasterHello
     MasterState state = MasterState::Unknown;
     std::chrono::nanoseconds period{0};
     QString security;
-    QStringList features;  // that both offer
-    QString identity;      // proven; empty without security
+    quint32 longestMessage = 0;  // [byte] that it takes after the greeting
+    QStringList features;        // that both offer
+    QString identity;            // proven; empty without security
     QString role;
     QString faults;
 
@@ -65,6 +67,7 @@ struct MasterHello
         field("session", &MasterHello::session), field("tableHash", &MasterHello::tableHash),
         field("table", &MasterHello::table, Presence::WhenSet), field("state", &MasterHello::state),
         field("period", &MasterHello::period), field("security", &MasterHello::security),
+        field("longestMessage", &MasterHello::longestMessage, Presence::WhenSet),
         field("features", &MasterHello::features), field("identity", &MasterHello::identity, Presence::WhenSet),
         field("role", &MasterHello::role, Presence::WhenSet), field("faults", &MasterHello::faults, Presence::WhenSet));
 };

@@ -43,7 +43,7 @@ bool ListAnswer::makePortion()
 
 bool ListAnswer::isTooLong() const
 {
-    return m_json.size() >= int(MaximumControlFrame);
+    return m_json.size() >= int(UsualControlFrame);
 }
 
 }  // namespace qplc::messages
