@@ -4,7 +4,7 @@ import math
 import struct
 import sys
 
-from wire import FAULT, GROUP_INPUTS, HEADER, INPUTS, OUTPUTS, PART, RESENT, SAFE_STOP, SESSION, Channel, check_aead, crc32c, fnv1a64, hex64, layout, short_time, table_lines
+from wire import FAULT, GROUP_INPUTS, HEADER, INPUTS, OUTPUTS, PART, RESENT, SAFE_STOP, SESSION, Channel, check_aead, crc32c, digest, fnv1a64, hex64, layout, short_time, table_lines
 
 
 def make_layouts():
@@ -44,8 +44,20 @@ def make_layouts():
         ("String(6)", "Höhe", b"\x05\0H\xc3\xb6he\0"), ("DateTime", "1970-01-01T00:00:00Z", b"\0" * 8),
         ("DateTime", "2026-01-31T12:00:00.5Z", struct.pack("<q", 1769860800500000000)),
     ]
-    return {"layouts": layouts, "tables": make_tables(),
+    return {"layouts": layouts, "tables": make_tables(), "digests": make_digests(),
             "values": [{"type": t, "text": text, "hex": value.hex()} for t, text, value in values]}
+
+
+def make_digests():
+    def phase(ini, *images):
+        digests = [0]
+        for image in images:
+            digests.append(digest(image, digests[-1]))
+        return {"table": ini, "cycles": [{"image": image.hex(), "digest": hex64(after)} for image, after in zip(images, digests[1:])]}
+
+    return [phase("[force]\ntype = Real64\n", struct.pack("<d", 0.5), struct.pack("<d", 1.5)),
+            phase("[brake]\ntype = Bool\n[position]\ntype = RealTriple\n", b"\x01" + struct.pack("<3f", 1, 2, 3)),
+            phase("[block]\ntype = UInt8[64]\n", bytes(range(64)), bytes(64), bytes(range(64)))]
 
 
 def make_tables():

@@ -122,6 +122,21 @@ def layout(name, fields, table=None, maximum=1456, qualities=False):
             "size": offset, "maximum": maximum, "borders": borders, "qualities": qualities}
 
 
+def digest(image, before=0):
+    """Of all values, after a cycle."""
+    def mix(state, word):
+        state = (state ^ word) * 0x9E3779B97F4A7C15 & 0xFFFFFFFFFFFFFFFF
+        return state ^ state >> 32
+
+    lanes = [1, 2, 3, 4]
+    for words in struct.iter_unpack("<4Q", image + bytes(-len(image) % 32)):
+        lanes = [mix(lane, word) for lane, word in zip(lanes, words)]
+    result = mix(before, len(image))
+    for lane in lanes:
+        result = mix(result, lane)
+    return mix(result, result >> 29)
+
+
 def table_lines(name, type_name, unit="", minimum=b"", maximum=b"", safe=b"", hold="", nan="", slope=None, writer=""):
     """The two lines of a signal in the text of the table hash; the second one is that of its safety hash. Values are their bytes in a payload."""
     slope = struct.pack("<d", slope).hex() if slope else ""

@@ -12,6 +12,7 @@ class tst_ControlChannel : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
+    void stateTellsWhenCycleZeroBegan();
     void init();
     void getStateTellsEverything();
     void getSignalsTellsAllOrSome();
@@ -317,6 +318,25 @@ void tst_ControlChannel::bytesThatAreNoMessageEndTheConnection()
     QTRY_COMPARE(failed.size(), 1);
     QCOMPARE(socket.error(), QPlcAbstractSocket::ProtocolError);
     QVERIFY(!socket.isConnected());
+}
+
+void tst_ControlChannel::stateTellsWhenCycleZeroBegan()
+{
+    for (const QPlcClock &clock : {QPlcClock::realTime(), QPlcClock::lockstep()}) {
+        TestMaster master(clock);
+        QVERIFY(master.setTimeSignal("time"));
+        QVERIFY(master.listen());
+        ScriptedTool tool;
+        QVERIFY(tool.greetAt(master.serverPort()));
+        QVERIFY(!tool.ask(QPlcMessage::GetState).fields().contains("cycleZeroTime"));  // no phase yet
+        master.setCycleLimit(3);
+        QVERIFY(master.startRealTime());
+        QVERIFY(master.waitForCycles(3) && master.waitForState(QPlcMasterNode::Off));
+        const QPlcMessage state = tool.answerTo(QPlcMessage::GetState);
+        QCOMPARE(state.fields().contains("cycleZeroTime"), !clock.isLockstep());
+        if (!clock.isLockstep())
+            QCOMPARE(qint64(state.hex64("cycleZeroTime")) + 2 * 10'000'000, master.signalValue("time").toInt64());
+    }
 }
 
 QTEST_GUILESS_MAIN(tst_ControlChannel)

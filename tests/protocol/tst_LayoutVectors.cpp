@@ -2,6 +2,7 @@
 #include "QPlcValue.h"
 #include "Vectors.h"
 #include "signals/PayloadLayout.h"
+#include "signals/ProcessImage.h"
 #include "signals/SignalRules.h"
 
 #include <QtTest/QtTest>
@@ -16,6 +17,8 @@ private Q_SLOTS:
     void layoutsMatchTheVectors();
     void tablesMatchTheVectors_data();
     void tablesMatchTheVectors();
+    void digestsMatchTheVectors_data();
+    void digestsMatchTheVectors();
     void valuesMatchTheVectors_data();
     void valuesMatchTheVectors();
 };
@@ -80,6 +83,26 @@ void tst_LayoutVectors::tablesMatchTheVectors()
     }
     QCOMPARE(table.hash(), vectors::number(row[QStringLiteral("hash")]));
     QCOMPARE(QPlcSignalTable::fromIni(table.toIni()).hash(), table.hash());
+}
+
+void tst_LayoutVectors::digestsMatchTheVectors_data()
+{
+    addRows(QStringLiteral("digests"));
+}
+
+void tst_LayoutVectors::digestsMatchTheVectors()
+{
+    QFETCH(QJsonObject, row);
+    qplc::ProcessImage image(QPlcSignalTable::fromIni(row[QStringLiteral("table")].toString().toUtf8()));
+    const QJsonArray cycles = row[QStringLiteral("cycles")].toArray();
+    quint64 digest = 0;
+    for (const QJsonValue cycle : cycles) {
+        const QByteArray bytes = vectors::bytes(cycle[QStringLiteral("image")]);
+        QCOMPARE(int(image.size()), bytes.size());
+        std::copy(bytes.begin(), bytes.end(), image.data());
+        digest = image.digest(digest);
+        QCOMPARE(digest, vectors::number(cycle[QStringLiteral("digest")]));
+    }
 }
 
 void tst_LayoutVectors::valuesMatchTheVectors_data()

@@ -129,6 +129,7 @@ public:
     {
         messages::State reply = qplc::stateReply(*d.q, d.profile(), d.session);
         reply.latch = d.latch;
+        reply.cycleZeroTime = quint64(d.parts->cycle.cycleZeroTime());
         const qplc::AskedStop &stop = d.askedStop;
         if (!stop.whoever.isEmpty())
             reply.stopped

@@ -62,6 +62,9 @@ public:
     ProcessImage &image() { return m_image; }
     /// Number on the wire of cycle 0 of the next phase (or of this one, while it runs).
     std::uint64_t cycleZero() const { return m_cycleZero; }
+    /// Of the wall clock when cycle 0 of the last phase began [ns since 1970]; 0: there was none,
+    /// or it is in lockstep.
+    std::int64_t cycleZeroTime() const { return m_wallStart; }
 
     /// \return false when no thread could be made; errorString() says why
     bool start(const Phase &phase);

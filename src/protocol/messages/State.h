@@ -62,6 +62,7 @@ struct State
     bool armed = false;
     bool armingRequired = false;
     Hex64 cycle;
+    Hex64 cycleZeroTime;  // UTC of cycle 0 [ns since 1970]; 0: no phase yet, or the master reads no clock
     std::chrono::nanoseconds period{0};
     ClockKind clock = ClockKind::RealTime;
     double scale = 1.0;
@@ -78,11 +79,11 @@ struct State
         field("state", &State::state), field("reason", &State::reason), field("remains", &State::remains),
         field("missing", &State::missing, Presence::WhenSet), field("latch", &State::latch),
         field("armed", &State::armed), field("armingRequired", &State::armingRequired), field("cycle", &State::cycle),
-        field("period", &State::period), field("clock", &State::clock), field("scale", &State::scale),
-        field("profile", &State::profile), field("profileReason", &State::profileReason),
-        field("session", &State::session), field("nodes", &State::nodes), field("counters", &State::counters),
-        field("digest", &State::digest), field("stopped", &State::stopped, Presence::WhenSet),
-        field("faults", &State::faults, Presence::WhenSet));
+        field("cycleZeroTime", &State::cycleZeroTime, Presence::WhenSet), field("period", &State::period),
+        field("clock", &State::clock), field("scale", &State::scale), field("profile", &State::profile),
+        field("profileReason", &State::profileReason), field("session", &State::session), field("nodes", &State::nodes),
+        field("counters", &State::counters), field("digest", &State::digest),
+        field("stopped", &State::stopped, Presence::WhenSet), field("faults", &State::faults, Presence::WhenSet));
 };
 
 struct GetState
