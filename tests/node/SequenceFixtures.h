@@ -189,7 +189,7 @@ struct SequenceBench
     {
         const auto signal = [&](const QString &wanted) {
             const QPlcSignalDefinition &definition = table.at(table.indexOf(wanted));
-            return qplc::messages::DeclaredSignal{wanted, definition.type.name(), definition.unit, false};
+            return qplc::messages::DeclaredSignal{wanted, definition.type.name(), definition.unit, false, {}};
         };
         qplc::NodeDeclaration declaration;
         declaration.name = name;

@@ -251,7 +251,7 @@ void tst_AccessRights::anObserverListensOnly()
     QVERIFY(node.registerAt(master.serverPort()));
     qplc::messages::Register registration;
     registration.name = "x";
-    registration.outputs = {{"sum", "Real64", {}, false}};
+    registration.outputs = {{"sum", "Real64", {}, false, {}}};
     const auto refusal
         = [&] { return qplc::refusalOf(peerOf(Role::Observer), qplc::messages::toMessage(registration)); };
     QVERIFY(refusal().contains("may only listen"));
