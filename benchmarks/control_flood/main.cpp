@@ -7,22 +7,16 @@
 //
 // The program starts itself as master and as tools. --signals: all of them are in one table, which
 // has to fit into a control message.
-#include <QtPlcCore>
+#include "../common/Processes.h"
 
 #include <QtCore/QCommandLineParser>
-#include <QtCore/QFile>
 #include <QtCore/QJsonArray>
 #include <QtCore/QJsonObject>
-#include <QtCore/QProcess>
 #include <QtCore/QRandomGenerator>
 #include <QtCore/QTemporaryDir>
 #include <QtCore/QTimer>
 
-#include <algorithm>
 #include <chrono>
-#include <cstdio>
-#include <memory>
-#include <vector>
 
 namespace {
 
@@ -30,18 +24,6 @@ constexpr std::chrono::milliseconds period{10};
 constexpr qint64 leaseTime = 200'000'000;  // [ns]
 constexpr int questionsAtOnce = 8;         // of a tool, before it waits for answers
 constexpr int namesAtOnce = 2000;          // more would fill the way to the master: TCP ends it
-
-/// All processes of a computer see this clock [ns].
-qint64 now()
-{
-    return std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-void tell(const QString &line)
-{
-    std::fprintf(stdout, "%s\n", qPrintable(line));
-    std::fflush(stdout);
-}
 
 QString signalName(int number)
 {
@@ -119,37 +101,6 @@ int runMaster(const QString &keys, int signalCount)
 
 // ---- tools ----
 
-/// A tool that has greeted its master.
-class Tool
-{
-public:
-    Tool(const QString &name, const QString &keys, quint16 port)
-    {
-        m_socket.setSecurity(QPlcSecurity::preSharedKeys(keys, name));
-        QObject::connect(&m_socket, &QPlcAbstractSocket::connected, &m_socket, [this, name] {
-            send(QPlcMessage::Hello, {{"protocol", 2}, {"name", name}, {"role", "tool"}});
-        });
-        QObject::connect(&m_socket, &QPlcAbstractSocket::messageReceived, &m_socket,
-                         [this](const QPlcMessage &message) {
-                             if (onMessage)
-                                 onMessage(message);
-                         });
-        QObject::connect(&m_socket, &QPlcAbstractSocket::errorOccurred, &m_socket, [this] {
-            std::fprintf(stderr, "%s\n", qPrintable(m_socket.errorString()));
-            QCoreApplication::exit(1);
-        });
-        m_socket.connectToMaster(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, port));
-    }
-    void send(QPlcMessage::Kind kind, const QJsonObject &fields = {})
-    {
-        m_socket.sendMessage(QPlcMessage(kind, fields));
-    }
-    std::function<void(const QPlcMessage &)> onMessage;
-
-private:
-    QPlcMasterSocket m_socket;
-};
-
 /// What costs most: all signals, many signals by name, all histograms.
 void askMost(Tool &tool, int number, int signalCount)
 {
@@ -172,7 +123,8 @@ int runFlood(const QString &keys, quint16 port, int connections, int signalCount
     std::vector<std::unique_ptr<Tool>> tools;
     quint64 answers = 0;
     for (int i = 0; i < connections; ++i) {
-        tools.push_back(std::make_unique<Tool>(QStringLiteral("observer"), keys, port));
+        tools.push_back(std::make_unique<Tool>(QStringLiteral("observer"), keys,
+                                               QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, port)));
         Tool *tool = tools.back().get();
         tool->onMessage = [&answers, tool, signalCount, asked = 0](const QPlcMessage &message) mutable {
             if (message.kind() == QPlcMessage::Hello) {
@@ -192,61 +144,6 @@ int runFlood(const QString &keys, quint16 port, int connections, int signalCount
 
 // ---- the person ----
 
-/// This program in another role.
-class Child : public QProcess
-{
-public:
-    explicit Child(const QStringList &arguments)
-    {
-        setProcessChannelMode(QProcess::ForwardedErrorChannel);
-        start(QCoreApplication::applicationFilePath(), arguments);
-    }
-    ~Child() override
-    {
-        kill();
-        waitForFinished();
-    }
-    /// The words behind \a word of the next line that begins with it.
-    QStringList next(const QString &word)
-    {
-        while (true) {
-            while (canReadLine()) {
-                const QStringList words = QString::fromUtf8(readLine()).trimmed().split(' ');
-                if (words.first() == word)
-                    return words.mid(1);
-            }
-            if (state() == NotRunning)
-                qFatal("a process has ended");
-            QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
-        }
-    }
-};
-
-double percentile(std::vector<double> values, double share)
-{
-    std::sort(values.begin(), values.end());
-    return values.empty() ? 0.0 : values[std::min(values.size() - 1, std::size_t(share * double(values.size())))];
-}
-
-void show(const char *what, const std::vector<double> &values, const char *unit)
-{
-    tell(QStringLiteral("%1: n %2, p50 %3, p99 %4, p99.9 %5, longest %6 %7")
-             .arg(QLatin1String(what))
-             .arg(values.size())
-             .arg(percentile(values, 0.5), 0, 'f', 2)
-             .arg(percentile(values, 0.99), 0, 'f', 2)
-             .arg(percentile(values, 0.999), 0, 'f', 2)
-             .arg(percentile(values, 1.0), 0, 'f', 2)
-             .arg(QLatin1String(unit)));
-}
-
-void pass(int milliseconds)
-{
-    QEventLoop loop;
-    QTimer::singleShot(milliseconds, Qt::PreciseTimer, &loop, &QEventLoop::quit);
-    loop.exec();
-}
-
 class Measurement
 {
 public:
@@ -258,7 +155,8 @@ public:
         , m_other({"master", keys, QString::number(signalCount)})
         , m_port(m_master.next("port").at(0))
         , m_otherPort(m_other.next("port").at(0))
-        , m_person(QStringLiteral("operator"), keys, quint16(m_port.toInt()))
+        , m_person(QStringLiteral("operator"), keys,
+                   QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, quint16(m_port.toInt())))
     {
         m_master.next("runs");
         m_other.next("runs");
@@ -358,21 +256,6 @@ private:
     QStringList m_figures;
 };
 
-QString makeKeys(const QTemporaryDir &folder)
-{
-    QFile file(folder.filePath(QStringLiteral("keys.ini")));
-    if (!file.open(QIODevice::WriteOnly))
-        qFatal("cannot write %s", qPrintable(file.fileName()));
-    file.setPermissions(QFile::ReadOwner | QFile::WriteOwner);
-    for (const char *identity : {"operator", "observer"}) {
-        file.write("[" + QByteArray(identity) + "]\nkey = ");
-        for (int i = 0; i < 4; ++i)
-            file.write(QByteArray::number(QRandomGenerator::system()->generate64(), 16).rightJustified(16, '0'));
-        file.write(*identity == 'o' && identity[1] == 'p' ? "\nrole = Operator\n" : "\nrole = Observer\n");
-    }
-    return file.fileName();
-}
-
 int runAll(const QCoreApplication &application)
 {
     QCommandLineParser parser;
@@ -389,7 +272,8 @@ int runAll(const QCoreApplication &application)
     parser.process(application);
     const auto number = [&parser](const char *name) { return parser.value(QLatin1String(name)).toInt(); };
     const QTemporaryDir folder;
-    Measurement measurement(makeKeys(folder), number("signals"), number("connections"));
+    Measurement measurement(makeKeys(folder, {{"operator", "Operator"}, {"observer", "Observer"}}), number("signals"),
+                            number("connections"));
     measurement.stops(number("stops"));
     measurement.leases(number("leases"));
     measurement.cycles(number("rounds"), number("seconds"));
