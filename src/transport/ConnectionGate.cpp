@@ -2,88 +2,173 @@
 #include "ConnectionGate.h"
 
 #include <algorithm>
-#include <iterator>
 
 namespace qplc {
 
 namespace {
 
-/// What counts as one address: in IPv6 a whole network, whose addresses a single computer can use
-/// one after the other.
-QHostAddress originOf(const QHostAddress &address)
+constexpr qint64 LongestMemory = 2'000'000'000;  // of the budget of an address that is not here [ns]
+
+QByteArray bytesOf(const QHostAddress &address)
 {
     bool isV4 = false;
     const quint32 v4 = address.toIPv4Address(&isV4);
     if (isV4)
-        return QHostAddress(v4);
-    Q_IPV6ADDR v6 = address.toIPv6Address();
-    std::fill(std::begin(v6.c) + 8, std::end(v6.c), quint8(0));
-    return QHostAddress(v6);
+        return QByteArray(reinterpret_cast<const char *>(&v4), sizeof v4);
+    const Q_IPV6ADDR v6 = address.toIPv6Address();
+    return QByteArray(reinterpret_cast<const char *>(&v6), sizeof v6) + address.scopeId().toUtf8();
 }
 
 }  // namespace
 
-std::optional<ConnectionGate::Ticket> ConnectionGate::admit(const QHostAddress &address, qint64 now, Refusal *refusal)
+ConnectionGate::Admission ConnectionGate::admit(const QHostAddress &address, qint64 now)
 {
+    const QByteArray key = bytesOf(address);
     const bool isLocal = address.isLoopback();
-    const QHostAddress origin = originOf(address);
-    *refusal = Admitted;
-    if (connections() >= m_limits.connections)
-        *refusal = TooManyConnections;
-    else if (!isLocal && strangersOf(origin) >= m_limits.strangersOfAddress)
-        *refusal = TooManyOfAddress;
-    else if (!isLocal && !m_accepts.take(now))
-        *refusal = TooFast;
-    if (*refusal != Admitted)
-        return std::nullopt;
-    m_guests.insert(++m_last, {origin, QString(), true, now + m_limits.patience});
-    return m_last;
+    Origin &origin = originOf(key, now);
+    if (known() >= m_limits.connections)
+        return {0, TooManyConnections, 0};
+    if (!isLocal && !origin.accepts.take(now))
+        return {0, TooFast, 0};
+    Admission admission;
+    if (!isLocal && origin.strangers >= m_limits.strangersOfAddress)
+        admission.crowdedOut = leastOf([&](const Visit &visit) { return visit.origin == key; });
+    else if (m_strangers >= m_limits.strangers + (origin.isTrusted ? m_limits.reserve : 0)) {
+        admission.crowdedOut
+            = leastOf([&](const Visit &visit) { return visit.origin == key || !isProtected(visit.origin); });
+        if (admission.crowdedOut == 0)
+            return {0, TooManyConnections, 0};
+    }
+    ++origin.strangers;
+    ++m_strangers;
+    admission.ticket = ++m_last;
+    m_visits.insert(admission.ticket, {key, QString(), true, 0, now + m_limits.patience});
+    return admission;
+}
+
+void ConnectionGate::hear(Ticket ticket)
+{
+    const auto visit = m_visits.find(ticket);
+    if (visit != m_visits.end())
+        ++visit->steps;
 }
 
 void ConnectionGate::renew(Ticket ticket, qint64 now)
 {
-    const auto guest = m_guests.find(ticket);
-    if (guest != m_guests.end())
-        guest->deadline = now + m_limits.patience;
+    const auto visit = m_visits.find(ticket);
+    if (visit == m_visits.end())
+        return;
+    visit->deadline = now + m_limits.patience;
+    ++visit->steps;
 }
 
 bool ConnectionGate::prove(Ticket ticket, const QString &identity)
 {
-    const auto guest = m_guests.find(ticket);
-    const auto isIt = [&](const Guest &other) { return other.identity == identity; };
-    if (guest == m_guests.end()
-        || std::count_if(m_guests.begin(), m_guests.end(), isIt) >= m_limits.connectionsOfIdentity)
+    const auto visit = m_visits.find(ticket);
+    const auto isIt = [&](const Visit &other) { return other.identity == identity; };
+    if (visit == m_visits.end()
+        || std::count_if(m_visits.begin(), m_visits.end(), isIt) >= m_limits.connectionsOfIdentity)
         return false;
-    guest->identity = identity;
+    visit->identity = identity;
     return true;
 }
 
-void ConnectionGate::know(Ticket ticket)
+void ConnectionGate::trust(Ticket ticket)
 {
-    const auto guest = m_guests.find(ticket);
-    if (guest != m_guests.end())
-        guest->isStranger = false;
+    const auto visit = m_visits.constFind(ticket);
+    if (visit == m_visits.constEnd())
+        return;
+    const auto origin = m_origins.find(visit->origin);
+    const auto areTrusted = [](const Origin &one) { return one.isTrusted; };
+    if (origin != m_origins.end() && std::count_if(m_origins.begin(), m_origins.end(), areTrusted) < MostOrigins / 2)
+        origin->isTrusted = true;
+}
+
+bool ConnectionGate::know(Ticket ticket, Guest guest)
+{
+    const auto visit = m_visits.find(ticket);
+    const int places = m_limits.connections - (guest == Observer ? m_limits.reserved() : 0);
+    if (visit == m_visits.end() || (visit->isStranger && known() >= places))
+        return false;
+    endStranger(&*visit);
+    return true;
 }
 
 void ConnectionGate::leave(Ticket ticket)
 {
-    m_guests.remove(ticket);
+    const auto visit = m_visits.find(ticket);
+    if (visit == m_visits.end())
+        return;
+    endStranger(&*visit);
+    m_visits.erase(visit);
+}
+
+void ConnectionGate::endStranger(Visit *visit)
+{
+    if (!visit->isStranger)
+        return;
+    visit->isStranger = false;
+    --m_strangers;
+    const auto origin = m_origins.find(visit->origin);
+    if (origin != m_origins.end())
+        --origin->strangers;
 }
 
 QVector<ConnectionGate::Ticket> ConnectionGate::overdue(qint64 now) const
 {
     QVector<Ticket> tickets;
-    for (auto guest = m_guests.begin(); guest != m_guests.end(); ++guest) {
-        if (guest->isStranger && now >= guest->deadline)
-            tickets << guest.key();
+    for (auto visit = m_visits.begin(); visit != m_visits.end(); ++visit) {
+        if (visit->isStranger && now >= visit->deadline)
+            tickets << visit.key();
     }
     std::sort(tickets.begin(), tickets.end());
     return tickets;
 }
 
-int ConnectionGate::strangers() const
+/// The stranger who has done the fewest steps, and of those the oldest. 0: there is none.
+ConnectionGate::Ticket ConnectionGate::leastOf(const std::function<bool(const Visit &)> &isMeant) const
 {
-    return int(std::count_if(m_guests.begin(), m_guests.end(), [](const Guest &guest) { return guest.isStranger; }));
+    auto least = m_visits.end();
+    for (auto visit = m_visits.begin(); visit != m_visits.end(); ++visit) {
+        if (visit->isStranger && isMeant(*visit)
+            && (least == m_visits.end()
+                || std::make_pair(visit->steps, visit.key()) < std::make_pair(least->steps, least.key())))
+            least = visit;
+    }
+    return least == m_visits.end() ? 0 : least.key();
+}
+
+// ---- addresses ----
+
+ConnectionGate::Origin &ConnectionGate::originOf(const QByteArray &key, qint64 now)
+{
+    auto origin = m_origins.find(key);
+    if (origin == m_origins.end()) {
+        if (m_origins.size() >= MostOrigins)
+            forgetOrigins(now - LongestMemory);
+        if (m_origins.size() >= MostOrigins)
+            forgetOrigins(now);
+        origin = m_origins.insert(key, {TokenBucket(m_limits.acceptsPerSecond, m_limits.acceptsAtOnce), 0, false, 0});
+    }
+    origin->seen = now;
+    return *origin;
+}
+
+/// Whether strangers of others cannot take the places of its own ones: not if these are a crowd.
+bool ConnectionGate::isProtected(const QByteArray &origin) const
+{
+    const auto found = m_origins.constFind(origin);
+    return found != m_origins.constEnd() && found->isTrusted && found->strangers <= m_limits.strangersOfAddress;
+}
+
+/// Those that are neither here nor trusted, and were not seen after \a before: fewer than
+/// MostOrigins stay.
+void ConnectionGate::forgetOrigins(qint64 before)
+{
+    for (auto origin = m_origins.begin(); origin != m_origins.end();) {
+        const bool isNeeded = origin->strangers > 0 || origin->isTrusted || origin->seen > before;
+        origin = isNeeded ? std::next(origin) : m_origins.erase(origin);
+    }
 }
 
 const char *ConnectionGate::textOf(Refusal refusal)
@@ -93,20 +178,12 @@ const char *ConnectionGate::textOf(Refusal refusal)
         return "";
     case TooManyConnections:
         return "too many connections";
-    case TooManyOfAddress:
-        return "too many connections of this address that have not said who they are";
     case TooManyOfIdentity:
         return "too many connections of this identity";
     case TooFast:
         return "too many new connections in a short time";
     }
     return "";
-}
-
-int ConnectionGate::strangersOf(const QHostAddress &origin) const
-{
-    return int(std::count_if(m_guests.begin(), m_guests.end(),
-                             [&](const Guest &guest) { return guest.isStranger && guest.origin == origin; }));
 }
 
 }  // namespace qplc

@@ -3,77 +3,111 @@
 
 #include "TokenBucket.h"
 
+#include <QtCore/QByteArray>
 #include <QtCore/QHash>
 #include <QtCore/QVector>
 #include <QtNetwork/QHostAddress>
 
-#include <optional>
+#include <functional>
 
 namespace qplc {
 
-/// How many may come in to a server, how fast, and how long they may take to say who they are. A
-/// stranger is somebody who has not; memory for him is bounded by this class alone.
+/// How many connections a server takes in, how fast, and how long they may take to say who they
+/// are. A connection that has not is a stranger; this class alone bounds the memory for strangers.
 ///
-/// Looks at no clock: times are ns on any steady clock. Who comes from a loopback address is a user
-/// of this machine: no limit of its own for the address, no rate.
+/// Each address has a budget of its own. A newcomer for whom there is no place takes that of the
+/// stranger who has said least, so silent connections keep nobody out. Addresses that have proven
+/// themselves have places in reserve.
+///
+/// Looks at no clock: times are ns on any steady clock. The users of this machine share its
+/// loopback addresses: these have no limit of their own, and no rate.
 class ConnectionGate
 {
 public:
     struct Limits
     {
-        int connections = 320;            // at a time: 254 nodes, strangers, and as many tools
-        int connectionsOfIdentity = 32;   // of them, at a time, of one that was proven
-        int strangers = 32;               // of them, at a time; more wait in the queue of the system
-        int strangersOfAddress = 8;       // of them, from one address, or one IPv6 network of 64 bits
-        int acceptsPerSecond = 50;        // on the long run
-        int acceptsAtOnce = 64;           // after a pause
+        int connections = 320;           // at a time, without strangers: 254 nodes and tools
+        int connectionsOfIdentity = 32;  // of them, at a time, of one that was proven
+        int strangers = 256;             // at a time
+        int reserve = 128;               // more, for addresses that have proven themselves
+        int strangersOfAddress = 64;
+        int acceptsPerSecond = 5000;      // of an address, on the long run
+        int acceptsAtOnce = 1000;         // of an address, after a pause
         qint64 patience = 2'000'000'000;  // with a stranger [ns]
+
+        /// Of the connections, those that only nodes and operators get.
+        int reserved() const { return connections / 8; }
     };
-    enum Refusal : quint8 { Admitted, TooManyConnections, TooManyOfAddress, TooManyOfIdentity, TooFast };
+    enum Refusal : quint8 { Admitted, TooManyConnections, TooManyOfIdentity, TooFast };
+    enum Guest : quint8 { Observer, NodeOrOperator };
     using Ticket = quint64;  // of a connection; never 0
 
-    void setLimits(const Limits &limits)
+    struct Admission
     {
-        m_limits = limits;
-        m_accepts = TokenBucket(limits.acceptsPerSecond, limits.acceptsAtOnce);
-    }
+        Ticket ticket = 0;           // 0: is to be closed at once
+        Refusal refusal = Admitted;  // the reason
+        Ticket crowdedOut = 0;       // who has to make room, and is to be closed; 0: nobody
+    };
+
+    void setLimits(const Limits &limits) { m_limits = limits; }
     const Limits &limits() const { return m_limits; }
 
-    /// Whether the next connection may be taken out of the queue of the system.
-    bool hasRoom() const { return strangers() < m_limits.strangers; }
-    /// Takes somebody in as a stranger. \return nothing, with the reason in \a refusal, when there
-    /// is no place: he is to be closed at once
-    std::optional<Ticket> admit(const QHostAddress &address, qint64 now, Refusal *refusal);
-    /// The stranger has done a step and gets time for the next one.
+    /// Takes somebody in as a stranger if there is a place.
+    Admission admit(const QHostAddress &address, qint64 now);
+    /// The stranger has begun a handshake.
+    void hear(Ticket ticket);
+    /// The stranger has ended a step and gets time for the next one.
     void renew(Ticket ticket, qint64 now);
     /// The stranger has proven to be \a identity. \return false when there are too many of it: he
     /// is to be closed
     bool prove(Ticket ticket, const QString &identity);
-    /// The stranger has said who he is.
-    void know(Ticket ticket);
+    /// From now on the address of \a ticket has places in reserve.
+    void trust(Ticket ticket);
+    /// The stranger has said who he is. \return false when there is no place for \a guest: he is to
+    /// be closed
+    bool know(Ticket ticket, Guest guest);
     /// Nobody of this ticket is here any more.
     void leave(Ticket ticket);
     /// Strangers who have taken too long.
     QVector<Ticket> overdue(qint64 now) const;
 
-    int connections() const { return int(m_guests.size()); }
-    int strangers() const;
+    int connections() const { return int(m_visits.size()); }
+    int strangers() const { return m_strangers; }
+    /// Addresses that are kept in memory.
+    int origins() const { return int(m_origins.size()); }
     static const char *textOf(Refusal refusal);
 
 private:
-    struct Guest
+    struct Visit
     {
-        QHostAddress origin;
+        QByteArray origin;
         QString identity;  // as far as it was proven
         bool isStranger = true;
+        int steps = 0;  // that it has done as a stranger
         qint64 deadline = 0;
     };
-    int strangersOf(const QHostAddress &origin) const;
+    /// What is known of an address.
+    struct Origin
+    {
+        TokenBucket accepts;
+        int strangers = 0;
+        bool isTrusted = false;
+        qint64 seen = 0;
+    };
+    static constexpr int MostOrigins = 1024;
+
+    Origin &originOf(const QByteArray &key, qint64 now);
+    bool isProtected(const QByteArray &origin) const;
+    void forgetOrigins(qint64 before);
+    void endStranger(Visit *visit);
+    int known() const { return connections() - strangers(); }
+    Ticket leastOf(const std::function<bool(const Visit &)> &isMeant) const;
 
     Limits m_limits;
-    QHash<Ticket, Guest> m_guests;
+    QHash<Ticket, Visit> m_visits;
+    QHash<QByteArray, Origin> m_origins;  // by all bits of the address and its scope
+    int m_strangers = 0;
     Ticket m_last = 0;
-    TokenBucket m_accepts{Limits().acceptsPerSecond, Limits().acceptsAtOnce};
 };
 
 }  // namespace qplc

@@ -105,6 +105,14 @@ void CyclicHub::rebuild() noexcept
     m_polled.push_back({-1, POLLIN, 0});
 }
 
+std::uint64_t CyclicHub::keptOff() const
+{
+    std::uint64_t sum = 0;
+    for (const auto &transport : m_transports)
+        sum += transport->keptOff();
+    return sum;
+}
+
 std::uint64_t CyclicHub::unread() const
 {
     std::uint64_t sum = 0;

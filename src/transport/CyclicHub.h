@@ -74,8 +74,10 @@ public:
     /// when there is none any more
     bool next(HubFrame *frame) noexcept;
 
-    /// Frames whose sender is no peer.
+    /// Frames that were read, and whose sender is no peer.
     std::uint64_t strangers() const noexcept { return m_arrivals.strangers; }
+    /// Frames of strangers that the kernel has kept off so far. Any thread.
+    std::uint64_t keptOff() const;
     /// How often frames were left to the next wait(), as there were more than
     /// HubTransport::FramesPerWait.
     std::uint64_t floods() const noexcept { return m_arrivals.floods; }

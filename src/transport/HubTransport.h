@@ -121,6 +121,8 @@ public:
     /// Frames since open() that the kernel had no room for, as nobody read those before them in
     /// time.
     virtual std::uint64_t unread() const { return 0; }
+    /// Frames that the kernel has kept off so far, as their senders are no peers. Any thread.
+    virtual std::uint64_t keptOff() const { return 0; }
 
 protected:
     HubArrivals &arrivals() noexcept { return *m_arrivals; }

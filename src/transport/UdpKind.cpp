@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "UdpKind.h"
 
+#include "CyclicHub.h"
 #include "UdpLink.h"
 #include "UdpTransport.h"
 #include "protocol/messages/Vocabulary.h"
@@ -26,9 +27,11 @@ bool UdpKind::admits(const CyclicHub &, const Newcomer &node, ChannelError *erro
     return isPort;
 }
 
-std::unique_ptr<HubPeer> UdpKind::makePeer(const CyclicHub &, const Newcomer &node, QJsonObject *, ChannelError *) const
+std::unique_ptr<HubPeer> UdpKind::makePeer(const CyclicHub &hub, const Newcomer &node, QJsonObject *,
+                                           ChannelError *) const
 {
-    return UdpTransport::peer(SocketAddress(node.address, quint16(messages::fieldsOf<Request>(node.request).udpPort)));
+    const auto port = quint16(messages::fieldsOf<Request>(node.request).udpPort);
+    return hub.find<UdpTransport>()->peer(SocketAddress(node.address, port), node.volume.outputs);
 }
 
 bool UdpKind::beginLink(const ControlEnds &ends, QJsonObject *request, std::unique_ptr<CyclicLink> *link,

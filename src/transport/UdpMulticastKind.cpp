@@ -64,7 +64,8 @@ public:
                                       ChannelError *error) const override;
     std::unique_ptr<HubPeer> makeGroupPeer(const CyclicHub &hub) const override
     {
-        return UdpTransport::peer(hub.find<UdpTransport>()->group());
+        auto *transport = hub.find<UdpTransport>();
+        return transport->peer(transport->group());
     }
     bool beginLink(const ControlEnds &ends, QJsonObject *request, std::unique_ptr<CyclicLink> *link,
                    QString *error) const override;

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "UdpTransport.h"
 
+#include "DatagramFilter.h"
+
 #include <QtCore/qendian.h>
 #include <QtNetwork/QUdpSocket>
 
 #include <algorithm>
 #include <cerrno>
 #include <linux/sock_diag.h>
+#include <mutex>
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -20,18 +23,76 @@ namespace {
 constexpr std::int64_t CoarseWait = 4'000'000;  // [ns]
 constexpr std::int64_t LongWait = 20'000'000;   // [ns]
 
+// Room for answers that nobody has read yet, in the kernel.
+constexpr std::size_t CyclesOfRoom = 8;
+constexpr std::size_t LeastFrames = 128;
+constexpr std::size_t MemoryOfFrame = 1280;  // [byte] the kernel takes it twice, for its own data
+
+/// Datagrams that the kernel has dropped before \a socket could read them.
+std::uint64_t dropsOf(int socket)
+{
+    std::array<std::uint32_t, SK_MEMINFO_VARS> memory{};
+    socklen_t size = sizeof memory;
+    return ::getsockopt(socket, SOL_SOCKET, SO_MEMINFO, memory.data(), &size) == 0 ? memory[SK_MEMINFO_DROPS] : 0;
+}
+
 }  // namespace
+
+/// The UDP port of a master: a socket for its peers, and one for strangers, whose datagrams the
+/// kernel counts and drops.
+class UdpTransport::Port
+{
+public:
+    struct Guest
+    {
+        SocketAddress address;
+        std::size_t frames = 0;  // that it sends in a cycle
+    };
+
+    ~Port() { close(); }
+    bool open(const SocketAddress &address);
+    void close();
+    /// By the owners of peers, one of whom may be a cycle thread that frees a node at last.
+    void add(const Guest &guest);
+    void remove(const Guest &guest);
+
+    int ofPeers() const { return m_ofPeers; }
+    /// Datagrams of strangers so far.
+    std::uint64_t keptOff() const
+    {
+        const std::lock_guard<std::mutex> lock(m_mutex);
+        return m_keptOffBefore + dropsOf(m_ofStrangers);
+    }
+
+private:
+    bool join(const SocketAddress &address);
+    void tellKernel() const;
+
+    mutable std::mutex m_mutex;
+    int m_ofPeers = -1;
+    int m_ofStrangers = -1;
+    std::uint64_t m_keptOffBefore = 0;  // before the port was closed last
+    std::vector<Guest> m_guests;
+};
 
 class UdpTransport::Peer final : public HubPeer
 {
 public:
-    explicit Peer(const SocketAddress &to)
-        : address(to)
+    Peer(const std::shared_ptr<Port> &port, const Port::Guest &guest)
+        : address(guest.address)
+        , m_port(port)
+        , m_guest(guest)
     {
+        m_port->add(m_guest);
     }
+    ~Peer() override { m_port->remove(m_guest); }
     bool losesFrames() const override { return true; }
 
     SocketAddress address;
+
+private:
+    const std::shared_ptr<Port> m_port;
+    const Port::Guest m_guest;
 };
 
 struct UdpTransport::Messages
@@ -46,7 +107,8 @@ struct UdpTransport::Messages
 };
 
 UdpTransport::UdpTransport()
-    : m_messages(std::make_unique<Messages>())
+    : m_port(std::make_shared<Port>())
+    , m_messages(std::make_unique<Messages>())
 {
     m_peers.reserve(MaximumPeers);
     for (std::size_t i = 0; i < Batch; ++i) {
@@ -63,23 +125,101 @@ UdpTransport::~UdpTransport()
     close();
 }
 
-std::unique_ptr<HubPeer> UdpTransport::peer(const SocketAddress &address)
+std::unique_ptr<HubPeer> UdpTransport::peer(const SocketAddress &address, const FrameVolume &answers)
 {
-    return std::make_unique<Peer>(address);
+    return std::make_unique<Peer>(m_port, Port::Guest{address, answers.frames});
 }
 
-// ---- the socket ----
+// ---- the port ----
+
+bool UdpTransport::Port::open(const SocketAddress &address)
+{
+    const std::lock_guard<std::mutex> lock(m_mutex);
+    const int off = 0;
+    for (int *socket : {&m_ofPeers, &m_ofStrangers}) {
+        *socket = ::socket(address.family(), SOCK_DGRAM | SOCK_CLOEXEC, 0);
+        if (address.family() == AF_INET6)
+            ::setsockopt(*socket, IPPROTO_IPV6, IPV6_V6ONLY, &off, sizeof off);
+    }
+    const timeval longestReceive{0, suseconds_t(CoarseWait / 1000)};
+    ::setsockopt(m_ofPeers, SOL_SOCKET, SO_RCVTIMEO, &longestReceive, sizeof longestReceive);
+    if (m_ofPeers < 0 || ::bind(m_ofPeers, address.data(), address.length) != 0 || !join(address))
+        return false;
+    tellKernel();
+    return true;
+}
+
+/// Binds the second socket to the port of the first one. Nobody shares the port before: that it is
+/// free is known then.
+bool UdpTransport::Port::join(const SocketAddress &address)
+{
+    SocketAddress bound = address;
+    ::getsockname(m_ofPeers, bound.data(), &bound.length);
+    const int on = 1;
+    sock_filter dropAll{BPF_RET | BPF_K, 0, 0, 0};
+    const sock_fprog program{1, &dropAll};
+    return ::setsockopt(m_ofPeers, SOL_SOCKET, SO_REUSEPORT, &on, sizeof on) == 0
+        && ::setsockopt(m_ofStrangers, SOL_SOCKET, SO_REUSEPORT, &on, sizeof on) == 0
+        && ::setsockopt(m_ofStrangers, SOL_SOCKET, SO_ATTACH_FILTER, &program, sizeof program) == 0
+        && ::bind(m_ofStrangers, bound.data(), bound.length) == 0;
+}
+
+void UdpTransport::Port::close()
+{
+    const std::lock_guard<std::mutex> lock(m_mutex);
+    m_keptOffBefore += dropsOf(m_ofStrangers);
+    for (int *socket : {&m_ofPeers, &m_ofStrangers}) {
+        if (*socket >= 0)
+            ::close(*socket);
+        *socket = -1;
+    }
+}
+
+void UdpTransport::Port::add(const Guest &guest)
+{
+    const std::lock_guard<std::mutex> lock(m_mutex);
+    m_guests.push_back(guest);
+    tellKernel();
+}
+
+void UdpTransport::Port::remove(const Guest &guest)
+{
+    const std::lock_guard<std::mutex> lock(m_mutex);
+    const auto isIt = [&](const Guest &other) { return other.address == guest.address; };
+    m_guests.erase(std::find_if(m_guests.begin(), m_guests.end(), isIt));
+    tellKernel();
+}
+
+/// Who is a peer, and how much they send: answers of some cycles have room, should nobody read
+/// them for a while.
+void UdpTransport::Port::tellKernel() const
+{
+    if (m_ofPeers < 0)
+        return;
+    std::vector<SocketAddress> addresses;
+    std::size_t frames = 0;
+    for (const Guest &guest : m_guests) {
+        addresses.push_back(guest.address);
+        frames += guest.frames;
+    }
+    using namespace datagramFilter;
+    for (Program program : {byAddress(addresses), byPort(addresses)}) {
+        const sock_fprog given{std::uint16_t(program.size()), program.data()};
+        if (program.size() <= BPF_MAXINSNS
+            && ::setsockopt(m_ofPeers, SOL_SOCKET, SO_ATTACH_REUSEPORT_CBPF, &given, sizeof given) == 0)
+            break;
+    }
+    const int room = int(std::max(LeastFrames, frames * CyclesOfRoom) * MemoryOfFrame);
+    if (::setsockopt(m_ofPeers, SOL_SOCKET, SO_RCVBUFFORCE, &room, sizeof room) != 0)
+        ::setsockopt(m_ofPeers, SOL_SOCKET, SO_RCVBUF, &room, sizeof room);  // as much as net.core.rmem_max allows
+}
 
 bool UdpTransport::open(const SocketAddress &address, QString *error)
 {
-    m_socket = ::socket(address.family(), SOCK_DGRAM | SOCK_CLOEXEC, 0);
-    const timeval longestReceive{0, suseconds_t(CoarseWait / 1000)};
-    ::setsockopt(m_socket, SOL_SOCKET, SO_RCVTIMEO, &longestReceive, sizeof longestReceive);
     m_isIpv6 = address.family() == AF_INET6;
-    const int off = 0;
-    if (m_isIpv6)
-        ::setsockopt(m_socket, IPPROTO_IPV6, IPV6_V6ONLY, &off, sizeof off);
-    if (m_socket >= 0 && ::bind(m_socket, address.data(), address.length) == 0)
+    const bool isOpen = m_port->open(address);
+    m_socket = m_port->ofPeers();
+    if (isOpen)
         return true;
     *error = QStringLiteral("cannot use UDP port %1: %2").arg(address.toString(), systemErrorText());
     return false;  // the hub closes all its transports
@@ -87,8 +227,7 @@ bool UdpTransport::open(const SocketAddress &address, QString *error)
 
 void UdpTransport::close()
 {
-    if (m_socket >= 0)
-        ::close(m_socket);
+    m_port->close();
     m_socket = -1;
     m_outgoing = m_arrived = m_taken = 0;
     m_hasMore = false;
@@ -121,9 +260,12 @@ bool UdpTransport::openGroup(const QHostAddress &address, const QHostAddress &gr
 
 std::uint64_t UdpTransport::unread() const
 {
-    std::array<std::uint32_t, SK_MEMINFO_VARS> memory{};
-    socklen_t size = sizeof memory;
-    return ::getsockopt(m_socket, SOL_SOCKET, SO_MEMINFO, memory.data(), &size) == 0 ? memory[SK_MEMINFO_DROPS] : 0;
+    return dropsOf(m_socket);
+}
+
+std::uint64_t UdpTransport::keptOff() const
+{
+    return m_port->keptOff();
 }
 
 void UdpTransport::addDescriptors(std::vector<pollfd> *descriptors) const

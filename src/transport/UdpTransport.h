@@ -1,23 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "FrameVolume.h"
 #include "HubTransport.h"
 
 #include <array>
 
 namespace qplc {
 
-/// Datagrams over one UDP socket: many peers with few system calls.
+/// Datagrams over one UDP port: many peers with few system calls.
+///
+/// The kernel keeps datagrams of strangers apart: they wake nobody and take no room from others.
 class UdpTransport final : public HubTransport
 {
 public:
     UdpTransport();
     ~UdpTransport() override;
 
-    /// A node that is reached at \a address.
-    static std::unique_ptr<HubPeer> peer(const SocketAddress &address);
+    /// A node that is reached at \a address, and sends \a answers in a cycle: from now on until it
+    /// is deleted, its datagrams are not those of a stranger. Not by the cycle thread.
+    std::unique_ptr<HubPeer> peer(const SocketAddress &address, const FrameVolume &answers = {});
 
-    /// Binds the socket. One that is bound to :: also exchanges datagrams with IPv4 addresses.
+    /// Binds the sockets. Those that are bound to :: also exchange datagrams with IPv4 addresses.
     bool open(const SocketAddress &address, QString *error) override;
     void close() override;
     /// Datagrams to the multicast group \a group leave by the interface of \a address, for one hop.
@@ -30,7 +34,7 @@ public:
     void attach(HubPeer *peer) noexcept override;
     void detach(HubPeer *peer) noexcept override;
     std::size_t peerCount() const noexcept override { return m_peers.size(); }
-    bool isIdle() const noexcept override { return m_socket < 0 && m_peers.empty(); }  // strangers send to it, too
+    bool isIdle() const noexcept override { return m_socket < 0 && m_peers.empty(); }  // nodes may send too early
     void addDescriptors(std::vector<pollfd> *descriptors) const override;
 
     bool send(HubPeer *peer, const char *frame, std::size_t size) noexcept override;
@@ -40,9 +44,11 @@ public:
     bool next(HubFrame *frame) noexcept override;
 
     std::uint64_t unread() const override;
+    std::uint64_t keptOff() const override;
 
 private:
     class Peer;
+    class Port;
     struct Messages;
     static constexpr std::size_t Batch = 32;
     static constexpr std::size_t LargestDatagram = 2048;
@@ -54,7 +60,8 @@ private:
     bool readMore() noexcept;
     int receive(int flags) noexcept;
 
-    int m_socket = -1;
+    std::shared_ptr<Port> m_port;  // its peers may last longer
+    int m_socket = -1;             // of the port; -1: not open
     bool m_isIpv6 = false;
     SocketAddress m_group;
     std::vector<Peer *> m_peers;

@@ -265,12 +265,12 @@ void tst_Allocations::peersComeAndGo()
 {
     constexpr int count = 100;
     const qplc::SocketAddress address(QHostAddress(QHostAddress::LocalHost), 1);
+    qplc::CyclicHub hub;
     std::vector<std::unique_ptr<qplc::HubPeer>> peers;
     for (int i = 0; i < count; ++i) {
-        peers.push_back(qplc::UdpTransport::peer(address));
+        peers.push_back(hub.find<qplc::UdpTransport>()->peer(address));
         peers.push_back(qplc::StreamTransport::peer(-1, qplc::FrameCutter(), 1000));
     }
-    qplc::CyclicHub hub;
     const ThreadCosts before = ThreadCosts::ofThisThread();
     for (const auto &peer : peers)
         hub.attach(peer.get());

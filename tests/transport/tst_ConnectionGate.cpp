@@ -27,13 +27,17 @@ class tst_ConnectionGate : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void strangersPerAddressAreLimited();
-    void aNetworkOfIPv6IsOneAddress();
+    void anAddressWithManyStrangersCrowdsOutItsOwn();
+    void silentStrangersMakeRoomFirst();
+    void addressesOfIPv6DifferInAllBitsAndTheirScope();
     void localStrangersHaveNoAddressLimit();
-    void numberOfStrangersIsLimited();
+    void provenAddressesHaveAReserve();
+    void aCrowdOfAProvenAddressIsNotProtected();
+    void theLastConnectionsAreForNodesAndOperators();
+    void manyAddressesNeedBoundedMemory();
     void allConnectionsTogetherAreLimited();
     void connectionsOfOneIdentityAreLimited();
-    void theRateIsLimited();
+    void theRateOfAnAddressIsLimited();
     void strangersAreOverdueAfterTwoSeconds();
     void handshakeStepRenewsTheTimeOfAStranger();
     void knownPeerIsNeverOverdue();
@@ -42,57 +46,158 @@ private Q_SLOTS:
 
 private:
     ConnectionGate m_gate;
-    ConnectionGate::Refusal m_refusal = ConnectionGate::Admitted;
+    ConnectionGate::Admission m_admission;
     quint64 admit(const QHostAddress &address, qint64 now = 0)
     {
-        return m_gate.admit(address, now, &m_refusal).value_or(0);
+        m_admission = m_gate.admit(address, now);
+        return m_admission.ticket;
     }
     void cleanup() { m_gate = ConnectionGate(); }
 };
 
-void tst_ConnectionGate::strangersPerAddressAreLimited()
+void tst_ConnectionGate::anAddressWithManyStrangersCrowdsOutItsOwn()
 {
     cleanup();
-    quint64 first = admit(far());
-    for (int i = 1; i < 8; ++i)
-        QVERIFY(admit(far()) != 0);
-    QCOMPARE(admit(far()), quint64(0));
-    QCOMPARE(m_refusal, ConnectionGate::TooManyOfAddress);
-    QCOMPARE(admit(far("::ffff:192.0.2.1")), quint64(0));  // the same one
-    QVERIFY(admit(far("192.0.2.2")) != 0);
-    m_gate.know(first);
+    const quint64 other = admit(far("192.0.2.2"));
+    const quint64 first = admit(far());
+    for (int i = 1; i < 64; ++i)
+        admit(far());
+    QCOMPARE(m_admission.crowdedOut, quint64(0));
+    QVERIFY(admit(far("::ffff:192.0.2.1")) != 0);  // the same one
+    QCOMPARE(m_admission.crowdedOut, first);
+    QVERIFY(admit(far("192.0.2.2")) != other);
+    QCOMPARE(m_admission.crowdedOut, quint64(0));
+    m_gate.leave(first);
     QVERIFY(admit(far()) != 0);
+    QCOMPARE(m_admission.crowdedOut, quint64(first + 1));
+    m_gate.leave(m_admission.crowdedOut);
+    QVERIFY(m_gate.know(first + 2, ConnectionGate::NodeOrOperator));  // no stranger any more
+    QVERIFY(admit(far()) != 0);
+    QCOMPARE(m_admission.crowdedOut, quint64(0));
 }
 
-void tst_ConnectionGate::aNetworkOfIPv6IsOneAddress()
+void tst_ConnectionGate::silentStrangersMakeRoomFirst()
 {
     cleanup();
-    for (int i = 0; i < 8; ++i)
-        QVERIFY(admit(QHostAddress(QStringLiteral("2001:db8:0:1::%1").arg(i + 1))) != 0);
-    QCOMPARE(admit(QHostAddress(QStringLiteral("2001:db8:0:1:ffff::9"))), quint64(0));
-    QCOMPARE(m_refusal, ConnectionGate::TooManyOfAddress);
-    QVERIFY(admit(QHostAddress(QStringLiteral("2001:db8:0:2::9"))) != 0);
+    const quint64 entered = admit(far());
+    const quint64 begun = admit(far());
+    for (int i = 2; i < 64; ++i)
+        admit(far());
+    m_gate.hear(begun);
+    m_gate.hear(entered);
+    m_gate.renew(entered, 0);
+    quint64 silent = begun;
+    for (int i = 2; i < 64; ++i) {
+        const quint64 next = admit(far());
+        QCOMPARE(m_admission.crowdedOut, ++silent);
+        m_gate.leave(silent);
+        m_gate.hear(next);
+    }
+    for (const quint64 victim : {begun, silent + 1}) {  // of those that have begun, the oldest
+        m_gate.hear(admit(far()));
+        QCOMPARE(m_admission.crowdedOut, victim);
+        m_gate.leave(victim);
+    }
+}
+
+void tst_ConnectionGate::addressesOfIPv6DifferInAllBitsAndTheirScope()
+{
+    cleanup();
+    const auto fill = [this](const QHostAddress &address) {
+        quint64 first = 0;
+        for (int i = 0; i < 64; ++i) {
+            const quint64 ticket = admit(address);
+            first = first == 0 ? ticket : first;
+            QCOMPARE(m_admission.crowdedOut, quint64(0));
+        }
+        admit(address);
+        QCOMPARE(m_admission.crowdedOut, first);
+        m_gate.leave(first);
+    };
+    fill(far("2001:db8::1"));
+    fill(far("2001:db8::2"));
+    fill(far("fe80::1%eth0"));
+    cleanup();
+    fill(far("fe80::1%eth1"));
+    fill(far("fe80::1%eth0"));
 }
 
 void tst_ConnectionGate::localStrangersHaveNoAddressLimit()
 {
     cleanup();
-    for (int i = 0; i < 32; ++i)
+    for (int i = 0; i < 256; ++i) {
         QVERIFY(admit(QHostAddress::LocalHost) != 0);
+        QCOMPARE(m_admission.crowdedOut, quint64(0));
+    }
 }
 
-void tst_ConnectionGate::numberOfStrangersIsLimited()
+/// Many addresses together leave room for those that have proven themselves.
+void tst_ConnectionGate::provenAddressesHaveAReserve()
 {
     cleanup();
-    quint64 last = 0;
-    for (int i = 0; i < 32; ++i) {
-        QVERIFY(m_gate.hasRoom());
-        last = admit(QHostAddress::LocalHost);
+    const QHostAddress friendly = far("192.0.2.200");
+    const quint64 node = admit(friendly);
+    m_gate.trust(node);
+    QVERIFY(m_gate.know(node, ConnectionGate::NodeOrOperator));
+    quint64 first = 0;
+    for (int i = 0; i < 256; ++i) {
+        const quint64 ticket = admit(far(qPrintable(QStringLiteral("192.0.3.%1").arg(i / 32))));
+        first = first == 0 ? ticket : first;
     }
-    QVERIFY(!m_gate.hasRoom());
-    m_gate.leave(last);
-    QVERIFY(m_gate.hasRoom());
-    QCOMPARE(m_gate.strangers(), 31);
+    QCOMPARE(m_gate.strangers(), 256);
+    for (int i = 0; i < 64; ++i) {
+        QVERIFY(admit(friendly) != 0);
+        QCOMPARE(m_admission.crowdedOut, quint64(0));
+    }
+    QVERIFY(admit(far("192.0.2.201")) != 0);
+    QCOMPARE(m_admission.crowdedOut, first);  // not one of the proven address
+    m_gate.leave(first);
+    m_gate.leave(node);
+    QVERIFY(admit(friendly) != 0);
+    QCOMPARE(m_admission.crowdedOut, node + 257);  // one of its own: they are too many
+}
+
+/// Friend and foe on one computer: its crowd is not protected from strangers elsewhere.
+void tst_ConnectionGate::aCrowdOfAProvenAddressIsNotProtected()
+{
+    cleanup();
+    const quint64 first = admit(QHostAddress::LocalHost);
+    m_gate.trust(first);
+    for (int i = 1; i < 256; ++i)
+        admit(QHostAddress::LocalHost);
+    QVERIFY(admit(far()) != 0);
+    QCOMPARE(m_admission.crowdedOut, first);
+}
+
+void tst_ConnectionGate::theLastConnectionsAreForNodesAndOperators()
+{
+    cleanup();
+    const int all = ConnectionGate::Limits().connections;
+    const int reserved = ConnectionGate::Limits().reserved();
+    QCOMPARE(reserved, 40);
+    for (int i = 0; i < all - reserved; ++i)
+        QVERIFY(m_gate.know(admit(QHostAddress::LocalHost), ConnectionGate::Observer));
+    QVERIFY(!m_gate.know(admit(QHostAddress::LocalHost), ConnectionGate::Observer));
+    m_gate.leave(m_admission.ticket);
+    for (int i = 0; i < reserved; ++i)
+        QVERIFY(m_gate.know(admit(QHostAddress::LocalHost), ConnectionGate::NodeOrOperator));
+    QCOMPARE(admit(QHostAddress::LocalHost), quint64(0));
+}
+
+/// Budgets of addresses that are gone are forgotten, those of others are not.
+void tst_ConnectionGate::manyAddressesNeedBoundedMemory()
+{
+    cleanup();
+    const quint64 node = admit(far());
+    m_gate.trust(node);
+    m_gate.leave(node);
+    for (quint32 i = 0; i < 100'000; ++i)
+        m_gate.leave(admit(QHostAddress(0x0A000000U + i)));
+    QVERIFY2(m_gate.origins() <= 1024, qPrintable(QString::number(m_gate.origins())));
+    for (quint32 i = 0; i < 256; ++i)
+        admit(QHostAddress(0x0A000000U + i));
+    QVERIFY(admit(far()) != 0);
+    QCOMPARE(m_admission.crowdedOut, quint64(0));  // it is trusted still
 }
 
 void tst_ConnectionGate::allConnectionsTogetherAreLimited()
@@ -102,10 +207,10 @@ void tst_ConnectionGate::allConnectionsTogetherAreLimited()
     for (int i = 0; i < ConnectionGate::Limits().connections; ++i) {
         last = admit(QHostAddress::LocalHost);
         QVERIFY(last != 0);
-        m_gate.know(last);
+        m_gate.know(last, ConnectionGate::NodeOrOperator);
     }
     QCOMPARE(admit(QHostAddress::LocalHost), quint64(0));
-    QCOMPARE(m_refusal, ConnectionGate::TooManyConnections);
+    QCOMPARE(m_admission.refusal, ConnectionGate::TooManyConnections);
     m_gate.leave(last);
     QVERIFY(admit(QHostAddress::LocalHost) != 0);
 }
@@ -118,7 +223,7 @@ void tst_ConnectionGate::connectionsOfOneIdentityAreLimited()
         last = admit(QHostAddress::LocalHost);
         QVERIFY(m_gate.prove(last, QStringLiteral("anna")));
         if (i % 2 == 0)
-            m_gate.know(last);
+            m_gate.know(last, ConnectionGate::NodeOrOperator);
     }
     const quint64 further = admit(QHostAddress::LocalHost);
     QVERIFY(!m_gate.prove(further, QStringLiteral("anna")));
@@ -128,23 +233,24 @@ void tst_ConnectionGate::connectionsOfOneIdentityAreLimited()
     QVERIFY(!m_gate.prove(last, QStringLiteral("carl")));  // who is gone proves nothing
 }
 
-void tst_ConnectionGate::theRateIsLimited()
+void tst_ConnectionGate::theRateOfAnAddressIsLimited()
 {
     cleanup();
-    const auto comeAndGo = [this](qint64 now) {
-        const quint64 ticket = admit(far(), now);
+    const auto comeAndGo = [this](qint64 now, const char *address = "192.0.2.1") {
+        const quint64 ticket = admit(far(address), now);
         m_gate.leave(ticket);
         return ticket != 0;
     };
-    for (int i = 0; i < 64; ++i)
+    for (int i = 0; i < 1000; ++i)
         QVERIFY(comeAndGo(100 * second));
     QVERIFY(!comeAndGo(100 * second));
-    QCOMPARE(m_refusal, ConnectionGate::TooFast);
-    QVERIFY(!comeAndGo(100 * second + second / 51));
+    QCOMPARE(m_admission.refusal, ConnectionGate::TooFast);
+    QVERIFY(comeAndGo(100 * second, "192.0.2.2"));
+    QVERIFY(!comeAndGo(100 * second + second / 5001));
     int admitted = 0;
-    for (qint64 now = 101 * second; now < 111 * second; now += second / 1000)  // a thousand in a second
+    for (qint64 now = 101 * second; now < 111 * second; now += second / 10'000)  // ten thousand in a second
         admitted += comeAndGo(now) ? 1 : 0;
-    QVERIFY2(admitted >= 500 && admitted <= 550, qPrintable(QString::number(admitted)));
+    QVERIFY2(admitted >= 50'000 && admitted <= 51'000, qPrintable(QString::number(admitted)));
     QVERIFY(admit(QHostAddress::LocalHost, 111 * second) != 0);
 }
 
@@ -173,7 +279,7 @@ void tst_ConnectionGate::knownPeerIsNeverOverdue()
 {
     cleanup();
     const quint64 ticket = admit(far(), 0);
-    m_gate.know(ticket);
+    m_gate.know(ticket, ConnectionGate::NodeOrOperator);
     QVERIFY(m_gate.overdue(1000 * second).isEmpty());
     QCOMPARE(m_gate.connections(), 1);
     QCOMPARE(m_gate.strangers(), 0);
@@ -185,7 +291,7 @@ void tst_ConnectionGate::expiredTicketHasNoEffect()
     const quint64 ticket = admit(far(), 0);
     for (int i = 0; i < 2; ++i) {
         m_gate.leave(ticket);
-        m_gate.know(ticket);
+        m_gate.know(ticket, ConnectionGate::NodeOrOperator);
         m_gate.renew(ticket, 0);
         QCOMPARE(m_gate.connections(), 0);
         QCOMPARE(m_gate.strangers(), 0);

@@ -243,8 +243,8 @@ struct FaultyHub
         QVERIFY2(plan, qPrintable(error));
         hub.setFaults(plan, time);
         QVERIFY2(hub.open(SocketAddress(QHostAddress(QHostAddress::LocalHost), 0), &error), qPrintable(error));
-        a = UdpTransport::peer(socketA.self);
-        b = UdpTransport::peer(socketB.self);
+        a = hub.find<UdpTransport>()->peer(socketA.self);
+        b = hub.find<UdpTransport>()->peer(socketB.self);
         hub.exposeToFaults(*a, 1);
         hub.exposeToFaults(*b, 2);
         hub.attach(a.get());

@@ -56,7 +56,7 @@ struct Hub : CyclicHub
         isOpen = open(SocketAddress(host, 0), &error);
         self.length = sizeof self.storage;
         const UdpSocket socket;
-        const auto peer = UdpTransport::peer(socket.self);
+        const auto peer = find<UdpTransport>()->peer(socket.self);
         sendNow(*peer, "who are you?");
         char bytes[16];
         pollfd polled{socket.descriptor, POLLIN, 0};
@@ -91,7 +91,7 @@ void tst_TransportLimits::datagramsBeyondABatchComeInOrder()
 {
     Hub hub;
     const UdpSocket socket;
-    const auto peer = UdpTransport::peer(socket.self);
+    const auto peer = hub.find<UdpTransport>()->peer(socket.self);
     hub.attach(peer.get());
     for (int count : {1, 31, 32, 33, 64, 100}) {
         QVector<QByteArray> sent;
@@ -108,7 +108,7 @@ void tst_TransportLimits::requestsBeyondTheTableAreSentImmediately()
 {
     Hub hub;
     const UdpSocket socket;
-    const auto peer = UdpTransport::peer(socket.self);
+    const auto peer = hub.find<UdpTransport>()->peer(socket.self);
     for (std::size_t i = 0; i < CyclicHub::MaximumPeers; ++i)
         hub.send(peer.get(), "waits for flush()", 5);
     QCOMPARE(socket.receive(MSG_DONTWAIT), QByteArray("nothing"));
@@ -122,11 +122,11 @@ void tst_TransportLimits::peersBeyondTheTableAreStrangers()
     Hub hub;
     std::vector<std::unique_ptr<HubPeer>> peers;
     for (std::size_t i = 0; i < CyclicHub::MaximumPeers; ++i) {
-        peers.push_back(UdpTransport::peer(SocketAddress(QHostAddress("192.0.2.1"), quint16(1 + i))));
+        peers.push_back(hub.find<UdpTransport>()->peer(SocketAddress(QHostAddress("192.0.2.1"), quint16(1 + i))));
         hub.attach(peers.back().get());
     }
     const UdpSocket socket;
-    const auto oneTooMany = UdpTransport::peer(socket.self);
+    const auto oneTooMany = hub.find<UdpTransport>()->peer(socket.self);
     hub.attach(oneTooMany.get());
     QVERIFY(socket.send("mine", hub.self));
     QCOMPARE(hub.take(1), QVector<QByteArray>());
@@ -141,7 +141,7 @@ void tst_TransportLimits::aDatagramThatIsTooLongIsCut()
 {
     Hub hub;
     const UdpSocket socket;
-    const auto peer = UdpTransport::peer(socket.self);
+    const auto peer = hub.find<UdpTransport>()->peer(socket.self);
     hub.attach(peer.get());
     QVERIFY(socket.send(QByteArray(60000, 'z'), hub.self));
     QVERIFY(socket.send("next", hub.self));
@@ -155,8 +155,9 @@ void tst_TransportLimits::peersCanBeDetachedAndAttachedAgain()
 {
     Hub hub;
     const UdpSocket sockets[3];
-    const std::unique_ptr<HubPeer> peers[3] = {UdpTransport::peer(sockets[0].self), UdpTransport::peer(sockets[1].self),
-                                               UdpTransport::peer(sockets[2].self)};
+    auto *transport = hub.find<UdpTransport>();
+    const std::unique_ptr<HubPeer> peers[3]
+        = {transport->peer(sockets[0].self), transport->peer(sockets[1].self), transport->peer(sockets[2].self)};
     const auto heard = [&] {
         for (int i = 0; i < 3; ++i) {
             if (!sockets[i].send(QByteArray::number(i), hub.self))
@@ -203,7 +204,7 @@ void tst_TransportLimits::aClosedHubSendsNothingAndMayOpenAgain()
 {
     Hub hub;
     const UdpSocket socket;
-    const auto peer = UdpTransport::peer(socket.self);
+    const auto peer = hub.find<UdpTransport>()->peer(socket.self);
     hub.attach(peer.get());
     hub.send(peer.get(), "never", 5);
     hub.close();
@@ -231,7 +232,7 @@ void tst_TransportLimits::ipv4PeersAreKnownOnADualStackSocket()
     if (!hub.isOpen || !hub.knowsItself)
         QSKIP("this machine has no IPv6, or keeps it apart from IPv4", "");
     const UdpSocket socket;
-    const auto peer = UdpTransport::peer(socket.self);
+    const auto peer = hub.find<UdpTransport>()->peer(socket.self);
     hub.attach(peer.get());
     QVERIFY(socket.send("from ::ffff:127.0.0.1", hub.self));
     QCOMPARE(hub.take(1), QVector<QByteArray>{"from ::ffff:127.0.0.1"});
@@ -244,10 +245,11 @@ void tst_TransportLimits::udpLinkReconnectsToItsMaster()
     Hub first;
     const auto link = UdpLink::open(first.self, &port, &error);
     QVERIFY2(link, qPrintable(error));
-    const auto peer = UdpTransport::peer(SocketAddress(QHostAddress(QHostAddress::LocalHost), port));
+    const SocketAddress node(QHostAddress(QHostAddress::LocalHost), port);
+    const auto former = first.find<UdpTransport>()->peer(node);
     const char *frame = nullptr;
     std::size_t size = 0;
-    first.sendNow(*peer, "one");
+    first.sendNow(*former, "one");
     QCOMPARE(link->receive(&frame, &size), CyclicLink::Received);
     first.close();
     QVERIFY(link->send("anybody?", 8));
@@ -255,6 +257,7 @@ void tst_TransportLimits::udpLinkReconnectsToItsMaster()
     CyclicHub second;
     if (!second.open(first.self, &error))
         QSKIP("another program has taken the port meanwhile", "");
+    const auto peer = second.find<UdpTransport>()->peer(node);
     second.attach(peer.get());
     second.send(peer.get(), "two", 3);
     second.flush();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "CycleStatistics.h"
 
+#include "transport/CyclicHub.h"
+
 #include <algorithm>
 
 namespace qplc {
@@ -31,6 +33,7 @@ void CycleStatistics::restart(bool lockstep, std::uint64_t strangers, std::uint6
     m_lockstep = lockstep;
     m_strangersBefore = strangers;
     m_floodsBefore = floods;
+    m_keptOffBefore.set(keptOff());
     m_workload = 0;
     for (Counter *counter : {&m_cycles, &m_overruns, &m_skipped, &m_caughtUp, &m_shifted, &m_lateAnswers,
                              &m_incompleteCycles, &m_strangers, &m_floods, &m_newest})
@@ -77,6 +80,12 @@ void CycleStatistics::end(std::int64_t now) noexcept
 
 // ---- any thread ----
 
+/// Frames of strangers that no cycle has seen, so far.
+std::uint64_t CycleStatistics::keptOff() const
+{
+    return m_hub ? m_hub->keptOff() : 0;
+}
+
 QVector<QPlcWorstCycle> CycleStatistics::worst() const
 {
     QVector<QPlcWorstCycle> cycles;
@@ -106,7 +115,7 @@ void CycleStatistics::readCounters(Statistics *statistics) const
     statistics->shiftedTime = qint64(m_shifted.value());
     statistics->lateAnswers = m_lateAnswers;
     statistics->incompleteCycles = m_incompleteCycles;
-    statistics->strangers = m_strangers;
+    statistics->strangers = m_strangers + keptOff() - m_keptOffBefore;
     statistics->floods = m_floods;
 }
 

@@ -10,6 +10,8 @@
 
 namespace qplc {
 
+class CyclicHub;
+
 /// What a master measures of its cycles. The cycle thread records, others read at any time.
 /// docs/design/statistics.md defines the figures.
 ///
@@ -17,6 +19,12 @@ namespace qplc {
 class CycleStatistics
 {
 public:
+    /// \param hub  that counts frames in the kernel, too; null: none
+    explicit CycleStatistics(const CyclicHub *hub = nullptr)
+        : m_hub(hub)
+    {
+    }
+
     // ---- no cycle runs ----
     /// Begins a phase. \param strangers, floods  counted by the hub so far
     void restart(bool lockstep, std::uint64_t strangers, std::uint64_t floods) noexcept;
@@ -72,9 +80,12 @@ private:
     enum Duration : std::size_t { Lateness, Execution, RoundTrip, Slack, DurationCount };
     using Durations = DurationGroup<DurationCount>;
 
+    std::uint64_t keptOff() const;
     QVector<QPlcWorstCycle> worst() const;
     template<typename Statistics>
     void readCounters(Statistics *statistics) const;
+
+    const CyclicHub *const m_hub;
 
     // cycle thread
     bool m_lockstep = true;
@@ -98,6 +109,7 @@ private:
     Counter m_lateAnswers;
     Counter m_incompleteCycles;
     Counter m_strangers;
+    Counter m_keptOffBefore;
     Counter m_floods;
     Counter m_newest;
     Durations m_durations;

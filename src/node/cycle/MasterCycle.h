@@ -192,7 +192,7 @@ private:
     // both
     std::atomic<std::uint64_t> m_cycle{0};
     std::atomic<std::uint64_t> m_digest{0};
-    CycleStatistics m_statistics;
+    CycleStatistics m_statistics{&m_hub};
 };
 
 }  // namespace qplc

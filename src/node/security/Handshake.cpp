@@ -137,6 +137,7 @@ void Handshake::fail(const QString &reason)
 void Handshake::beginTls()
 {
     m_isTls = true;
+    Q_EMIT began();
     QString error;
     if (!TlsSettings::read(m_security, QPlcSecurity::MasterSide, &m_settings, &error)) {
         m_socket->readAll();

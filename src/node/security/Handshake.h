@@ -39,6 +39,8 @@ public:
     QString stage() const;
 
 Q_SIGNALS:
+    /// The other end has begun a TLS handshake.
+    void began();
     /// peer() is who is there, on an encrypted connection or, without security, on a plain one.
     void succeeded();
     /// The other end was told so as far as it understands, and the connection is closing. \param

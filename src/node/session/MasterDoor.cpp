@@ -8,7 +8,9 @@ namespace qplc {
 
 namespace {
 
-constexpr int sweepInterval = 100;  // [ms]
+constexpr int sweepInterval = 100;                    // [ms]
+constexpr int admittedAtOnce = 8;                     // connections in a turn of the event loop
+constexpr std::int64_t longestAccepting = 2'000'000;  // in such a turn [ns]
 
 }  // namespace
 
@@ -38,53 +40,38 @@ void MasterDoor::close()
     m_sweeper.stop();
 }
 
-void MasterDoor::know(ConnectionGate::Ticket ticket)
-{
-    m_gate.know(ticket);
-    goOn();
-}
-
-void MasterDoor::leave(ConnectionGate::Ticket ticket)
-{
-    m_gate.leave(ticket);
-    goOn();
-}
-
-/// There may be room again.
-void MasterDoor::goOn()
-{
-    m_listener.setAttentive(m_gate.hasRoom());
-}
-
+/// A few in each turn of the event loop: those who came before say something in between. Who is
+/// closed at once costs little, and must not fill the queue of the system.
 void MasterDoor::acceptAll()
 {
-    while (m_gate.hasRoom()) {
+    const std::int64_t end = monotonicNow() + longestAccepting;
+    for (int admitted = 0; admitted < admittedAtOnce && monotonicNow() < end;) {
         const int descriptor = m_listener.take();
         if (descriptor < 0)
             break;
-        accept(descriptor);
+        admitted += accept(descriptor) ? 1 : 0;
     }
-    if (!m_gate.hasRoom())
-        m_listener.setAttentive(false);
-    if (m_gate.strangers() > 0 || !m_listener.isAttentive())
+    if ((m_gate.strangers() > 0 || !m_listener.isAttentive()) && !m_sweeper.isActive())
         m_sweeper.start();
 }
 
-void MasterDoor::accept(int descriptor)
+bool MasterDoor::accept(int descriptor)
 {
     const QHostAddress address = ControlNetwork::current().peerOf(descriptor);
-    ConnectionGate::Refusal refusal = ConnectionGate::Admitted;
-    const std::optional<ConnectionGate::Ticket> ticket = m_gate.admit(address, monotonicNow(), &refusal);
-    if (!ticket) {
+    const ConnectionGate::Admission admission = m_gate.admit(address, monotonicNow());
+    if (admission.ticket == 0) {
         ControlNetwork::current().close(descriptor);
         ++m_turnedAway;
-        Q_EMIT refused(QString(), address.toString(), QString::fromLatin1(ConnectionGate::textOf(refusal)));
-        return;
+        Q_EMIT refused(QString(), address.toString(), QString::fromLatin1(ConnectionGate::textOf(admission.refusal)));
+        return false;
     }
+    if (admission.crowdedOut != 0)
+        showOut(admission.crowdedOut, QStringLiteral("it has not greeted yet, and there are too many like it"));
     auto *handshake = new Handshake(descriptor, m_security, this);
-    m_handshakes[*ticket] = handshake;
-    connect(handshake, &Handshake::succeeded, this, [this, number = *ticket] { handshakeEnded(number); });
-    connect(handshake, &Handshake::failed, this, [this, number = *ticket, handshake](const QString &reason) {
+    m_handshakes[admission.ticket] = handshake;
+    connect(handshake, &Handshake::began, this, [this, number = admission.ticket] { m_gate.hear(number); });
+    connect(handshake, &Handshake::succeeded, this, [this, number = admission.ticket] { handshakeEnded(number); });
+    connect(handshake, &Handshake::failed, this, [this, number = admission.ticket, handshake](const QString &reason) {
         const QString identity = handshake->claimedIdentity();
         const QString from = handshake->address();
         forget(number);
@@ -93,6 +80,7 @@ void MasterDoor::accept(int descriptor)
         ++m_failedHandshakes;
         Q_EMIT refused(identity, from, reason);
     });
+    return true;
 }
 
 void MasterDoor::handshakeEnded(ConnectionGate::Ticket ticket)
@@ -102,6 +90,8 @@ void MasterDoor::handshakeEnded(ConnectionGate::Ticket ticket)
         turnAway(ticket, handshake);
         return;
     }
+    if (handshake->peer().isSecured)
+        m_gate.trust(ticket);
     m_handshakes.erase(ticket);
     m_gate.renew(ticket, monotonicNow());
     auto *socket = new QPlcSlaveSocket(handshake->takeSocket());
@@ -132,29 +122,33 @@ void MasterDoor::forget(ConnectionGate::Ticket ticket)
     leave(ticket);
 }
 
+/// \param reason  empty: what takes it so long
+void MasterDoor::showOut(ConnectionGate::Ticket ticket, const QString &reason)
+{
+    const auto found = m_handshakes.find(ticket);
+    if (found == m_handshakes.end()) {
+        Q_EMIT tooSlow(ticket, reason.isEmpty() ? QStringLiteral("it has not greeted in time") : reason);
+        return;
+    }
+    const QString from = found->second->address();
+    const QString stage = found->second->stage();
+    ++m_failedHandshakes;
+    forget(ticket);
+    Q_EMIT refused(QString(), from, reason.isEmpty() ? stage : reason);
+}
+
 void MasterDoor::sweep()
 {
-    const auto showOut = [this](ConnectionGate::Ticket ticket) {
-        const auto found = m_handshakes.find(ticket);
-        if (!m_gate.overdue(monotonicNow()).contains(ticket))
-            return;
-        if (found == m_handshakes.end()) {
-            Q_EMIT tooSlow(ticket);
-            return;
-        }
-        const QString from = found->second->address();
-        const QString reason = found->second->stage();
-        ++m_failedHandshakes;
-        forget(ticket);
-        Q_EMIT refused(QString(), from, reason);
+    const auto lookAgain = [this](ConnectionGate::Ticket ticket) {
+        if (m_gate.overdue(monotonicNow()).contains(ticket))
+            showOut(ticket, QString());
     };
     // Not at once: when this thread was busy with something else, what they have said waits to be
     // read.
     for (ConnectionGate::Ticket ticket : m_gate.overdue(monotonicNow()))
-        QTimer::singleShot(sweepInterval / 2, this, [showOut, ticket] { showOut(ticket); });
-    goOn();
-    acceptAll();
-    if (m_gate.strangers() == 0 && m_listener.isAttentive())
+        QTimer::singleShot(sweepInterval / 2, this, [lookAgain, ticket] { lookAgain(ticket); });
+    m_listener.setAttentive(true);
+    if (m_gate.strangers() == 0)
         m_sweeper.stop();
 }
 

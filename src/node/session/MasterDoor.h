@@ -12,8 +12,8 @@
 
 namespace qplc {
 
-/// The entrance of a master: takes connections in as far as there is room, finds out who comes, and
-/// shows out who takes too long. What comes through is ready for messages.
+/// The entrance of a master: takes connections in, finds out who comes, and shows out who takes too
+/// long or has to make room. What comes through is ready for messages.
 class MasterDoor : public QObject
 {
     Q_OBJECT
@@ -33,9 +33,11 @@ public:
     QString errorString() const { return m_listener.errorString(); }
     QAbstractSocket::SocketError error() const { return m_listener.error(); }
 
-    /// Who has greeted is no stranger any more.
-    void know(ConnectionGate::Ticket ticket);
-    void leave(ConnectionGate::Ticket ticket);
+    /// Who has greeted is no stranger any more. \return false when there is no place for \a guest
+    bool know(ConnectionGate::Ticket ticket, ConnectionGate::Guest guest) { return m_gate.know(ticket, guest); }
+    /// The address has proven itself: a node of it is there, or somebody with a key.
+    void trust(ConnectionGate::Ticket ticket) { m_gate.trust(ticket); }
+    void leave(ConnectionGate::Ticket ticket) { m_gate.leave(ticket); }
     /// Connections that were closed because there was no room, at the time, for them or for their
     /// identity.
     quint64 turnedAway() const { return m_turnedAway + m_listener.withoutDescriptor(); }
@@ -47,17 +49,17 @@ Q_SIGNALS:
     void entered(QPlcSlaveSocket *socket, const qplc::Peer &peer, qplc::ConnectionGate::Ticket ticket);
     /// \param identity  as claimed; empty: none
     void refused(const QString &identity, const QString &address, const QString &reason);
-    /// Somebody who is in has not greeted in time.
-    void tooSlow(qplc::ConnectionGate::Ticket ticket);
+    /// Somebody who is in has not greeted, and has to go.
+    void tooSlow(qplc::ConnectionGate::Ticket ticket, const QString &reason);
 
 private:
     void acceptAll();
-    void accept(int descriptor);
+    bool accept(int descriptor);
     void handshakeEnded(ConnectionGate::Ticket ticket);
     void turnAway(ConnectionGate::Ticket ticket, Handshake *handshake);
     void forget(ConnectionGate::Ticket ticket);
     void sweep();
-    void goOn();
+    void showOut(ConnectionGate::Ticket ticket, const QString &reason);
 
     ControlListener m_listener;
     ConnectionGate m_gate;

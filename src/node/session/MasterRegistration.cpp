@@ -103,6 +103,14 @@ Refusal sizeRefusal(const MasterConnection &connection)
     return {};
 }
 
+/// Who gets the last connections.
+ConnectionGate::Guest guestOf(const MasterConnection &connection, const messages::ClientHello &greeting)
+{
+    const bool isMere
+        = connection.peer.isSecured ? connection.peer.role == Role::Observer : greeting.role != messages::Part::Node;
+    return isMere ? ConnectionGate::Observer : ConnectionGate::NodeOrOperator;
+}
+
 }  // namespace
 
 void MasterServer::open(MasterConnection *connection, const messages::ClientHello &greeting)
@@ -121,6 +129,12 @@ void MasterServer::open(MasterConnection *connection, const messages::ClientHell
                    .arg(messages::protocolVersion));
         return;
     }
+    if (!m_door.know(connection->ticket, guestOf(*connection, greeting))) {
+        reject(connection, messages::errorWord::tooMuch,
+               QStringLiteral("too many connections: the last ones are for nodes and operators; end tools that are not "
+                              "needed"));
+        return;
+    }
     messages::MasterHello hello = m_hello();
     hello.features = commonFeatures(greeting);
     if (connection->peer.isSecured) {
@@ -131,7 +145,6 @@ void MasterServer::open(MasterConnection *connection, const messages::ClientHell
     connection->stage = MasterConnection::Greeted;
     connection->socket->setMessageLimit(m_longestMessage);
     connection->socket->setSendLimit(MaximumControlFrame);
-    m_door.know(connection->ticket);
     connection->features = hello.features;
     Q_EMIT greeted(connection);
     const bool needsTable
@@ -283,6 +296,7 @@ void MasterServer::nodeAttached(MasterConnection *connection)
     connection->slot->peer->isListener = connection->slot->listener;
     m_hub.exposeToFaults(*connection->slot->peer, ~fnv1a64(connection->name.toUtf8()));  // not those of the node itself
     connection->stage = MasterConnection::Attached;
+    m_door.trust(connection->ticket);
     Q_EMIT attached(connection);
 }
 

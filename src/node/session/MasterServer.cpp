@@ -185,13 +185,13 @@ void MasterServer::enter(QPlcSlaveSocket *socket, const Peer &peer, ConnectionGa
         Q_EMIT authenticated(connection);
 }
 
-void MasterServer::dropSlow(ConnectionGate::Ticket ticket)
+void MasterServer::dropSlow(ConnectionGate::Ticket ticket, const QString &reason)
 {
     const auto isIt
         = [ticket](const std::unique_ptr<MasterConnection> &connection) { return connection->ticket == ticket; };
     const auto found = std::find_if(m_connections.begin(), m_connections.end(), isIt);
     if (found != m_connections.end())
-        reject(found->get(), messages::errorWord::timedOut, QStringLiteral("it has not greeted in time"));
+        reject(found->get(), messages::errorWord::timedOut, reason);
 }
 
 MasterConnection *MasterServer::connectionOf(const QPlcSlaveSocket *socket) const

@@ -73,7 +73,7 @@ Q_SIGNALS:
 
 private:
     void enter(QPlcSlaveSocket *socket, const Peer &peer, ConnectionGate::Ticket ticket);
-    void dropSlow(ConnectionGate::Ticket ticket);
+    void dropSlow(ConnectionGate::Ticket ticket, const QString &reason);
     bool isTooMuch(MasterConnection *connection, const QPlcMessage &message);
     void dropUnattached(const MasterConnection *connection);
     MasterConnection *connectionOf(const QPlcSlaveSocket *socket) const;
