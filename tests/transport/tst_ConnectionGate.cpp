@@ -191,7 +191,7 @@ void tst_ConnectionGate::manyAddressesNeedBoundedMemory()
     const quint64 node = admit(far());
     m_gate.trust(node);
     m_gate.leave(node);
-    for (quint32 i = 0; i < 100'000; ++i)
+    for (quint32 i = 0; i < 3000; ++i)
         m_gate.leave(admit(QHostAddress(0x0A000000U + i)));
     QVERIFY2(m_gate.origins() <= 1024, qPrintable(QString::number(m_gate.origins())));
     for (quint32 i = 0; i < 256; ++i)
