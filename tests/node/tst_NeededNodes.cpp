@@ -69,6 +69,7 @@ private Q_SLOTS:
     void requiredNodeLostWhileCyclesRunIsMissingAtTheNextStart();
     void criticalNodeIsMissingAfterAResetToo();
     void silentNodeEndsTheStartAndIsNamed();
+    void silentNodeThatIsNeededIsMissingAfterwards();
     void refusedNodeIsMissingWithTheReason();
     void masterThatWasStartedAgainNeedsTheNodesOfItsManifest();
     void manifestMakesANodeCritical();
@@ -90,6 +91,7 @@ private Q_SLOTS:
     void criticalNodeThatComesDuringTheInitializationIsNotLeftBehind();
     void localNodeIsNeededUntilItIsRemoved();
     void rememberedNodesHaveABound();
+    void silentNodeThatIsNotNeededBlocksOneStartOnly();
 };
 
 void tst_NeededNodes::absentNodeIsNamedAndNothingBegins()
@@ -493,6 +495,39 @@ void tst_NeededNodes::rememberedNodesHaveABound()
     needed.forget("Node 7");
     QCOMPARE(judge(qplc::NodeRegistry::MaximumNodes), QString());
     QVERIFY(needed.missingText(qplc::NodeSession::Idle).contains("and 992 more are missing"));
+}
+
+void tst_NeededNodes::silentNodeThatIsNotNeededBlocksOneStartOnly()
+{
+    NeedingMaster master;
+    QVERIFY(master.listen());
+    CounterNode counter;
+    ScriptedNode silent("Winch");
+    silent.playsAlong = false;
+    QVERIFY(master.admit(counter, datagrams()) && silent.registerAt(master.serverPort()));
+    QString reason;
+    connect(&master, &QPlcMasterNode::nodeLost, this, [&](const QString &, const QString &text) { reason = text; });
+    QVERIFY(master.startRealTime());
+    QVERIFY(master.waitForState(State::Off));
+    QVERIFY2(master.errorString().contains("from node 'Winch'; is it busy, or stopped?"),
+             qPrintable(master.errorString()));
+    QVERIFY(master.isWithout("Winch"));
+    QVERIFY2(reason.contains("no answer to SendYourInitialOutputStates within 2000 ms"), qPrintable(reason));
+    QVERIFY(master.starts());
+}
+
+void tst_NeededNodes::silentNodeThatIsNeededIsMissingAfterwards()
+{
+    NeedingMaster master("[Winch]\n");
+    QVERIFY(master.listen());
+    ScriptedNode silent("Winch");
+    QVERIFY(silent.registerAt(master.serverPort()));
+    QVERIFY(master.initializeAllStates() && master.waitForState(State::Ready));
+    silent.playsAlong = false;
+    QVERIFY(master.startRealTime());
+    QVERIFY(master.waitForState(State::Off));
+    QVERIFY(master.isWithout("Winch"));
+    QVERIFY(master.refuses("required node 'Winch' (has left: no answer to RealTimeStarted within 2000 ms"));
 }
 
 QTPLC_VIRTUAL_TIME_MAIN(tst_NeededNodes)

@@ -2,6 +2,7 @@
 #include "SequenceStep.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace qplc {
 
@@ -38,8 +39,19 @@ quint64 SequenceStep::begin(Kind kind, const NodeSessions::List &nodes, std::fun
         node->setStage(NodeSession::Stage(owed() - 1));
         node->setFailed(node->hasFailed() && kind != CollectOutputs);
     }
-    m_timer.start([this, tell = std::move(timedOut)] { tell(timeOutText()); });
+    m_timer.start([this, tell = std::move(timedOut)] { elapsed(tell); });
     return ++m_number;
+}
+
+void SequenceStep::elapsed(const std::function<void(const QString &)> &timedOut)
+{
+    const QString text = timeOutText();
+    NodeSessions::List silent;
+    std::copy_if(m_nodes.begin(), m_nodes.end(), std::back_inserter(silent),
+                 [this](const auto &node) { return node->stage() < owed(); });
+    timedOut(text);
+    for (const auto &node : silent)
+        node->drop(text);
 }
 
 /// The stage that a node reaches by its answer.

@@ -51,7 +51,8 @@ public:
     explicit SequenceStep(StepTimer &timer);
 
     /// Each of \a nodes now owes the answer of this step.
-    /// \param timedOut  called with a sentence when some of them do not give it in time
+    /// \param timedOut  called with a sentence when some of them do not give it in time; then they
+    ///         are dropped, so that the next sequence does not wait for them
     /// \return the number of the step, for isStill()
     quint64 begin(Kind kind, const NodeSessions::List &nodes, std::function<void(const QString &)> timedOut);
     Kind kind() const { return m_kind; }
@@ -73,6 +74,7 @@ public:
 private:
     NodeSession::Stage owed() const;
     QString timeOutText() const;
+    void elapsed(const std::function<void(const QString &)> &timedOut);
 
     StepTimer &m_timer;
     Kind m_kind = None;
