@@ -129,6 +129,9 @@ def example_messages():
                              inputs=[dict(name="tetherSpeed", type="Real32", unit="m/s",
                                           safety=hex64(fnv1a64(table_lines("", "", safe=bytes(4))[1].encode())))], outputs=[])),
         (4, "Rejected", dict(error="SafetyMismatch", text="safety parameters (min, max, safe, hold, nan, slope, writer) of 'tetherSpeed' are other ones")),
+        (70, "Evict", dict(name="Emergency stop")),
+        (71, "Admit", dict(name="Emergency stop")),
+        (4, "Rejected", dict(error="Evicted", text="'Winch' was evicted by 'anna'; an operator can let it in again: qtplc admit 'Winch'")),
     ]
 
 

@@ -299,6 +299,21 @@ public:
     /// Removes a node that addLocalNode() has added. Cycles that run end before. Does nothing for
     /// any other node.
     void removeLocalNode(QPlcSlaveNode *node);
+    /// Ends all connections of a node or person at once, also while cycles run, and refuses new
+    /// ones under this name until admit() or the end of this master. A critical node that is
+    /// evicted while cycles run stops the plant safely. A node that the plant needs
+    /// (missingNodes()) stays needed: no start begins without it. The same as
+    /// `qtplc evict NAME`; each eviction is in the event log.
+    /// \param name  of a node, of an identity (setSecurity()), or as a tool has greeted. It has to
+    ///     be connected, needed, or evicted already
+    /// \return false when it is none of these, is a node of this process, or when 1000 names are
+    ///     evicted (NodeError)
+    bool evict(const QString &name);
+    /// Lets somebody in again who was evicted. It has to connect again.
+    /// \return false when this name is not evicted (NodeError)
+    bool admit(const QString &name);
+    /// Returns the names that are evicted, sorted.
+    QStringList evictedNames() const;
     /// Returns all registered nodes, in the order of their registration.
     QVector<QPlcNodeInfo> nodes() const;
     /// Returns the order in which the nodes are asked in a cycle, and the age of the values that

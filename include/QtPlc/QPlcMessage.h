@@ -83,7 +83,10 @@ public:
         LeasesChanged = 64,
         GetEvents = 65,  ///< any -> master: ask for the events since a number
         /// Master -> asker, and -> all with the feature "events": events.
-        Events = 66
+        Events = 66,
+        /// Any -> master: end all connections of a node or person, and refuse new ones.
+        Evict = 70,
+        Admit = 71  ///< any -> master: let somebody in again who was evicted
     };
     Q_ENUM(Kind)
 

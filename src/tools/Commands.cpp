@@ -167,6 +167,31 @@ const QVector<Command> &commands()
          0,
          0,
          &resetMaster},
+        {"evict",
+         "NAME",
+         "Ends all connections of a node or person, and refuses new ones.",
+         "NAME is that of a node, of an identity, or the one by which a tool has greeted.\n"
+         "A critical node that is evicted while cycles run stops the plant safely. No start\n"
+         "begins without an evicted node that the plant needs. The name is refused until\n"
+         "qtplc admit NAME, or until the master is started again. Without security, anybody\n"
+         "can come back under another name.",
+         {},
+         {QStringLiteral("qtplc evict Winch")},
+         Command::NoArguments,
+         1,
+         1,
+         &evict},
+        {"admit",
+         "NAME",
+         "Lets a node or person in again that was evicted.",
+         "It has to connect again; a node that reconnects by itself does so. qtplc state shows\n"
+         "who is evicted.",
+         {},
+         {QStringLiteral("qtplc admit Winch")},
+         Command::NoArguments,
+         1,
+         1,
+         &admit},
         {"schedule",
          "",
          "Shows the order of the nodes, and how old links are.",
@@ -234,7 +259,7 @@ const QVector<Command> &commands()
          "Node (unless said) or Engineer. --copy writes the key alone into another file,\n"
          "for the computer of IDENTITY. new replaces a key with --replace only. list shows\n"
          "identities and roles, never keys. A running master reads the file again for\n"
-         "each connection: a revoked identity cannot connect again.",
+         "each connection, and twice in a second: connections of a revoked identity end.",
          {{"role", "ROLE", "What the identity may do, default Node."},
           {"copy", "FILE", "Writes the new key alone into FILE, too."},
           {"replace", "", "Replaces the key of an identity that has one."}},

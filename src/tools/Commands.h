@@ -95,6 +95,8 @@ int initializeStates(const CommandCall &call);
 int armMaster(const CommandCall &call);
 int stopSafely(const CommandCall &call);
 int resetMaster(const CommandCall &call);
+int evict(const CommandCall &call);
+int admit(const CommandCall &call);
 int startRealTime(const CommandCall &call);
 int stopRealTime(const CommandCall &call);
 int showSchedule(const CommandCall &call);

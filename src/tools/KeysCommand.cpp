@@ -141,9 +141,8 @@ int revoke(KeyFile &file, const QString &identity)
         return failure(QStringLiteral("%1 has no key of '%2'").arg(file.name, printable(identity)));
     if (!write(file.name, without(file.text, entry->firstLine)))
         return QPlcCoreApplication::Failure;
-    printText(
-        QStringLiteral("%1: the key of '%2' is revoked; who is connected with it stays until the connection ends\n")
-            .arg(file.name, identity));
+    printText(QStringLiteral("%1: the key of '%2' is revoked; a master that runs ends its connections within 0.5 s\n")
+                  .arg(file.name, identity));
     return QPlcCoreApplication::Success;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// init, arm, start, stop, safestop, reset: what brings a plant from one state to the next.
+// init, arm, start, stop, safestop, reset: what brings a plant from one state to the next; evict
+// and admit: who takes part.
 #include "Commands.h"
 #include "TerminalText.h"
 
@@ -62,6 +63,18 @@ int resetMaster(const CommandCall &call)
     return tellDone(call, reset,
                     messages::isLatched(state.state) ? QStringLiteral("reset: %1").arg(printable(state.reason))
                                                      : QStringLiteral("reset"));
+}
+
+int evict(const CommandCall &call)
+{
+    const QString name = call.arguments.value(0);
+    return command(call, messages::Evict{name}, QStringLiteral("evicted: %1").arg(printable(name)));
+}
+
+int admit(const CommandCall &call)
+{
+    const QString name = call.arguments.value(0);
+    return command(call, messages::Admit{name}, QStringLiteral("admitted: %1").arg(printable(name)));
 }
 
 int stopSafely(const CommandCall &call)

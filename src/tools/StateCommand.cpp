@@ -151,6 +151,8 @@ int showState(const CommandCall &call)
         printField("remains", state.remains);
     if (!state.missing.isEmpty())
         printField("missing", state.missing, Tone::Caution);
+    if (!state.evicted.isEmpty())
+        printField("evicted", state.evicted.join(QStringLiteral(", ")), Tone::Caution);
     printField("cycle",
                QStringLiteral("%1 (%2 s)").arg(state.cycle.number).arg(double(state.cycle.number) * period, 0, 'f', 3));
     printField("period", QStringLiteral("%1 ms").arg(period * 1e3));

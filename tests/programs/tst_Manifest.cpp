@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ProcessPlant.h"
 
+#include <QtCore/QRegularExpression>
 #include <QtCore/QTemporaryDir>
 #include <QtTest/QtTest>
 
@@ -16,6 +17,7 @@ private Q_SLOTS:
     void cleanup();
     void nothingStartsWithoutANeededNode_data();
     void nothingStartsWithoutANeededNode();
+    void evictedNodeIsMissingUntilItIsAdmitted();
     void manifestOfTheRunningPlantStartsItAgain();
     void nothingIsWrittenThatCannotBeRead();
     void masterDoesNotStartWithABadManifest_data();
@@ -111,6 +113,34 @@ void tst_Manifest::nothingStartsWithoutANeededNode()
              qPrintable(again.errors));
     m_autopilot = node("awe_autopilot");
     QVERIFY(m_autopilot);
+    QCOMPARE(m_plant->qtplc("start").exitCode, 0);
+}
+
+void tst_Manifest::evictedNodeIsMissingUntilItIsAdmitted()
+{
+    QVERIFY(startMaster(
+        {"--manifest", file("manifest.ini", "profile = Simulation\n[Model]\n[Autopilot]\nneed = critical\n")}));
+    m_model = node("awe_model");
+    m_autopilot = node("awe_autopilot");
+    QVERIFY(m_model && m_autopilot);
+    QCOMPARE(m_plant->qtplc("start").exitCode, 0);
+    const Outcome unknown = m_plant->qtplc("evict Autopilto");
+    QCOMPARE(unknown.exitCode, 1);
+    QVERIFY2(unknown.errors.contains("did you mean 'Autopilot'?"), qPrintable(unknown.errors));
+    QCOMPARE(m_plant->qtplc("evict Autopilot").output, QString("evicted: Autopilot\n"));
+    const QString state = m_plant->qtplc("state").output;
+    QVERIFY2(state.contains("Safe stop") && QRegularExpression("evicted +Autopilot").match(state).hasMatch(),
+             qPrintable(state));
+    QVERIFY(m_plant->qtplc("events").output.contains("'Autopilot' is evicted by "));
+    QCOMPARE(m_plant->qtplc("reset").exitCode, 1);
+    const Outcome start = m_plant->qtplc("start");
+    QCOMPARE(start.exitCode, 1);
+    QVERIFY2(start.errors.contains("'Autopilot'"), qPrintable(start.errors));
+    QVERIFY(!m_plant->qtplc("state").output.contains("Autopilot  "));  // no row of it
+    QCOMPARE(m_plant->qtplc("admit Autopilot").output, QString("admitted: Autopilot\n"));
+    m_autopilot = node("awe_autopilot");
+    QVERIFY(m_autopilot);
+    QCOMPARE(m_plant->qtplc("reset").exitCode, 0);
     QCOMPARE(m_plant->qtplc("start").exitCode, 0);
 }
 

@@ -107,6 +107,18 @@ public:
             m_connection->fail(qplc::messages::errorWord::wrongState, d.errorString);
     }
 
+    // ---- who may come ----
+    void operator()(const messages::Evict &wish) const
+    {
+        qplc::Refusal refusal;
+        finish(d.evict(wish.name, m_connection, &refusal), refusal);
+    }
+    void operator()(const messages::Admit &wish) const
+    {
+        qplc::Refusal refusal;
+        finish(d.admit(wish.name, m_connection, &refusal), refusal);
+    }
+
     // ---- values from outside ----
     void operator()(const messages::SetSignals &wish) const
     {

@@ -214,6 +214,23 @@ QString QPlcMasterNode::missingNodes() const
     return d->missingText();
 }
 
+bool QPlcMasterNode::evict(const QString &name)
+{
+    qplc::Refusal refusal;
+    return d->succeed() && (d->evict(name, nullptr, &refusal) || d->setError(NodeError, refusal.text));
+}
+
+bool QPlcMasterNode::admit(const QString &name)
+{
+    qplc::Refusal refusal;
+    return d->succeed() && (d->admit(name, nullptr, &refusal) || d->setError(NodeError, refusal.text));
+}
+
+QStringList QPlcMasterNode::evictedNames() const
+{
+    return d->evictions.names();
+}
+
 bool QPlcMasterNode::setLongestWait(std::chrono::nanoseconds time)
 {
     const bool isGood = isLimit(*d, time, 0ns, QStringLiteral("a longest wait"));

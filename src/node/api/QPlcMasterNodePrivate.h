@@ -29,6 +29,9 @@ public:
     bool startServer(const QPlcUnderlyingProtocol &protocol);
     bool addLocalNode(QPlcSlaveNode *node);
     void removeLocalNode(QPlcSlaveNode *node);
+    /// \param asker  null: the program of the master
+    bool evict(const QString &name, const qplc::MasterConnection *asker, qplc::Refusal *refusal);
+    bool admit(const QString &name, const qplc::MasterConnection *asker, qplc::Refusal *refusal);
 
     bool initializeAllStates();
     /// \param cycles  to compute; 0: as the cycle limit says
@@ -102,6 +105,7 @@ public:
     qplc::MasterBeacon beacon;
     qplc::NodeSessions nodes;
     qplc::NeededNodes needed;
+    qplc::Evictions evictions;
     std::unique_ptr<Parts> parts;  // null: there is no table yet
 
 private:
@@ -111,6 +115,7 @@ private:
     void connectParts();
     void startInitialized();
     void announce(const qplc::messages::StatesInitialized &news) override;
+    qplc::Refusal evictionRefusal(const QString &name, const Connection *asker) const;
     void nodeAttached(Connection *connection);
     void nodeLost(Connection *connection, const QString &reason);
     void receive(Connection *connection, const QPlcMessage &message);

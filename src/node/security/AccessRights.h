@@ -71,12 +71,20 @@ struct Peer
 {
     bool isSecured = false;  // the connection is TLS and the identity proven
     bool isCyclicOnly
-        = false;        // a plain connection to a secured master: it may attach as a cyclic channel, and nothing else
-    QString identity;   // empty: nobody asked
-    QStringList known;  // identities of the plant: nobody takes part under the name of another one
+        = false;         // a plain connection to a secured master: it may attach as a cyclic channel, and nothing else
+    QString identity;    // empty: nobody asked
+    QByteArray keyMark;  // tells its key from others, and not which one it is; empty: it has a certificate
+    QStringList known;   // identities of the plant: nobody takes part under the name of another one
     Role role = Role::Engineer;  // without security everybody may do everything
     bool mayWriteAll = true;
     QStringList writes;  // otherwise: names and patterns (*, ?, [...]) of signals
+
+    /// Whether the files of the master say the same of both.
+    bool hasRightsOf(const Peer &other) const
+    {
+        return keyMark == other.keyMark && role == other.role && mayWriteAll == other.mayWriteAll
+            && writes == other.writes;
+    }
 };
 
 /// How somebody is shown to people: as what was proven, with what it calls itself behind it;

@@ -158,7 +158,6 @@ QByteArray Handshake::keyOf(const QString &identity)
         return {};
     }
     m_peer.identity = identity;
-    m_peer.role = entry->role;
     return entry->key;
 }
 
@@ -179,15 +178,14 @@ bool Handshake::identify(QString *reason)
         *reason = QStringLiteral("it has no identity");
         return false;
     }
-    if (m_security.mode() == QPlcSecurity::Certificates && !m_settings.access.contains(m_peer.identity)) {
+    const QMap<QString, Peer> peers = m_settings.peers();
+    const auto found = peers.constFind(m_peer.identity);
+    if (found == peers.constEnd()) {
         *reason = QStringLiteral("identity '%1' has no role in the access file of the master")
                       .arg(printable(m_peer.identity));
         return false;
     }
-    if (m_settings.hasAccess)
-        m_settings.access.apply(&m_peer);
-    if (m_peer.role != Role::Node)  // who has its own name anyway
-        m_peer.known = m_settings.identities();
+    m_peer = *found;
     return true;
 }
 
@@ -195,7 +193,6 @@ void Handshake::encrypted()
 {
     QString reason;
     if (identify(&reason)) {
-        m_peer.isSecured = true;
         Q_EMIT succeeded();
         return;
     }

@@ -50,7 +50,6 @@ public:
     bool read(const QString &fileName, QString *error);
     bool parse(const QByteArray &text, const QString &fileName, QString *error);
 
-    bool contains(const QString &identity) const { return m_peers.contains(identity); }
     QStringList identities() const { return m_peers.keys(); }
     /// Gives \a peer the role and rights of its identity, if they are known here.
     void apply(Peer *peer) const;

@@ -4,6 +4,7 @@
 #include "SecretFile.h"
 #include "transport/Tls.h"
 
+#include <QtCore/QCryptographicHash>
 #include <QtCore/QRegularExpression>
 #include <QtNetwork/QSslCertificate>
 #include <QtNetwork/QSslCipher>
@@ -121,14 +122,38 @@ bool TlsSettings::read(const QPlcSecurity &security, QPlcSecurity::Side side, Tl
         return false;
     if (!isPsk && !readCertificateFiles(security, settings, error))
         return false;
-    settings->hasAccess = side == QPlcSecurity::MasterSide && !security.accessFile().isEmpty();
-    if (settings->hasAccess)
+    if (side == QPlcSecurity::MasterSide && !security.accessFile().isEmpty())
         return settings->access.read(security.accessFile(), error);
     if (side == QPlcSecurity::NodeSide || isPsk)
         return true;
     *error = QStringLiteral(
         "a master with certificates needs a file with the roles of all identities; give it one by --access");
     return false;
+}
+
+QMap<QString, Peer> TlsSettings::peers() const
+{
+    const QStringList known = keys.entries().keys() + access.identities();
+    QMap<QString, Peer> peers;
+    const auto add = [&](const QString &name, Role role, const QByteArray &keyMark) {
+        Peer peer;
+        peer.isSecured = true;
+        peer.identity = name;
+        peer.role = role;
+        peer.keyMark = keyMark;
+        access.apply(&peer);
+        if (peer.role != Role::Node)  // who has its own name anyway
+            peer.known = known;
+        peers.insert(name, peer);
+    };
+    const QMap<QString, Keyring::Entry> &entries = keys.entries();
+    for (auto entry = entries.begin(); entry != entries.end(); ++entry)
+        add(entry.key(), entry->role, QCryptographicHash::hash(entry->key, QCryptographicHash::Sha256));
+    if (entries.isEmpty()) {
+        for (const QString &name : access.identities())
+            add(name, Role::Observer, {});
+    }
+    return peers;
 }
 
 /// The alert of TLS by which the other end has refused; 0: none.

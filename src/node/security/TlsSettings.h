@@ -20,13 +20,12 @@ struct TlsSettings
     Keyring keys;       // with pre-shared keys
     QString identity;   // with which a node connects; with pre-shared keys only
     AccessList access;  // of a master
-    bool hasAccess = false;
 
     /// \return false, with the remedy in \a error, when a file is missing, wrong, or open to others
     static bool read(const QPlcSecurity &security, QPlcSecurity::Side side, TlsSettings *settings, QString *error);
 
-    /// All that a master knows by its files.
-    QStringList identities() const { return keys.entries().keys() + access.identities(); }
+    /// All that may come to a master, by its files.
+    QMap<QString, Peer> peers() const;
 
     /// Whether a suite has forward secrecy and authenticated encryption. \param mode that of the
     /// security

@@ -42,6 +42,13 @@ MasterAudit::MasterAudit(const MasterServer &server, Journal &journal, const Rea
                                   QStringLiteral("%1 from %2%3")
                                       .arg(signalsText(message), connection->socket->peerName(), phase.cycleText()));
             });
+    connect(&server, &MasterServer::rightsUnreadable, this, [&](const QString &error) {
+        journal.tell(
+            JournalEvent::Warning, JournalEvent::Security, NodeRegistry::masterName(),
+            QStringLiteral("the files of keys and rights were changed, and cannot be read: %1; who is connected "
+                           "stays, and nobody else is let in")
+                .arg(error));
+    });
     connect(&server, &MasterServer::refused, this,
             [&](const QString &name, const QString &address, const QString &reason) {
                 journal.refused(name, address, reason);

@@ -54,6 +54,11 @@ struct MasterConnection
     QString provenIdentity() const { return peer.isSecured ? peer.identity : QString(); }
     bool uses(QLatin1String feature) const { return features.contains(feature); }
     QString shownName() const { return qplc::shownName(peer, name); }
+    /// Whether somebody is called so: as it has greeted or registered, or by its identity.
+    bool isOf(const QString &called) const
+    {
+        return !called.isEmpty() && (called == name || called == provenIdentity());
+    }
     bool isNode() const { return slot != nullptr; }
     /// Whether a message of \a kind is the answer that the master waits for: there are as many of
     /// them as the master wants.

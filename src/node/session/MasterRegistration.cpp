@@ -21,12 +21,6 @@ namespace {
 constexpr std::chrono::seconds LongestAttaching{5};  // until the cyclic connection of a node is there
 constexpr int LongestUuid = 64;                      // [characters] twice as many as there are
 
-/// As somebody calls himself, fit to be shown and kept.
-QString nameOf(const QString &given)
-{
-    return printable(given.left(NodeDeclaration::LongestName));
-}
-
 bool hasSealedFrames(const MasterConnection &connection)
 {
     return connection.isSecured() && connection.transport->isSealed();
@@ -66,10 +60,10 @@ Refusal contradictionOf(const MasterConnection &connection, const NodeDeclaratio
                         const messages::Register &registration)
 {
     const bool hasOtherUuid = !registration.uuid.isEmpty() && registration.uuid.left(LongestUuid) != connection.uuid;
-    if (nameOf(registration.name) != connection.name || hasOtherUuid)
+    if (MasterServer::nameOf(registration.name) != connection.name || hasOtherUuid)
         return {messages::errorWord::malformedMessage,
                 QStringLiteral("'%1' registers as '%2', or with another uuid than it greeted with; send those of Hello")
-                    .arg(connection.name, nameOf(registration.name))};
+                    .arg(connection.name, MasterServer::nameOf(registration.name))};
     const std::pair<QLatin1String, bool> used[] = {{messages::feature::sameCycle, declaration.isOrdered()},
                                                    {messages::feature::quality, declaration.quality},
                                                    {messages::feature::outputQuality, declaration.outputQuality}};
@@ -113,6 +107,11 @@ ConnectionGate::Guest guestOf(const MasterConnection &connection, const messages
 
 }  // namespace
 
+QString MasterServer::nameOf(const QString &given)
+{
+    return printable(given.left(NodeDeclaration::LongestName));
+}
+
 void MasterServer::open(MasterConnection *connection, const messages::ClientHello &greeting)
 {
     if (connection->stage != MasterConnection::Silent) {
@@ -121,6 +120,11 @@ void MasterServer::open(MasterConnection *connection, const messages::ClientHell
     }
     connection->name = nameOf(greeting.name);
     connection->uuid = greeting.uuid.left(LongestUuid);
+    const Refusal evicted = m_evictions.refusalOf(connection->name, connection->peer);
+    if (!evicted.error.isEmpty()) {
+        reject(connection, evicted.error, evicted.text);
+        return;
+    }
     if (greeting.protocol != messages::protocolVersion) {
         reject(connection, messages::errorWord::versionMismatch,
                QStringLiteral("protocol version %1 of '%2' is not spoken here; this master speaks version %3")
@@ -173,6 +177,8 @@ void MasterServer::open(MasterConnection *connection, const messages::Register &
     } else {
         declaration.hardware = connection->uses(messages::feature::hardware);
         refusal = contradictionOf(*connection, declaration, registration);
+        if (refusal.error.isEmpty())
+            refusal = m_evictions.refusalOf(declaration.name, connection->peer);
         if (refusal.error.isEmpty())
             refusal = m_objection(&declaration, *connection);
         if (refusal.error.isEmpty())

@@ -8,7 +8,7 @@
 #include "realtime/TimeSource.h"
 #include "transport/TransportRegistry.h"
 
-#include <QtCore/QPointer>
+#include <QtCore/QScopedValueRollback>
 
 #include <algorithm>
 
@@ -43,7 +43,7 @@ bool isUrgent(Message::Kind kind)
 MasterServer::MasterServer(NodeRegistry &registry, const ProcessImage &image, CyclicHub &hub, quint64 session,
                            std::function<messages::MasterHello()> hello,
                            std::function<Refusal(NodeDeclaration *, const MasterConnection &)> objection,
-                           QObject *parent)
+                           const Evictions &evictions, QObject *parent)
     : QObject(parent)
     , m_registry(registry)
     , m_image(image)
@@ -53,6 +53,7 @@ MasterServer::MasterServer(NodeRegistry &registry, const ProcessImage &image, Cy
     , m_objection(std::move(objection))
     , m_greeting(image.table())
     , m_longestMessage(longestMessageFor(image.table()))
+    , m_evictions(evictions)
     , m_door(this)
     , m_turns([this](FairTurns::Client client) { return serve(static_cast<MasterConnection *>(client)); })
 {
@@ -61,6 +62,8 @@ MasterServer::MasterServer(NodeRegistry &registry, const ProcessImage &image, Cy
     connect(&m_door, &MasterDoor::entered, this, &MasterServer::enter);
     connect(&m_door, &MasterDoor::refused, this, &MasterServer::strangerRefused);
     connect(&m_door, &MasterDoor::tooSlow, this, &MasterServer::dropSlow);
+    connect(&m_rights, &RightsWatch::changed, this, &MasterServer::expelRevoked);
+    connect(&m_rights, &RightsWatch::unreadable, this, &MasterServer::rightsUnreadable);
 }
 
 MasterServer::~MasterServer()
@@ -126,8 +129,10 @@ bool MasterServer::listen(const QHostAddress &address, quint16 port, const QStri
         if (!openPorts(address, port))
             continue;
         if ((name.isEmpty() || m_name.hold(name, this->port(), &m_errorString))
-            && openTransports({address, group, m_isSecured, m_session}))
+            && openTransports({address, group, m_isSecured, m_session})) {
+            m_rights.begin(m_door.security());
             return true;
+        }
         close();
         return false;
     }
@@ -144,6 +149,7 @@ bool MasterServer::openTransports(const MasterPlace &place)
 void MasterServer::close()
 {
     m_name.release();
+    m_rights.end();
     m_door.close();
     for (const std::unique_ptr<MasterConnection> &connection : m_connections)
         connection->send(messages::MasterEnds());
@@ -181,8 +187,11 @@ void MasterServer::enter(QPlcSlaveSocket *socket, const Peer &peer, ConnectionGa
     connect(
         socket, &QPlcAbstractSocket::disconnected, this, [this, guarded] { dropClosed(guarded); },
         Qt::QueuedConnection);
-    if (peer.isSecured)
-        Q_EMIT authenticated(connection);
+    if (!peer.isSecured)
+        return;
+    Q_EMIT authenticated(connection);
+    m_rights.check();  // its handshake has read older files
+    expelRevoked();
 }
 
 void MasterServer::dropSlow(ConnectionGate::Ticket ticket, const QString &reason)
@@ -247,9 +256,78 @@ void MasterServer::forget(MasterConnection *connection)
 void MasterServer::reject(MasterConnection *connection, const QString &error, const QString &reason)
 {
     const QString text = printable(reason.left(LongestReason));
+    const QPointer<QPlcSlaveSocket> socket(connection->socket);
     connection->send(messages::Rejected{error, text});
-    Q_EMIT refused(connection->shownName(), connection->socket->peerName(), text);
-    drop(connection, text);
+    Q_EMIT refused(connection->shownName(), socket->peerName(), text);
+    if (connectionOf(socket) == connection)  // else who heard of it has ended it
+        drop(connection, text);
+}
+
+// ---- out ----
+
+/// Who hears of one of them may end others.
+int MasterServer::expel(const std::function<Refusal(MasterConnection *)> &refusalOf)
+{
+    std::vector<std::pair<QPointer<QPlcSlaveSocket>, Refusal>> out;
+    for (const std::unique_ptr<MasterConnection> &connection : m_connections) {
+        const bool isEnding = connection->slot && connection->slot->lost;
+        const Refusal refusal = isEnding ? Refusal() : refusalOf(connection.get());
+        if (!refusal.error.isEmpty())
+            out.emplace_back(connection->socket, refusal);
+    }
+    for (const auto &[socket, refusal] : out)
+        expelOne(socket, refusal);
+    return int(out.size());
+}
+
+void MasterServer::expelOne(const QPointer<QPlcSlaveSocket> &socket, const Refusal &refusal)
+{
+    MasterConnection *connection = connectionOf(socket);
+    if (connection && connection == m_receiving)  // it is in use until its message is carried out
+        QMetaObject::invokeMethod(
+            this, [this, socket, refusal] { expelOne(socket, refusal); }, Qt::QueuedConnection);
+    else if (connection && !(connection->slot && connection->slot->lost))
+        reject(connection, refusal.error, refusal.text);
+}
+
+/// Why somebody who is in would not be let in by the present files; no error: it may stay. A node
+/// may stay as long as it may still be what it has registered as; others connect again.
+Refusal MasterServer::revocation(MasterConnection *connection) const
+{
+    const Peer &former = connection->peer;
+    if (!former.isSecured)
+        return {};
+    const auto denied = [&](const char *text) {
+        return Refusal{messages::errorWord::denied, QString::fromLatin1(text).arg(former.identity)};
+    };
+    const auto found = m_rights.peers().constFind(former.identity);
+    if (found == m_rights.peers().constEnd())
+        return denied("identity '%1' is revoked: the files of the master do not have it any more");
+    if (found->keyMark != former.keyMark)
+        return denied("the key of identity '%1' is revoked: the master has another one now; copy it from there");
+    const bool isSame = found->hasRightsOf(former);
+    if (!isSame && !(connection->slot && refusalOf(*found, registrationOf(*connection->slot)).isEmpty()))
+        return denied("the rights of identity '%1' were changed at the master; connect again");
+    connection->peer = *found;
+    return {};
+}
+
+/// What a node has registered, as far as it needs rights.
+QPlcMessage MasterServer::registrationOf(const NodeSlot &slot) const
+{
+    messages::Register registration;
+    registration.name = slot.name;
+    registration.listener = slot.listener;
+    for (const PayloadLayout::Field &field : slot.outputLayout.fields()) {
+        registration.outputs.emplace_back();
+        registration.outputs.back().name = m_image.table().at(field.signal).name;
+    }
+    return messages::toMessage(registration);
+}
+
+void MasterServer::expelRevoked()
+{
+    expel([this](MasterConnection *connection) { return revocation(connection); });
 }
 
 /// A request is refused, and the connection stays; not so before the greeting, and of a node that
@@ -368,6 +446,7 @@ void MasterServer::receive(MasterConnection *connection, const Message &message)
 {
     if (isSettled(connection, message) || isTooMuch(connection, message))
         return;
+    const QScopedValueRollback<MasterConnection *> receiving(m_receiving, connection);
     const QString refusal = refusalOf(connection->peer, message);
     if (!refusal.isEmpty()) {
         deny(connection, refusal, message.kind() == Message::Register);

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "Evictions.h"
 #include "FairTurns.h"
 #include "MasterConnection.h"
 #include "MasterDoor.h"
 #include "QPlcMasterStatistics.h"
 #include "QPlcUnderlyingProtocol.h"
+#include "node/security/RightsWatch.h"
 #include "protocol/messages/HelloText.h"
 #include "transport/LocalName.h"
 
 #include <QtCore/QObject>
+#include <QtCore/QPointer>
 
 #include <functional>
 #include <memory>
@@ -27,9 +30,11 @@ public:
     ///         the client
     /// \param objection why the master does not take a node now that the registry would take; no
     ///         error: it takes it, and may have changed what the node says of itself
+    /// \param evictions  outlive this object
     MasterServer(NodeRegistry &registry, const ProcessImage &image, CyclicHub &hub, quint64 session,
                  std::function<messages::MasterHello()> hello,
-                 std::function<Refusal(NodeDeclaration *, const MasterConnection &)> objection, QObject *parent);
+                 std::function<Refusal(NodeDeclaration *, const MasterConnection &)> objection,
+                 const Evictions &evictions, QObject *parent);
     ~MasterServer() override;
 
     /// Takes effect with listen().
@@ -48,10 +53,15 @@ public:
     QHostAddress address() const { return m_address; }
     QString errorString() const { return m_errorString; }
 
+    /// As somebody calls himself, fit to be shown and kept.
+    static QString nameOf(const QString &given);
     const std::vector<std::unique_ptr<MasterConnection>> &connections() const { return m_connections; }
     MasterConnection *connectionOf(const NodeSlot *slot) const;
     /// Ends a connection; lost() follows for a node.
     void drop(MasterConnection *connection, const QString &reason);
+    /// Ends the connections for which \a refusalOf has an error; they are told so.
+    /// \return how many
+    int expel(const std::function<Refusal(MasterConnection *)> &refusalOf);
 
 Q_SIGNALS:
     /// Somebody new; what is sent now comes before the Hello of the master.
@@ -66,6 +76,8 @@ Q_SIGNALS:
     void commanded(qplc::MasterConnection *connection, const QPlcMessage &message);
     /// Somebody has proven who it is.
     void authenticated(qplc::MasterConnection *connection);
+    /// The files of keys and rights were changed, and cannot be read: who is there stays.
+    void rightsUnreadable(const QString &error);
     /// A message was not carried out: its sender has no right to it.
     void denied(qplc::MasterConnection *connection, const QString &reason);
     /// A message that is not about registration.
@@ -94,6 +106,10 @@ private:
     void replace(const MasterConnection *newcomer, const QString &name);
     void nodeAttached(MasterConnection *connection);
     void reject(MasterConnection *connection, const QString &error, const QString &reason);
+    void expelOne(const QPointer<QPlcSlaveSocket> &socket, const Refusal &refusal);
+    Refusal revocation(MasterConnection *connection) const;
+    QPlcMessage registrationOf(const NodeSlot &slot) const;
+    void expelRevoked();
     void forget(MasterConnection *connection);
     bool openPorts(const QHostAddress &address, quint16 port);
     bool openTransports(const MasterPlace &place);
@@ -109,14 +125,17 @@ private:
     std::function<Refusal(NodeDeclaration *, const MasterConnection &)> m_objection;
     const messages::HelloText m_greeting;
     const quint32 m_longestMessage;  // [byte] that a client may send
+    const Evictions &m_evictions;
     MasterDoor m_door;
+    RightsWatch m_rights;
     LocalName m_name;
     QHostAddress m_address;
     bool m_isSecured = false;
     std::vector<std::unique_ptr<MasterConnection>> m_connections;
     FairTurns m_turns;
     QTimer m_nextTurn;
-    bool m_isBusy = false;  // somebody waits since the last turn
+    bool m_isBusy = false;                    // somebody waits since the last turn
+    MasterConnection *m_receiving = nullptr;  // whose message is at hand
     QString m_errorString;
     quint64 m_deniedMessages = 0;
 };

@@ -34,6 +34,8 @@ public:
     /// \param identity  that it has proven; empty: none
     /// \return why the manifest does not permit it; no error: it does
     Refusal judge(NodeDeclaration *node, const QString &transport, const QString &identity);
+    /// Whether it is needed, or may be by the manifest.
+    bool contains(const QString &node) const { return m_manifest.find(node) || m_critical.contains(node); }
     /// For the reason why it is missing: what has become of a node.
     /// \param fate  "has left: it closed the connection"
     void tellFate(const QString &node, const QString &fate);

@@ -48,6 +48,8 @@ constexpr bool isKind(quint8 number)
     case Kind::Reset:
     case Kind::Arm:
     case Kind::Armed:
+    case Kind::Evict:
+    case Kind::Admit:
     case Kind::GetState:
     case Kind::State:
     case Kind::GetSignals:
@@ -103,8 +105,8 @@ struct JoinedLists<List<First...>, List<Second...>>
 using Openings = List<ClientHello, Register, AttachCyclicChannel>;
 /// What a master answers, or carries out, for those that it knows.
 using Requests = List<InitializeAllStates, ReceiveMyInitialOutputStates, Initialized, StartRealTime, RealTimeReady,
-                      Stop, SafeStop, Reset, Arm, GetState, GetSignals, SetSignals, NodeFault, GetStatistics,
-                      GetSchedule, TakeLease, ReleaseLease, GetLeases, GetEvents>;
+                      Stop, SafeStop, Reset, Arm, Evict, Admit, GetState, GetSignals, SetSignals, NodeFault,
+                      GetStatistics, GetSchedule, TakeLease, ReleaseLease, GetLeases, GetEvents>;
 /// What a node or tool sends to its master.
 using FromClient = JoinedLists<Openings, Requests>::Type;
 /// How a master begins and ends a connection.
@@ -127,7 +129,8 @@ using EverybodyMaySend
     = List<ClientHello, Register, AttachCyclicChannel, ReceiveMyInitialOutputStates, Initialized, RealTimeReady, Stop,
            SafeStop, GetState, GetSignals, NodeFault, GetStatistics, GetSchedule, GetLeases, GetEvents>;
 /// What Operators and Engineers may send.
-using OperatorsMaySend = List<InitializeAllStates, StartRealTime, Reset, Arm, SetSignals, TakeLease, ReleaseLease>;
+using OperatorsMaySend
+    = List<InitializeAllStates, StartRealTime, Reset, Arm, Evict, Admit, SetSignals, TakeLease, ReleaseLease>;
 
 /// Whether each message of FromClient, and no other one, is in exactly one of two lists.
 template<typename First, typename Second>
@@ -146,8 +149,8 @@ static_assert(isFromClientSplitInto(EverybodyMaySend(), OperatorsMaySend()),
 using WriteSignals = List<Register, SetSignals, TakeLease, ReleaseLease>;
 /// All others of FromClient.
 using WriteNoSignals = List<ClientHello, AttachCyclicChannel, InitializeAllStates, ReceiveMyInitialOutputStates,
-                            Initialized, StartRealTime, RealTimeReady, Stop, SafeStop, Reset, Arm, GetState, GetSignals,
-                            NodeFault, GetStatistics, GetSchedule, GetLeases, GetEvents>;
+                            Initialized, StartRealTime, RealTimeReady, Stop, SafeStop, Reset, Arm, Evict, Admit,
+                            GetState, GetSignals, NodeFault, GetStatistics, GetSchedule, GetLeases, GetEvents>;
 
 static_assert(isFromClientSplitInto(WriteSignals(), WriteNoSignals()),
               "a message of FromClient is in neither of WriteSignals and WriteNoSignals, or in both");

@@ -148,6 +148,23 @@ struct Reset
     static constexpr auto fields = std::make_tuple(field("latch", &Reset::latch, Presence::Required));
 };
 
+/// Somebody goes, and does not come back before Admit.
+struct Evict
+{
+    static constexpr QPlcMessage::Kind kind = QPlcMessage::Evict;
+    QString name;  // of a node or person
+
+    static constexpr auto fields = std::make_tuple(field("name", &Evict::name, Presence::Required));
+};
+
+struct Admit
+{
+    static constexpr QPlcMessage::Kind kind = QPlcMessage::Admit;
+    QString name;
+
+    static constexpr auto fields = std::make_tuple(field("name", &Admit::name, Presence::Required));
+};
+
 struct Armed
 {
     static constexpr QPlcMessage::Kind kind = QPlcMessage::Armed;

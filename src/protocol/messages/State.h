@@ -55,9 +55,10 @@ struct State
 {
     static constexpr QPlcMessage::Kind kind = QPlcMessage::State;
     MasterState state = MasterState::Unknown;
-    QString reason;     // why it is SafeStop or Fault
-    QString remains;    // what still keeps Reset from being done
-    QString missing;    // nodes that an initialization and a start need
+    QString reason;   // why it is SafeStop or Fault
+    QString remains;  // what still keeps Reset from being done
+    QString missing;  // nodes that an initialization and a start need
+    QStringList evicted;
     quint64 latch = 0;  // number of the newest safe stop or fault of this session, from 1; 0: there was none
     bool armed = false;
     bool armingRequired = false;
@@ -77,13 +78,14 @@ struct State
 
     static constexpr auto fields = std::make_tuple(
         field("state", &State::state), field("reason", &State::reason), field("remains", &State::remains),
-        field("missing", &State::missing, Presence::WhenSet), field("latch", &State::latch),
-        field("armed", &State::armed), field("armingRequired", &State::armingRequired), field("cycle", &State::cycle),
-        field("cycleZeroTime", &State::cycleZeroTime, Presence::WhenSet), field("period", &State::period),
-        field("clock", &State::clock), field("scale", &State::scale), field("profile", &State::profile),
-        field("profileReason", &State::profileReason), field("session", &State::session), field("nodes", &State::nodes),
-        field("counters", &State::counters), field("digest", &State::digest),
-        field("stopped", &State::stopped, Presence::WhenSet), field("faults", &State::faults, Presence::WhenSet));
+        field("missing", &State::missing, Presence::WhenSet), field("evicted", &State::evicted, Presence::WhenSet),
+        field("latch", &State::latch), field("armed", &State::armed), field("armingRequired", &State::armingRequired),
+        field("cycle", &State::cycle), field("cycleZeroTime", &State::cycleZeroTime, Presence::WhenSet),
+        field("period", &State::period), field("clock", &State::clock), field("scale", &State::scale),
+        field("profile", &State::profile), field("profileReason", &State::profileReason),
+        field("session", &State::session), field("nodes", &State::nodes), field("counters", &State::counters),
+        field("digest", &State::digest), field("stopped", &State::stopped, Presence::WhenSet),
+        field("faults", &State::faults, Presence::WhenSet));
 };
 
 struct GetState

@@ -40,13 +40,14 @@ constexpr QLatin1String nodeError = word("NodeError");
 constexpr QLatin1String tooLong = word("TooLong");
 constexpr QLatin1String securityNeeded = word("SecurityNeeded");
 constexpr QLatin1String denied = word("Denied");
+constexpr QLatin1String evicted = word("Evicted");
 constexpr QLatin1String timedOut = word("TimedOut");
 constexpr QLatin1String tooMuch = word("TooMuch");
 constexpr QLatin1String all[]
-    = {versionMismatch, nameInUse,        unknownSignal,   typeMismatch,     unitMismatch, signalHasWriter,
-       writerNotNamed,  leaseHeld,        profileMismatch, manifestMismatch, tooManyNodes, algebraicLoop,
-       wrongState,      malformedMessage, invalidValue,    nodeError,        tooLong,      securityNeeded,
-       denied,          timedOut,         tooMuch,         safetyMismatch};
+    = {versionMismatch, nameInUse,        unknownSignal,   typeMismatch,     unitMismatch,  signalHasWriter,
+       writerNotNamed,  leaseHeld,        profileMismatch, manifestMismatch, tooManyNodes,  algebraicLoop,
+       wrongState,      malformedMessage, invalidValue,    nodeError,        tooLong,       securityNeeded,
+       denied,          evicted,          timedOut,        tooMuch,          safetyMismatch};
 /// Of a client itself: the connection ended before there was an answer. Never sent.
 constexpr QLatin1String lost = word("Lost");
 }  // namespace errorWord
