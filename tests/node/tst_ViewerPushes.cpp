@@ -32,12 +32,14 @@ struct Master
     NodeRegistry registry{table()};
     ProcessImage image{table()};
     CyclicHub hub;
+    Evictions evictions;
     MasterServer server{registry,
                         image,
                         hub,
                         5,
                         [] { return messages::MasterHello(); },
                         [](NodeDeclaration *, const MasterConnection &) { return Refusal(); },
+                        evictions,
                         nullptr};
     EventLog events;
     int pictures = 0;
