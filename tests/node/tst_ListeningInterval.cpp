@@ -223,7 +223,7 @@ void tst_ListeningInterval::lostIntervalsCountAsMissed()
     QVERIFY(master.beginWith(viewer));
     quint64 sent = 0;
     for (const quint64 cycle : {0, 10, 23, 30, 40, 50, 60}) {
-        master.before = quint32(cycle - sent++);
+        master.before = quint16(cycle - sent++);
         if (cycle != 40 && cycle != 50)  // those are lost
             master.request(cycle);
     }
