@@ -352,7 +352,8 @@ void tst_SealedCycles::everyChangedFrameIsCountedAndDropped()
         if (bit % 32 == 31)
             QTRY_COMPARE(forgedSoFar(), forged);  // before the queue of the receiver is full
     }
-    for (const QByteArray &garbage : {QByteArray(), good.bytes.left(size - 1), good.bytes + 'x', QByteArray(size, 'x')}) {
+    for (const QByteArray &garbage :
+         {QByteArray(), good.bytes.left(size - 1), good.bytes + 'x', QByteArray(size, 'x')}) {
         wire::forge(good, garbage);
         ++rejected;
     }
