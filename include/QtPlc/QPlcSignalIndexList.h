@@ -3,6 +3,7 @@
 
 #include "QPlcInputTiming.h"
 
+#include <QtCore/QBitArray>
 #include <QtCore/QMetaType>
 #include <QtCore/QStringList>
 #include <QtCore/QVector>
@@ -43,7 +44,7 @@ public:
     QPlcSignalIndex insert(QPlcSignalIndex index, QPlcInputTiming::Value timing = QPlcInputTiming::LastCycle);
 
     /// Returns true if the signal is in the list.
-    bool contains(QPlcSignalIndex index) const { return m_indices.contains(index); }
+    bool contains(QPlcSignalIndex index) const { return index < m_isIn.size() && m_isIn.testBit(index); }
     /// Returns true if the list has no signals. Unknown names do not count.
     bool isEmpty() const { return m_indices.isEmpty(); }
     /// Returns the number of signals.
@@ -76,6 +77,7 @@ public:
 
 private:
     QVector<QPlcSignalIndex> m_indices;
+    QBitArray m_isIn;                      // for each index up to the largest one
     QVector<QPlcSignalIndex> m_sameCycle;  // of them; an unknown name is QPlcInvalidSignalIndex
     QStringList m_unknownNames;
 };

@@ -21,7 +21,11 @@ QPlcSignalIndex QPlcSignalIndexList::insert(QPlcSignalIndex index, QPlcInputTimi
         return insert(QStringLiteral("index 65535"), timing);
     if (timing == QPlcInputTiming::SameCycle && !m_sameCycle.contains(index))
         m_sameCycle.append(index);
-    if (!m_indices.contains(index))
-        m_indices.append(index);
+    if (contains(index))
+        return index;
+    m_indices.append(index);
+    if (index >= m_isIn.size())
+        m_isIn.resize(index + 1);
+    m_isIn.setBit(index);
     return index;
 }

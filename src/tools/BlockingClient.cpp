@@ -100,6 +100,17 @@ bool BlockingClient::setUnknown(QPlcMessage::Kind request)
                         .arg(m_address, QPlcMessage::kindName(request)));
 }
 
+bool BlockingClient::askForSignals(const QStringList &names, std::vector<qplc::messages::SignalEntry> *signals)
+{
+    for (int first = 0; first < names.size(); first += SignalsPerAnswer) {
+        qplc::messages::Signals answer;
+        if (!ask(qplc::messages::GetSignals{names.mid(first, SignalsPerAnswer)}, &answer))
+            return false;
+        signals->insert(signals->end(), answer.signals.begin(), answer.signals.end());
+    }
+    return true;
+}
+
 QPlcSignalTable BlockingClient::table()
 {
     QVector<QPlcParseError> errors;

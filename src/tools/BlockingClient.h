@@ -24,6 +24,9 @@ public:
         Lost          ///< the connection ended, or no answer came in time
     };
 
+    /// An answer has at most 1 MiB, a signal up to 9 kB of values, and its description.
+    static constexpr int SignalsPerAnswer = 100;
+
     /// \param timeout  longest wait for the greeting and for each answer
     explicit BlockingClient(std::chrono::milliseconds timeout);
 
@@ -44,6 +47,9 @@ public:
             *answer = *received;
         return received || setUnknown(Request::kind);
     }
+    /// Asks how the signals \a names are, in so many questions that each answer is short enough.
+    /// \return false when the master refused or was lost
+    bool askForSignals(const QStringList &names, std::vector<qplc::messages::SignalEntry> *signals);
     /// As ask(), for a kind that an older master may not know: then errorString() says so.
     template<typename Request>
     bool askFor(const Request &request, typename Request::Answer *answer)

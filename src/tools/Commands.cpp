@@ -169,12 +169,12 @@ const QVector<Command> &commands()
          &resetMaster},
         {"evict",
          "NAME",
-         "Ends all connections of a node or person, and refuses new ones.",
+         "Ends all connections of a node or person.",
          "NAME is that of a node, of an identity, or the one by which a tool has greeted.\n"
-         "A critical node that is evicted while cycles run stops the plant safely. No start\n"
-         "begins without an evicted node that the plant needs. The name is refused until\n"
-         "qtplc admit NAME, or until the master is started again. Without security, anybody\n"
-         "can come back under another name.",
+         "The name is refused until qtplc admit NAME, or until the master has ended.\n"
+         "If a critical node is evicted while cycles run, the plant stops safely. No start\n"
+         "begins without a node that the plant needs. Without security, everybody can come\n"
+         "back under another name.",
          {},
          {QStringLiteral("qtplc evict Winch")},
          Command::NoArguments,
@@ -184,8 +184,8 @@ const QVector<Command> &commands()
         {"admit",
          "NAME",
          "Lets a node or person in again that was evicted.",
-         "It has to connect again; a node that reconnects by itself does so. qtplc state shows\n"
-         "who is evicted.",
+         "It has to connect again; most nodes do so alone. qtplc state shows who is\n"
+         "evicted.",
          {},
          {QStringLiteral("qtplc admit Winch")},
          Command::NoArguments,

@@ -80,19 +80,17 @@ QStringList signalNames(const QString &address, bool onlyFree)
     BlockingClient client(patience);
     if (!master.isValid() || !client.connectToMaster(master))
         return {};
-    qplc::messages::Signals answer;
-    if (onlyFree && !client.ask(qplc::messages::GetSignals(), &answer))
-        onlyFree = false;  // too many for one answer
     QStringList names;
-    if (onlyFree) {
-        for (const qplc::messages::SignalEntry &signal : answer.signals) {
-            if (signal.writer.isEmpty())
-                names << signal.name;
-        }
-    } else {
-        const QPlcSignalTable table = client.table();
-        for (const QPlcSignalDefinition &definition : table)
-            names << definition.name;
+    const QPlcSignalTable table = client.table();
+    for (const QPlcSignalDefinition &definition : table)
+        names << definition.name;
+    std::vector<qplc::messages::SignalEntry> signals;
+    if (!onlyFree || !client.askForSignals(names, &signals))
+        return names;
+    names.clear();
+    for (const qplc::messages::SignalEntry &signal : signals) {
+        if (signal.writer.isEmpty())
+            names << signal.name;
     }
     return names;
 }

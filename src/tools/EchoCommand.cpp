@@ -138,8 +138,9 @@ int printLines(const CommandCall &call, const QPlcSignalTable &table, const QStr
     Echo echo(listener, call.isJson(), rate.rate, rate.count);
     QObject::connect(&listener, &SignalListener::valuesAtRest, &echo, &Echo::printAtRest);
     qplc::messages::State state;
-    qplc::messages::Signals values;
-    if (!call.ask(qplc::messages::GetState(), &state) || !call.ask(listener.question(), &values))
+    std::vector<qplc::messages::SignalEntry> values;
+    if (!call.ask(qplc::messages::GetState(), &state)
+        || !call.tell(call.client.askForSignals(listener.names(), &values)))
         return call.exitCode();
     const auto endIsWanted = call.quitOnSignals();
     listener.handleState(state);

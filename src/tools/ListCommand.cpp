@@ -12,23 +12,14 @@ namespace messages = qplc::messages;
 
 namespace {
 
-constexpr int signalsPerAnswer = 500;  // an answer has at most 1 MiB
-
 using Row = messages::SignalEntry;
 
 /// The wanted signals as the master describes them. \return false, with the message out
 bool askForSignals(const CommandCall &call, QPlcSignalTable *table, std::vector<Row> *rows)
 {
     QStringList names;
-    if (!call.connect(table) || !selectSignalsOrAll(call.application, *table, call.arguments, &names))
-        return false;
-    for (int first = 0; first < names.size(); first += signalsPerAnswer) {
-        messages::Signals answer;
-        if (!call.ask(messages::GetSignals{names.mid(first, signalsPerAnswer)}, &answer))
-            return false;
-        rows->insert(rows->end(), answer.signals.begin(), answer.signals.end());
-    }
-    return true;
+    return call.connect(table) && selectSignalsOrAll(call.application, *table, call.arguments, &names)
+        && call.tell(call.client.askForSignals(names, rows));
 }
 
 QJsonValue valueOf(const QPlcSignalTable &table, const Row &row)

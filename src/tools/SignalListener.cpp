@@ -4,6 +4,7 @@
 #include "SignalSelection.h"
 #include "signals/PayloadLayout.h"
 
+#include <QtCore/QHash>
 #include <QtCore/QPointer>
 
 namespace tools {
@@ -24,8 +25,11 @@ SignalListener::SignalListener(const CommandCall &call, const QString &purpose, 
     }
     const QVector<QPlcSignalIndex> inputs = indices.toVector();
     const qplc::PayloadLayout layout(table, inputs);
+    QHash<QPlcSignalIndex, int> places;
+    for (const QPlcSignalIndex index : inputs)
+        places.insert(index, places.size());
     for (const QPlcSignalDefinition &definition : qAsConst(m_definitions)) {
-        m_places << inputs.indexOf(table.indexOf(definition.name));
+        m_places << places.value(table.indexOf(definition.name));
         m_offsets << int(layout.fields()[std::size_t(m_places.last())].offset);
     }
     m_node.setReconnectPolicy(QPlcSlaveNode::NeverReconnect);
@@ -67,21 +71,21 @@ void SignalListener::handleState(const messages::State &state)
     m_state = state.state;
     m_isRunning = messages::hasCycles(m_state);
     if (!m_isRunning && m_node.state() != QPlcSlaveNode::Disconnected)
-        askForValues();
+        askForValues(std::make_shared<Values>());
 }
 
-void SignalListener::handleValues(const messages::Signals &answer)
+void SignalListener::handleValues(const std::vector<messages::SignalEntry> &values)
 {
-    if (m_isRunning || int(answer.signals.size()) < m_definitions.size())
+    if (m_isRunning || int(values.size()) < m_definitions.size())
         return;
-    QVector<QPlcValue> values;
+    QVector<QPlcValue> numbers;
     QVector<QPlcQuality> qualities;
     for (int i = 0; i < m_definitions.size(); ++i) {
-        const messages::SignalEntry &entry = answer.signals[std::size_t(i)];
-        values << QPlcValue::fromString(m_definitions.at(i).type, entry.value);
+        const messages::SignalEntry &entry = values[std::size_t(i)];
+        numbers << QPlcValue::fromString(m_definitions.at(i).type, entry.value);
         qualities << QPlcQuality::fromByte(entry.quality);
     }
-    Q_EMIT valuesAtRest(values, qualities);
+    Q_EMIT valuesAtRest(numbers, qualities);
 }
 
 bool SignalListener::join()
@@ -93,26 +97,41 @@ bool SignalListener::join()
     return true;
 }
 
-/// A refusal, and a master that is lost, are left to the node.
-template<typename Request, typename Answer>
-void SignalListener::ask(const Request &request, void (SignalListener::*take)(const Answer &))
+/// \param take  gets the answer, or null: the master refused or is lost, which is left to the node
+template<typename Request, typename Take>
+void SignalListener::ask(const Request &request, Take take)
 {
     const auto pass = [listener = QPointer(this), take](const qplc::ControlClient::Reply<Request> &reply) {
-        const auto *answer = std::get_if<Answer>(&reply);
-        if (answer && listener)
-            (listener->*take)(*answer);
+        if (listener)
+            take(std::get_if<typename qplc::AnswerTo<Request>::Type>(&reply));
     };
     m_call.client.control().request(request, pass);
 }
 
 void SignalListener::askForState()
 {
-    ask(messages::GetState(), &SignalListener::handleState);
+    ask(messages::GetState(), [this](const messages::State *state) {
+        if (state)
+            handleState(*state);
+    });
 }
 
-void SignalListener::askForValues()
+/// \param known  what the answers to the questions before have told
+void SignalListener::askForValues(const std::shared_ptr<Values> &known)
 {
-    ask(question(), &SignalListener::handleValues);
+    if (known->empty() && std::exchange(m_isAsking, true))
+        return;
+    const messages::GetSignals next{m_names.mid(int(known->size()), BlockingClient::SignalsPerAnswer)};
+    ask(next, [this, known](const messages::Signals *answer) {
+        if (answer)
+            known->insert(known->end(), answer->signals.begin(), answer->signals.end());
+        if (answer && !answer->signals.empty() && int(known->size()) < m_names.size()) {
+            askForValues(known);
+            return;
+        }
+        m_isAsking = false;
+        handleValues(*known);
+    });
 }
 
 void SignalListener::takeCycles()

@@ -33,9 +33,9 @@ public:
     /// Names and values of one sample, as JSON.
     QJsonObject toJson(const QVector<QPlcValue> &values) const;
     void handleState(const qplc::messages::State &state);
-    void handleValues(const qplc::messages::Signals &answer);
-    /// The question that handleValues() has the answer of.
-    qplc::messages::GetSignals question() const { return {m_names}; }
+    /// \param values  of names()
+    void handleValues(const std::vector<qplc::messages::SignalEntry> &values);
+    const QStringList &names() const { return m_names; }
     /// Registers and listens from now on. \return false, with the message out
     bool join();
     /// Asks for the state, and while no cycle runs for the values, which come as valuesAtRest().
@@ -57,9 +57,10 @@ Q_SIGNALS:
 
 private:
     void takeCycles();
-    void askForValues();
-    template<typename Request, typename Answer>
-    void ask(const Request &request, void (SignalListener::*take)(const Answer &));
+    using Values = std::vector<qplc::messages::SignalEntry>;
+    void askForValues(const std::shared_ptr<Values> &known);
+    template<typename Request, typename Take>
+    void ask(const Request &request, Take take);
 
     const CommandCall &m_call;
     QStringList m_names;
@@ -71,6 +72,7 @@ private:
     double m_period = 0.0;  // [s]
     qplc::messages::MasterState m_state = qplc::messages::MasterState::Unknown;
     bool m_isRunning = false;
+    bool m_isAsking = false;  // for the values
 };
 
 }  // namespace tools

@@ -4,6 +4,8 @@
 
 #include <QtPlcCore>
 
+#include <QtCore/QFile>
+#include <QtCore/QTemporaryFile>
 #include <QtNetwork/QTcpServer>
 #include <QtNetwork/QTcpSocket>
 
@@ -38,6 +40,7 @@ private Q_SLOTS:
     void echoPrintsLinesAtItsRate();
     void echoStartedBeforeTheFlightShowsItsCycles();
     void echoJoiningAnEndingPhaseShowsRemainingValues();
+    void echoShowsMoreSignalsThanOneAnswerHolds();
     void echoEndsCleanlyOnUnixSignals_data();
     void echoEndsCleanlyOnUnixSignals();
     void echoEndsWithTheMaster_data();
@@ -61,6 +64,7 @@ private:
     }
     /// Starts model and autopilot and waits until they are registered.
     bool startNodes();
+    bool startMaster(const QStringList &options = {});
 
     std::unique_ptr<Program> m_master, m_model, m_autopilot;
     QString m_address;  // "--master=..."
@@ -68,10 +72,16 @@ private:
 
 void tst_qtplc::init()
 {
-    m_master = std::make_unique<Program>(path("awe_master"), QStringList{QStringLiteral("--port=0")});
-    QVERIFY(m_master->waitForOutput(QStringLiteral("\n")));
+    QVERIFY(startMaster());
+}
+
+bool tst_qtplc::startMaster(const QStringList &options)
+{
+    m_master = std::make_unique<Program>(path("awe_master"), QStringList{QStringLiteral("--port=0")} + options);
+    const bool listens = m_master->waitForOutput(QStringLiteral("\n"));
     m_address = QStringLiteral("--master=127.0.0.1:%1")
                     .arg(m_master->output().section(QLatin1Char('\n'), 0, 0).section(QLatin1Char(' '), 1));
+    return listens;
 }
 
 void tst_qtplc::cleanup()
@@ -425,6 +435,25 @@ void tst_qtplc::echoJoiningAnEndingPhaseShowsRemainingValues()
         QCOMPARE(echo.waitForEnd(), 0);
         QCOMPARE(echo.output().count(QLatin1Char('\n')), 2);
     }
+}
+
+void tst_qtplc::echoShowsMoreSignalsThanOneAnswerHolds()
+{
+    constexpr int more = 10'000;
+    QFile example(QStringLiteral(QTPLC_SIGNALS));
+    QVERIFY(example.open(QIODevice::ReadOnly));
+    QTemporaryFile table;
+    QVERIFY(table.open());
+    table.write(example.readAll());
+    for (int i = 0; i < more; ++i)
+        table.write("\n[more" + QByteArray::number(i) + "]\ntype = Real32\ndescription = " + QByteArray(60, 'x')
+                    + "\n");
+    table.close();
+    QVERIFY(startMaster({QStringLiteral("--signals"), table.fileName()}));
+    const Outcome outcome = qtplc(QStringLiteral("echo more* --count 1"));
+    QVERIFY2(outcome.exitCode == 0, qPrintable(outcome.errors));
+    QCOMPARE(outcome.output.count(QLatin1Char('\n')), 2);
+    QCOMPARE(linesOf(outcome).constFirst().simplified().count(QStringLiteral("more")), more);
 }
 
 void tst_qtplc::echoEndsCleanlyOnUnixSignals_data()
