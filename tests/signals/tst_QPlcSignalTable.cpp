@@ -32,7 +32,7 @@ private Q_SLOTS:
     void appendRefusesWhatATableCannotHold();
     void unknownNameIsAnsweredWithCloseOnes_data();
     void unknownNameIsAnsweredWithCloseOnes();
-    void hashIsFnv1aOfNameTypeAndUnit();
+    void hashIsFnv1aOfWhatNodeAndMasterHaveToAgreeOn();
 };
 
 namespace {
@@ -397,7 +397,7 @@ void tst_QPlcSignalTable::unknownNameIsAnsweredWithCloseOnes()
     QVERIFY(table.closeNames(QString(100000, QLatin1Char('x'))).isEmpty());
 }
 
-void tst_QPlcSignalTable::hashIsFnv1aOfNameTypeAndUnit()
+void tst_QPlcSignalTable::hashIsFnv1aOfWhatNodeAndMasterHaveToAgreeOn()
 {
     QCOMPARE(qplc::fnv1a64("", 0), Q_UINT64_C(0xcbf29ce484222325));
     QCOMPARE(qplc::fnv1a64(QByteArray("a")), Q_UINT64_C(0xaf63dc4c8601ec8c));
@@ -405,9 +405,10 @@ void tst_QPlcSignalTable::hashIsFnv1aOfNameTypeAndUnit()
     QCOMPARE(qplc::fnv1a64(QByteArray("bar"), qplc::fnv1a64(QByteArray("foo"))), Q_UINT64_C(0x85944171f73967e8));
 
     const quint64 hash = read("[a]\ntype = RealTriple\nunit = m\n[b]\ntype = Bool\n").hash();
-    QCOMPARE(hash, qplc::fnv1a64(QByteArray("a:Real32[3]:m\nb:Int8:\n")));
-    QCOMPARE(hash, Q_UINT64_C(0xd0c2fcc21c604e36));
-    QCOMPARE(read("[a]\nunit = m\ntype = Real[3]\nmin = -1\n[b]\ntype = Int8\nsafe = 1\n").hash(), hash);
+    QCOMPARE(hash, qplc::fnv1a64(QByteArray("a:Real32[3]:m\n::::::\nb:Int8:\n::::::\n")));
+    QCOMPARE(read("[a]\nunit = m\ntype = Real[3]\ninitial = 1\n[b]\ntype = Int8\ndescription = d\n").hash(), hash);
+    QVERIFY(read("[a]\ntype = RealTriple\nunit = m\nmin = -1\n[b]\ntype = Bool\n").hash() != hash);
+    QVERIFY(read("[a]\ntype = RealTriple\nunit = m\n[b]\ntype = Bool\nsafe = 1\n").hash() != hash);
     QVERIFY(read("[a]\ntype = RealTriple\nunit = km\n[b]\ntype = Bool\n").hash() != hash);
     QVERIFY(read("[b]\ntype = Bool\n[a]\ntype = RealTriple\nunit = m\n").hash() != hash);
     QCOMPARE(QPlcSignalTable().hash(), qplc::fnv1a64Start);
