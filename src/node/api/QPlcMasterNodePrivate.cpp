@@ -81,6 +81,12 @@ qplc::ProfileFacts factsOf(const QPlcMasterNodePrivate &master)
     return facts;
 }
 
+/// Who asks, for people. \param asker  null: the program of the master
+QString shownAsker(const qplc::MasterConnection *asker)
+{
+    return asker ? QStringLiteral("'%1'").arg(asker->shownName()) : QStringLiteral("the master");
+}
+
 /// Of a node that has set no watchdog, in the next phase; 0: watchdogs only report.
 std::chrono::nanoseconds usualWatchdog(const QPlcMasterNodePrivate &master)
 {
@@ -113,7 +119,7 @@ QPlcMasterNodePrivate::Parts::Parts(QPlcMasterNodePrivate &master)
     , server(
           registry, cycle.image(), master.hub, master.session, [&master] { return helloOf(master); },
           [this, &master](qplc::NodeDeclaration *node, const Connection &from) {
-              const qplc::Refusal refusal = master.needed.judge(node, from.cyclicKind, from.provenIdentity());
+              const qplc::Refusal refusal = master.needed.judge(node, from.cyclicKind, from.peer.provenIdentity());
               return refusal.error.isEmpty() && isPhaseUnderWay() ? master.phaseProfile.objectionTo(*node) : refusal;
           },
           master.evictions, nullptr)
@@ -298,12 +304,13 @@ qplc::Refusal QPlcMasterNodePrivate::evictionRefusal(const QString &name, const 
     namespace words = qplc::messages::errorWord;
     QStringList others;
     for (const auto &connection : parts->server.connections()) {
-        const bool isEngineer = connection->peer.role == qplc::Role::Engineer && connection->provenIdentity() == name;
+        const bool isEngineer
+            = connection->peer.role == qplc::Role::Engineer && connection->peer.provenIdentity() == name;
         if (connection->isOf(name) && connection.get() == asker)
             return {words::denied, QStringLiteral("'%1' is you; somebody else has to evict you").arg(name)};
         if (isEngineer && asker && asker->peer.role != qplc::Role::Engineer)
             return {words::denied, QStringLiteral("Denied: only an Engineer may evict '%1'").arg(name)};
-        others << connection->name << connection->provenIdentity();
+        others << connection->name << connection->peer.provenIdentity();
     }
     for (const auto &node : nodes.all()) {
         if (node->name() == name && node->object())
@@ -328,7 +335,7 @@ bool QPlcMasterNodePrivate::evict(const QString &given, const Connection *asker,
         = prepare() ? evictionRefusal(name, asker) : qplc::Refusal{qplc::messages::errorWord::nodeError, errorString};
     if (!refusal->error.isEmpty())
         return false;
-    const QString by = asker ? QStringLiteral("'%1'").arg(asker->shownName()) : QStringLiteral("the master");
+    const QString by = shownAsker(asker);
     if (!evictions.add(name, by, asker ? asker->peer.role : qplc::Role::Engineer)) {
         *refusal = {qplc::messages::errorWord::tooMuch,
                     QStringLiteral("%1 names are evicted already; admit one of them, or start the master again")
@@ -353,7 +360,7 @@ bool QPlcMasterNodePrivate::admit(const QString &given, const Connection *asker,
                         .arg(name, qplc::didYouMean(qplc::closeNames(name, evictions.names(), 1)))};
         return false;
     }
-    const QString by = asker ? QStringLiteral("'%1'").arg(asker->shownName()) : QStringLiteral("the master");
+    const QString by = shownAsker(asker);
     journal.tell(JournalEvent::Warning, JournalEvent::Security, name,
                  QStringLiteral("'%1' is admitted again by %2").arg(name, by));
     needed.tellFate(name, QStringLiteral("was evicted, and has not registered since it was admitted again"));

@@ -4,6 +4,7 @@
 #include "Roster.h"
 #include "node/Logging.h"
 #include "protocol/messages/Vocabulary.h"
+#include "signals/MessageText.h"
 #include "signals/SignalRules.h"
 
 #include <QtCore/QMetaEnum>
@@ -28,14 +29,6 @@ std::vector<messages::DeclaredSignal> describe(const QPlcSignalTable &table, con
         declared.push_back({signal.name, field.type.name(), signal.unit, false, messages::Hex64(safetyHash(signal))});
     }
     return declared;
-}
-
-/// "'a', 'b', 'c' and 2 more"
-QString someOf(const QStringList &names)
-{
-    constexpr int most = 5;
-    const QString some = QStringLiteral("'%1'").arg(names.mid(0, most).join(QStringLiteral("', '")));
-    return names.size() <= most ? some : QStringLiteral("%1 and %2 more").arg(some).arg(names.size() - most);
 }
 
 }  // namespace
@@ -150,7 +143,7 @@ bool NodeRegistry::agreeOnSafety(const NodeDeclaration &declaration, Refusal *re
     for (const auto *direction : {&declaration.inputs, &declaration.outputs}) {
         for (const messages::DeclaredSignal &signal : *direction) {
             if (signal.safety && *signal.safety != safetyHash(m_table.at(m_table.indexOf(signal.name))))
-                others.append(signal.name);
+                others.append(QStringLiteral("'%1'").arg(signal.name));
         }
     }
     others.removeDuplicates();
@@ -159,7 +152,7 @@ bool NodeRegistry::agreeOnSafety(const NodeDeclaration &declaration, Refusal *re
                     QStringLiteral("safety parameters (min, max, safe, hold, nan, slope, writer) of %1 are other ones "
                                    "in the table of the master than in that of node '%2'; use the same table, or "
                                    "start the node without one")
-                        .arg(someOf(others), declaration.name)};
+                        .arg(firstOf(others, 5), declaration.name)};
     return others.isEmpty();
 }
 

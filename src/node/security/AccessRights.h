@@ -79,6 +79,8 @@ struct Peer
     bool mayWriteAll = true;
     QStringList writes;  // otherwise: names and patterns (*, ?, [...]) of signals
 
+    /// Empty: it has proven none.
+    QString provenIdentity() const { return isSecured ? identity : QString(); }
     /// Whether the files of the master say the same of both.
     bool hasRightsOf(const Peer &other) const
     {

@@ -15,7 +15,7 @@ bool Evictions::add(const QString &name, const QString &by, Role role)
 
 Refusal Evictions::refusalOf(const QString &name, const Peer &peer) const
 {
-    for (const QString &each : {name, peer.isSecured ? peer.identity : QString()}) {
+    for (const QString &each : {name, peer.provenIdentity()}) {
         const auto found = m_evicted.find(each);
         if (found == m_evicted.end())
             continue;

@@ -50,14 +50,12 @@ struct MasterConnection
 
     /// Whether it is TLS, and the peer proven: secrets may travel over it.
     bool isSecured() const { return peer.isSecured && socket->isSecured(); }
-    /// Empty: none.
-    QString provenIdentity() const { return peer.isSecured ? peer.identity : QString(); }
     bool uses(QLatin1String feature) const { return features.contains(feature); }
     QString shownName() const { return qplc::shownName(peer, name); }
     /// Whether somebody is called so: as it has greeted or registered, or by its identity.
     bool isOf(const QString &called) const
     {
-        return !called.isEmpty() && (called == name || called == provenIdentity());
+        return !called.isEmpty() && (called == name || called == peer.provenIdentity());
     }
     bool isNode() const { return slot != nullptr; }
     /// Whether a message of \a kind is the answer that the master waits for: there are as many of

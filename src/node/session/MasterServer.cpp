@@ -266,7 +266,7 @@ void MasterServer::reject(MasterConnection *connection, const QString &error, co
 // ---- out ----
 
 /// Who hears of one of them may end others.
-int MasterServer::expel(const std::function<Refusal(MasterConnection *)> &refusalOf)
+void MasterServer::expel(const std::function<Refusal(MasterConnection *)> &refusalOf)
 {
     std::vector<std::pair<QPointer<QPlcSlaveSocket>, Refusal>> out;
     for (const std::unique_ptr<MasterConnection> &connection : m_connections) {
@@ -277,7 +277,6 @@ int MasterServer::expel(const std::function<Refusal(MasterConnection *)> &refusa
     }
     for (const auto &[socket, refusal] : out)
         expelOne(socket, refusal);
-    return int(out.size());
 }
 
 void MasterServer::expelOne(const QPointer<QPlcSlaveSocket> &socket, const Refusal &refusal)

@@ -60,8 +60,7 @@ public:
     /// Ends a connection; lost() follows for a node.
     void drop(MasterConnection *connection, const QString &reason);
     /// Ends the connections for which \a refusalOf has an error; they are told so.
-    /// \return how many
-    int expel(const std::function<Refusal(MasterConnection *)> &refusalOf);
+    void expel(const std::function<Refusal(MasterConnection *)> &refusalOf);
 
 Q_SIGNALS:
     /// Somebody new; what is sent now comes before the Hello of the master.

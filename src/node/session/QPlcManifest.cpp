@@ -4,6 +4,7 @@
 #include "NodeSession.h"
 #include "node/cycle/NodeRegistry.h"
 #include "node/security/Keyring.h"
+#include "protocol/messages/Registration.h"
 #include "signals/DurationText.h"
 #include "signals/MessageText.h"
 #include "signals/TableReader.h"
@@ -22,7 +23,6 @@ using Need = QPlcManifest::Need;
 constexpr Need needs[] = {QPlcManifest::Critical, QPlcManifest::Required, QPlcManifest::Optional};
 constexpr qint64 largestFile = 1024 * 1024;  // [byte]
 constexpr double shortestWatchdog = 1e6;     // [ns]
-constexpr double longestWatchdog = 86400e9;  // [ns] as QPlcSlaveNode::activateWatchdog()
 
 QStringList needNames()
 {
@@ -195,7 +195,7 @@ QString ManifestReader::readTransports(const QString &value, QPlcManifest::Node 
 QString ManifestReader::readWatchdog(const QString &value, QPlcManifest::Node *node)
 {
     double time = 0.0;
-    if (!durationFromText(value, &time) || time < shortestWatchdog || time > longestWatchdog)
+    if (!durationFromText(value, &time) || time < shortestWatchdog || time > messages::Register::longestWatchdog)
         return QStringLiteral("%1 is not the time of a watchdog; use 1 ms ... 24 h, as in 'watchdog = 500 ms'")
             .arg(quoted(value));
     node->watchdog = std::chrono::nanoseconds(qRound64(time));

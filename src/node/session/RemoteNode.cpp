@@ -94,7 +94,7 @@ QString RemoteNode::address() const
 
 QString RemoteNode::identity() const
 {
-    return m_connection ? m_connection->provenIdentity() : QString();
+    return m_connection ? m_connection->peer.provenIdentity() : QString();
 }
 
 }  // namespace qplc

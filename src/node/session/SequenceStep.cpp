@@ -45,10 +45,10 @@ quint64 SequenceStep::begin(Kind kind, const NodeSessions::List &nodes, std::fun
 
 void SequenceStep::elapsed(const std::function<void(const QString &)> &timedOut)
 {
-    const QString text = timeOutText();
     NodeSessions::List silent;
     std::copy_if(m_nodes.begin(), m_nodes.end(), std::back_inserter(silent),
                  [this](const auto &node) { return node->stage() < owed(); });
+    const QString text = timeOutText(silent);
     timedOut(text);
     for (const auto &node : silent)
         node->drop(text);
@@ -93,13 +93,11 @@ void SequenceStep::end()
     m_nodes.clear();
 }
 
-QString SequenceStep::timeOutText() const
+QString SequenceStep::timeOutText(const NodeSessions::List &silent) const
 {
     QStringList names;
-    for (const auto &node : m_nodes) {
-        if (node->stage() < owed())
-            names << QStringLiteral("'%1'").arg(node->name());
-    }
+    for (const auto &node : silent)
+        names << QStringLiteral("'%1'").arg(node->name());
     const QPlcMessage::Kind what = m_kind == Start ? QPlcMessage::RealTimeStarted
         : m_kind == CollectOutputs                 ? QPlcMessage::SendYourInitialOutputStates
                                                    : QPlcMessage::InitializeWithValues;

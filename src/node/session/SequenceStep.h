@@ -73,7 +73,7 @@ public:
 
 private:
     NodeSession::Stage owed() const;
-    QString timeOutText() const;
+    QString timeOutText(const NodeSessions::List &silent) const;
     void elapsed(const std::function<void(const QString &)> &timedOut);
 
     StepTimer &m_timer;
