@@ -67,6 +67,13 @@ public:
     QByteArray initialValues = QByteArray(8, '\0');
     bool playsAlong = true;  // answers initialization and start by itself
     std::function<void(const Request &)> onRequest;
+    /// Makes it a listener that writes nothing.
+    void onlyListen()
+    {
+        listener = true;
+        outputs.clear();
+        initialValues.clear();
+    }
 
     // ---- what came ----
     QPlcMasterSocket control;

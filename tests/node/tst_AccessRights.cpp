@@ -246,9 +246,7 @@ void tst_AccessRights::anObserverListensOnly()
     QVERIFY(master.listen());
     ScriptedNode node;
     node.control.setSecurity(m_files.bert());
-    node.listener = true;
-    node.outputs.clear();
-    node.initialValues.clear();
+    node.onlyListen();
     QVERIFY(node.registerAt(master.serverPort()));
     qplc::messages::Register registration;
     registration.name = "x";

@@ -190,9 +190,7 @@ void tst_Evictions::evictedListenerDisturbsNobody()
     QVERIFY(master.listen());
     CounterNode counter;
     ScriptedNode listener("Logger");
-    listener.listener = true;
-    listener.outputs.clear();
-    listener.initialValues.clear();
+    listener.onlyListen();
     QVERIFY(master.admit(counter, datagrams()) && listener.registerAt(master.serverPort()));
     QVERIFY(master.starts());
     QVERIFY(master.evict("Logger"));

@@ -30,12 +30,11 @@ public:
     explicit Listener(bool hasOutputs = false)
         : ScriptedNode(QStringLiteral("Listener"))
     {
-        listener = true;
         playsAlong = false;
-        if (!hasOutputs) {
-            outputs.clear();
-            initialValues.clear();
-        }
+        if (hasOutputs)
+            listener = true;
+        else
+            onlyListen();
     }
     void giveOutputs()
     {

@@ -257,9 +257,7 @@ void tst_LostCycles::theMasterTellsHowManyCyclesItHasNotSent()
     TestMaster master;
     CounterNode counter;
     ScriptedNode node;
-    node.listener = true;
-    node.outputs.clear();
-    node.initialValues.clear();
+    node.onlyListen();
     node.every = 3;
     QVERIFY(master.addLocalNode(&counter));
     master.setCycleLimit(9);
@@ -315,9 +313,7 @@ void tst_LostCycles::aListenerHearsEveryCycleOfAPhase()
     TestMaster master;
     CounterNode counter;
     ScriptedNode listener;
-    listener.listener = true;
-    listener.outputs.clear();
-    listener.initialValues.clear();
+    listener.onlyListen();
     QVERIFY(master.addLocalNode(&counter));
     master.setCycleLimit(cycles);
     QVERIFY(initialize(master, listener));

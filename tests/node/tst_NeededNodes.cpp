@@ -256,8 +256,7 @@ void tst_NeededNodes::listenerDoesNotReplaceANode()
     NeedingMaster master("[Winch]\n");
     QVERIFY(master.listen());
     ScriptedNode listener("Winch");
-    listener.listener = true;
-    listener.outputs.clear();
+    listener.onlyListen();
     QVERIFY(!listener.registerAt(master.serverPort()));
     QCOMPARE(listener.registered.text("error"), QString("ManifestMismatch"));
     QVERIFY(master.refuses("node 'Winch' is a listener; the manifest says that the plant needs it"));

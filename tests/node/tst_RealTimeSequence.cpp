@@ -108,9 +108,7 @@ void tst_RealTimeSequence::lockstepWaitsForAllButListeners()
     QVERIFY(master.listen());
     ScriptedNode worker("Worker");
     ScriptedNode listener("Listener");
-    listener.listener = true;
-    listener.outputs.clear();
-    listener.initialValues.clear();
+    listener.onlyListen();
     QVERIFY(worker.registerAt(master.serverPort()));
     QVERIFY(listener.registerAt(master.serverPort()));
     QVERIFY(master.startRealTime());

@@ -33,6 +33,8 @@ private Q_SLOTS:
     void secondsThatDoNotFitAreRefused();
 
 private:
+    static QPlcMessage answerTo(ScriptedNode &node, const QJsonObject &changes);
+
     QScopedPointer<TestMaster> m_master;
     QScopedPointer<CounterNode> m_counter;
 };
@@ -98,6 +100,19 @@ void tst_Refusals::aWrongRegistrationIsRejected_data()
     QTest::newRow("port 65536") << QJsonObject{{"udpPort", 65536}} << "MalformedMessage" << QStringList{"65536"};
 }
 
+/// What the master says to a registration with other fields; of kind Invalid if it does not greet.
+QPlcMessage tst_Refusals::answerTo(ScriptedNode &node, const QJsonObject &changes)
+{
+    node.send(QPlcMessage::Hello, node.helloFields());
+    if (node.next().kind() != QPlcMessage::Hello)
+        return {};
+    QJsonObject fields = node.registerFields();
+    for (auto it = changes.begin(); it != changes.end(); ++it)
+        fields.insert(it.key(), it.value());
+    node.send(QPlcMessage::Register, fields);
+    return node.next();
+}
+
 void tst_Refusals::aWrongRegistrationIsRejected()
 {
     QFETCH(QJsonObject, changes);
@@ -108,13 +123,7 @@ void tst_Refusals::aWrongRegistrationIsRejected()
     if (changes.contains("name"))
         node.name = changes.value("name").toString();
     QVERIFY(node.connectTo(m_master->serverPort()));
-    node.send(QPlcMessage::Hello, node.helloFields());
-    QCOMPARE(node.next().kind(), QPlcMessage::Hello);
-    QJsonObject fields = node.registerFields();
-    for (auto it = changes.begin(); it != changes.end(); ++it)
-        fields.insert(it.key(), it.value());
-    node.send(QPlcMessage::Register, fields);
-    const QPlcMessage answer = node.next();
+    const QPlcMessage answer = answerTo(node, changes);
     QCOMPARE(answer.kind(), QPlcMessage::Rejected);
     QCOMPARE(answer.text("error"), error);
     for (const QString &word : words)
@@ -153,13 +162,7 @@ void tst_Refusals::aRegistrationThatDoesNotFitItsGreetingIsRejected()
     ScriptedNode node;
     node.features = QStringList{offered};
     QVERIFY(node.connectTo(m_master->serverPort()));
-    node.send(QPlcMessage::Hello, node.helloFields());
-    QCOMPARE(node.next().kind(), QPlcMessage::Hello);
-    QJsonObject fields = node.registerFields();
-    for (auto it = changes.begin(); it != changes.end(); ++it)
-        fields.insert(it.key(), it.value());
-    node.send(QPlcMessage::Register, fields);
-    const QPlcMessage answer = node.next();
+    const QPlcMessage answer = answerTo(node, changes);
     QCOMPARE(answer.kind(), QPlcMessage::Rejected);
     QCOMPARE(answer.text("error"), QString("MalformedMessage"));
     QVERIFY2(answer.text("text").contains(words), qPrintable(answer.text("text")));

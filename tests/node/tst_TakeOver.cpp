@@ -468,10 +468,8 @@ void tst_TakeOver::listenerReceivesOnlyTheLeasedValue()
 {
     QVERIFY(m_master->addLocalNode(m_counter.data()) && m_master->addLocalNode(m_echo.data()));
     ScriptedNode listener("Listener");
-    listener.listener = true;
+    listener.onlyListen();
     listener.inputs = QStringList{"echo"};
-    listener.outputs.clear();
-    listener.initialValues.clear();
     QVERIFY(listener.registerAt(m_master->serverPort()));
     QVERIFY(m_master->startRealTime());
     QVERIFY(listener.waitForRequests(5));
