@@ -79,13 +79,19 @@ void NodeExchange::cutInputs() noexcept
         if (!slot->due)
             continue;
         copyRuns(slot->inputRuns, m_image.data(), slot->inputs);
-        slot->partsEncoded = 0;
-        slot->request.cycle = m_cycleZero + m_cycle.number;
-        slot->request.info
-            = std::uint32_t(std::min<std::int64_t>(m_cycle.lateness, std::numeric_limits<std::uint32_t>::max()));
-        const SentCycles &sent = slot->multicast ? slot->multicast->sentCycles : slot->sentCycles;
-        slot->request.before = sent.unsentBefore(slot->request.cycle);
+        if (!slot->local)
+            prepareRequest(*slot);
     }
+}
+
+void NodeExchange::prepareRequest(NodeSlot &slot) noexcept
+{
+    slot.partsEncoded = 0;
+    slot.request.cycle = m_cycleZero + m_cycle.number;
+    slot.request.info
+        = std::uint32_t(std::min<std::int64_t>(m_cycle.lateness, std::numeric_limits<std::uint32_t>::max()));
+    const SentCycles &sent = slot.multicast ? slot.multicast->sentCycles : slot.sentCycles;
+    slot.request.before = sent.unsentBefore(slot.request.cycle);
 }
 
 /// Two-phase nodes have computed the outputs of this cycle in the last one.

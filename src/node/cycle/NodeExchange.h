@@ -48,6 +48,7 @@ private:
     using Stage = std::vector<Roster::Turn>;
 
     void cutInputs() noexcept;
+    void prepareRequest(NodeSlot &slot) noexcept;
     void pasteKnownOutputs() noexcept;
     void askNodes(const Stage &stage) noexcept;
     void sendRequest(NodeSlot &slot, std::uint8_t flags) noexcept;
