@@ -172,8 +172,9 @@ public:
     /// \param cycles  0: no limit (default)
     void setCycleLimit(quint64 cycles);
     /// Sets the longest wait for each answer of a node during initialization and start, in each
-    /// profile. A node waits at least 10 s for its first frame: if you set a longer time, set a
-    /// watchdog of the nodes that is longer than it.
+    /// profile. A node that joins while others run, and a listener, may take up to twice as long.
+    /// The connection of a node that does not answer ends. A node waits at least 10 s for its first
+    /// frame: if you set a longer time, set a watchdog of the nodes that is longer than it.
     /// \param time  1 ms to 24 h; default 2 s
     /// \return false when \a time is out of range (IntervalError)
     bool setInitializationTimeout(std::chrono::milliseconds time);

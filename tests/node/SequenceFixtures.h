@@ -173,12 +173,13 @@ struct SequenceBench
     qplc::PhaseProfile profile{journal, [this] { return facts; }};
     qplc::NodeSessions nodes;
     ScriptedTimer timer;
+    ScriptedTimer joinTimer;
     ScriptedCycles cycles;
     ScriptedControl master{log};
     qplc::SequenceStep step{timer};
     qplc::InitialValues values{image, registry, leases, statistics};
     qplc::StartMessages starts{settings, profile, cycles, hub, 7};
-    qplc::JoinSequence joining{step, values, starts, cycles, profile, journal};
+    qplc::JoinSequence joining{step, joinTimer, nodes, values, starts, cycles, profile, journal};
     qplc::InitializeSequence initialization{master, step, nodes, values, profile, joining};
     qplc::StartSequence starting{master, step, nodes, starts, profile, cycles, joining};
     qplc::StopSequence stopping{master, step, nodes};

@@ -13,6 +13,7 @@ private Q_SLOTS:
     void cyclesContinueWhileNodesJoinAndLeave();
     void aJoinerThatFailsIsDropped_data();
     void aJoinerThatFailsIsDropped();
+    void aJoinerThatAnswersNothingLosesItsName();
     void nodeRegisteredDuringTheStartJoinsAfterwards();
     void answersOutOfTurnFail();
     void aProcessThatStaysAliveKeepsItsState_data();
@@ -137,6 +138,24 @@ void tst_HotJoin::nodeRegisteredDuringTheStartJoinsAfterwards()
     slow.send(QPlcMessage::ReceiveMyInitialOutputStates, {{"values", ""}});
     QVERIFY(late.waitForRequests(10));
     QVERIFY(slow.waitForRequests(10));
+    master.stop();
+}
+
+void tst_HotJoin::aJoinerThatAnswersNothingLosesItsName()
+{
+    TestMaster master;
+    QVERIFY(master.setInitializationTimeout(std::chrono::milliseconds(50)));
+    QVERIFY(master.listen());
+    QVERIFY(master.startRealTime());
+    ScriptedNode silent;
+    silent.playsAlong = false;
+    QVERIFY(silent.registerAt(master.serverPort()));
+    QCOMPARE(silent.next().kind(), QPlcMessage::SendYourInitialOutputStates);
+    QTRY_VERIFY(master.nodes().isEmpty());
+    ScriptedNode successor;
+    successor.answerAll();
+    QVERIFY(successor.registerAt(master.serverPort()));
+    QVERIFY(successor.waitForRequests(10));
     master.stop();
 }
 

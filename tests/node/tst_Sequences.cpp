@@ -40,6 +40,9 @@ private Q_SLOTS:
     void returningNodeMayContinueInASimulation();
     void aNodeThatJoinsAgainHasNotFailed();
     void wrongOutputsOfAJoinerDropIt();
+    void aSilentJoinerIsDropped();
+    void answersOfAJoinerGiveItNewTime();
+    void theTimeOfJoinersIsNotThatOfAStart();
     // stop
     void cancelledSequenceIsReportedToItsNodes_data();
     void cancelledSequenceIsReportedToItsNodes();
@@ -426,6 +429,55 @@ void tst_Sequences::wrongOutputsOfAJoinerDropIt()
     QVERIFY2(bench.log.last().startsWith("Winch drop: the initial value of signal 'sum': "),
              qPrintable(bench.log.last()));
     QCOMPARE(winch->stage(), NodeSession::GivingOutputs);
+}
+
+void tst_Sequences::aSilentJoinerIsDropped()
+{
+    SequenceBench bench;
+    bench.cycles.running = true;
+    const auto winch = bench.add("Winch", Answers::Later, "sum");
+    bench.joining.begin(*winch);
+    bench.joinTimer.elapse();  // it was asked somewhen during this time
+    QCOMPARE(bench.takeLog(), QStringList("Winch askOutputs"));
+    bench.joinTimer.elapse();
+    QCOMPARE(bench.takeLog(),
+             QStringList("Winch drop: no answer to SendYourInitialOutputStates within 2000 ms from node 'Winch'; "
+                         "is it busy, or stopped?"));
+    QVERIFY(!bench.joinTimer.isRunning());
+}
+
+void tst_Sequences::answersOfAJoinerGiveItNewTime()
+{
+    SequenceBench bench;
+    bench.cycles.running = true;
+    const auto winch = bench.add("Winch", Answers::Later, "sum");
+    const auto viewer = bench.add("Viewer", Answers::Later, "", "sum", true);
+    bench.joining.begin(*winch);
+    bench.joining.begin(*viewer);
+    bench.joinTimer.elapse();
+    bench.joining.handleAnswer(*winch, bench.bytes("sum", 2.0), false);
+    bench.joinTimer.elapse();
+    QCOMPARE(bench.log.filter("drop").size(), 1);
+    QVERIFY(bench.log.last().startsWith("Viewer drop"));
+    bench.joining.handleAnswer(*winch, {}, false);
+    bench.joining.handleAnswer(*winch, {}, false);
+    QCOMPARE(winch->stage(), NodeSession::Running);
+    viewer->setStage(NodeSession::Idle);  // it has left
+    bench.joinTimer.elapse();
+    QVERIFY(!bench.joinTimer.isRunning());
+    QCOMPARE(bench.log.filter("drop").size(), 1);
+}
+
+void tst_Sequences::theTimeOfJoinersIsNotThatOfAStart()
+{
+    SequenceBench bench;
+    bench.add("Winch", Answers::Later, "sum");
+    bench.add("Viewer", Answers::Later, "", "sum", true);
+    bench.initialization.begin();
+    bench.joinTimer.elapse();
+    bench.joinTimer.elapse();
+    QCOMPARE(bench.log.filter("drop").size(), 1);
+    QVERIFY(bench.log.filter("drop").first().startsWith("Viewer drop"));
 }
 
 void tst_Sequences::cancelledSequenceIsReportedToItsNodes_data()

@@ -173,8 +173,10 @@ void QPlcMasterNode::setCycleLimit(quint64 cycles)
 bool QPlcMasterNode::setInitializationTimeout(std::chrono::milliseconds time)
 {
     const bool isGood = isLimit(*d, time, 1ms, QStringLiteral("an initialization timeout"));
-    if (isGood)
+    if (isGood) {
         d->stepTimer.setLength(time);
+        d->joinTimer.setLength(time);
+    }
     return isGood;
 }
 

@@ -96,6 +96,7 @@ public:
     QPlcMasterNode::Error error = QPlcMasterNode::NoError;
     QString errorString;
     qplc::EventLoopTimer stepTimer;
+    qplc::EventLoopTimer joinTimer;
     qplc::Journal journal;
     qplc::Leases leaseBooks;
     qplc::PhaseProfile phaseProfile;

@@ -3,9 +3,11 @@
 
 namespace qplc {
 
-JoinSequence::JoinSequence(const SequenceStep &step, InitialValues &values, StartMessages &starts, PhaseCycles &cycles,
-                           const PhaseProfile &profile, Journal &journal)
+JoinSequence::JoinSequence(const SequenceStep &step, StepTimer &timer, const NodeSessions &nodes, InitialValues &values,
+                           StartMessages &starts, PhaseCycles &cycles, const PhaseProfile &profile, Journal &journal)
     : m_step(step)
+    , m_timer(timer)
+    , m_nodes(nodes)
     , m_values(values)
     , m_starts(starts)
     , m_cycles(cycles)
@@ -19,6 +21,7 @@ void JoinSequence::begin(NodeSession &node)
     node.setStage(NodeSession::GivingOutputs);
     node.setFailed(false);
     const bool mayGoOn = m_cycles.isRunning() && !node.isListener() && m_profile.defaults().keepsState;
+    waitForAnswer();
     node.askOutputs(mayGoOn ? std::optional<quint64>(m_cycles.cycleZero()) : std::nullopt);
 }
 
@@ -66,14 +69,41 @@ void JoinSequence::goOn(NodeSession &node)
     const bool mayStart = m_cycles.isRunning() || m_step.kind() == SequenceStep::Start;
     if (node.stage() == NodeSession::OutputsGiven && m_step.kind() != SequenceStep::CollectOutputs) {
         node.setStage(NodeSession::Initializing);
+        waitForAnswer();
         node.giveInputs(m_values.inputsOf(*node.slot()));
     } else if (node.stage() == NodeSession::Initialized && mayStart) {
         node.setStage(NodeSession::Starting);
+        waitForAnswer();
         m_starts.place({node.shared_from_this()});
         node.start(m_starts.begin(node));
     } else if (node.stage() == NodeSession::Running && m_cycles.isRunning()) {
         m_cycles.renewRoster();
         m_journal.nodeReturned(node.name());
+    }
+}
+
+void JoinSequence::waitForAnswer()
+{
+    if (m_isWaiting)
+        return;
+    m_isWaiting = true;
+    m_timer.start([this] { dropSilentNodes(); });
+}
+
+/// A node that was asked during the last time gets another one.
+void JoinSequence::dropSilentNodes()
+{
+    m_isWaiting = false;
+    for (const auto &node : m_nodes.all()) {
+        const bool isOfStep = m_step.isUnderWay() && node->isAwaited();
+        if (!node->owesAnswer() || isOfStep)
+            continue;
+        if (node->wasSeen()) {
+            node->drop(noAnswerText(node->stage(), m_timer.length(), {node}));
+        } else {
+            node->setSeen();
+            waitForAnswer();
+        }
     }
 }
 

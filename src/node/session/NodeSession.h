@@ -56,9 +56,18 @@ public:
     bool isAwaited() const { return answersAtOnce() || !isListener(); }
 
     Stage stage() const { return m_stage; }
-    void setStage(Stage stage) { m_stage = stage; }
+    void setStage(Stage stage)
+    {
+        m_stage = stage;
+        m_wasSeen = false;
+    }
+    /// Whether the master waits for an answer.
+    bool owesAnswer() const { return m_stage == GivingOutputs || m_stage == Initializing || m_stage == Starting; }
     /// Whether a message of \a kind is the answer that the master waits for.
     bool owes(QPlcMessage::Kind kind) const;
+    /// Whether somebody who looked before has seen it in this stage.
+    bool wasSeen() const { return m_wasSeen; }
+    void setSeen() { m_wasSeen = true; }
     /// Whether its code has failed since it was initialized last.
     bool hasFailed() const { return m_hasFailed; }
     void setFailed(bool failed) { m_hasFailed = failed; }
@@ -104,6 +113,7 @@ private:
     const std::shared_ptr<NodeSlot> m_slot;
     const Answers m_answers;
     Stage m_stage = Idle;
+    bool m_wasSeen = false;
     bool m_hasFailed = false;
 };
 

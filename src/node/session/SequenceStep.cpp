@@ -26,6 +26,20 @@ void EventLoopTimer::start(std::function<void()> timedOut)
     m_timer.start();
 }
 
+QString noAnswerText(NodeSession::Stage stage, std::chrono::milliseconds time, const NodeSessions::List &silent)
+{
+    QStringList names;
+    for (const auto &node : silent)
+        names << QStringLiteral("'%1'").arg(node->name());
+    const QPlcMessage::Kind what = stage == NodeSession::Starting ? QPlcMessage::RealTimeStarted
+        : stage == NodeSession::GivingOutputs                     ? QPlcMessage::SendYourInitialOutputStates
+                                                                  : QPlcMessage::InitializeWithValues;
+    return QStringLiteral("no answer to %1 within %2 ms from node %3; is it busy, or stopped?")
+        .arg(QPlcMessage::kindName(what))
+        .arg(time.count())
+        .arg(names.join(QStringLiteral(", ")));
+}
+
 SequenceStep::SequenceStep(StepTimer &timer)
     : m_timer(timer)
 {
@@ -48,7 +62,7 @@ void SequenceStep::elapsed(const std::function<void(const QString &)> &timedOut)
     NodeSessions::List silent;
     std::copy_if(m_nodes.begin(), m_nodes.end(), std::back_inserter(silent),
                  [this](const auto &node) { return node->stage() < owed(); });
-    const QString text = timeOutText(silent);
+    const QString text = noAnswerText(NodeSession::Stage(owed() - 1), m_timer.length(), silent);
     timedOut(text);
     for (const auto &node : silent)
         node->drop(text);
@@ -91,20 +105,6 @@ void SequenceStep::end()
     m_timer.stop();
     m_kind = None;
     m_nodes.clear();
-}
-
-QString SequenceStep::timeOutText(const NodeSessions::List &silent) const
-{
-    QStringList names;
-    for (const auto &node : silent)
-        names << QStringLiteral("'%1'").arg(node->name());
-    const QPlcMessage::Kind what = m_kind == Start ? QPlcMessage::RealTimeStarted
-        : m_kind == CollectOutputs                 ? QPlcMessage::SendYourInitialOutputStates
-                                                   : QPlcMessage::InitializeWithValues;
-    return QStringLiteral("no answer to %1 within %2 ms from node %3; is it busy, or stopped?")
-        .arg(QPlcMessage::kindName(what))
-        .arg(m_timer.length().count())
-        .arg(names.join(QStringLiteral(", ")));
 }
 
 }  // namespace qplc

@@ -40,6 +40,9 @@ private:
     std::function<void()> m_timedOut;
 };
 
+/// That \a silent did not give the answer that leads from \a stage to the next one.
+QString noAnswerText(NodeSession::Stage stage, std::chrono::milliseconds time, const NodeSessions::List &silent);
+
 /// The step at hand of the sequences that all nodes go through together: every node that is waited
 /// for owes one answer, and the next step begins when all have given it. There is one such sequence
 /// at a time.
@@ -73,7 +76,6 @@ public:
 
 private:
     NodeSession::Stage owed() const;
-    QString timeOutText(const NodeSessions::List &silent) const;
     void elapsed(const std::function<void(const QString &)> &timedOut);
 
     StepTimer &m_timer;
