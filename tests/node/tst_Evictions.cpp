@@ -333,6 +333,8 @@ void tst_Evictions::operatorsEvictAndNoEngineer()
     SecuredTool again(m_files.anna());
     QVERIFY(!again.greetAt(master.serverPort()));
     QVERIFY(master.has("Counter") || master.evictedNames().contains("Counter"));
+    QVERIFY2(master.evict("carl"), "the program of the master evicts everybody");
+    QVERIFY(isRejected(carl, "'carl' was evicted by"));
 
     qplc::Evictions book;
     qplc::Peer engineer;

@@ -27,6 +27,7 @@ private Q_SLOTS:
     void repeatedAndEarlyAnswersAreIgnored();
     void initializationIsAllowedOnlyInStateOff();
     void initializationWithoutNodesSucceedsImmediately();
+    void aMasterWithoutSignalsRefusesEveryCommand();
 
 private:
     double decoded(const QPlcMessage &message)
@@ -387,9 +388,17 @@ void tst_InitializationSequence::initializationWithoutNodesSucceedsImmediately()
     QCOMPARE(all.size(), 1);
     QCOMPARE(master.state(), QPlcMasterNode::Ready);
     QCOMPARE(master.signalValue("count").toInt(), 7);
+}
+
+void tst_InitializationSequence::aMasterWithoutSignalsRefusesEveryCommand()
+{
     QPlcMasterNode empty;
     QVERIFY(!empty.initializeAllStates());
     QCOMPARE(empty.error(), QPlcMasterNode::SignalError);
+    QVERIFY(!empty.startRealTime());
+    QCOMPARE(empty.state(), QPlcMasterNode::Off);
+    QVERIFY(!empty.arm());
+    QVERIFY(!empty.startServer(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, 0)));
 }
 
 QTEST_GUILESS_MAIN(tst_InitializationSequence)

@@ -94,6 +94,7 @@ private Q_SLOTS:
     void itEndsWithItsMaster();
     void itStaysWithoutItsMaster();
     void aSignalTableThatCannotBeReadEndsTheProgram();
+    void aManifestIsReadFromItsFile();
 };
 
 void tst_NodeApplication::eachOptionIsKnown_data()
@@ -264,6 +265,27 @@ void tst_NodeApplication::aSignalTableThatCannotBeReadEndsTheProgram()
         QCOMPARE(program.run(node), int(QPlcApplicationOptions::UsageError));
         QVERIFY2(error.text().contains("unknown type 'Reel32'"), qPrintable(error.text()));
     }
+}
+
+void tst_NodeApplication::aManifestIsReadFromItsFile()
+{
+    QTemporaryDir folder;
+    QFile file(folder.filePath("manifest.ini"));
+    QVERIFY(file.open(QIODevice::WriteOnly) && file.write("[Winch]\n") > 0);
+    file.close();
+    const auto nodesOf = [&](const QStringList &arguments) {
+        Program program(arguments);
+        program.application->addManifestOption();
+        QPlcManifest manifest;
+        return program.application->parseOptions() && program.application->readManifest(&manifest)
+            ? manifest.nodes.size()
+            : -1;
+    };
+    QCOMPARE(nodesOf({}), 0);
+    QCOMPARE(nodesOf({"--manifest", file.fileName()}), 1);
+    const StandardError error;
+    QCOMPARE(nodesOf({"--manifest", "/nowhere/manifest.ini"}), -1);
+    QVERIFY2(error.text().contains("/nowhere/manifest.ini: cannot open"), qPrintable(error.text()));
 }
 
 QTEST_APPLESS_MAIN(tst_NodeApplication)

@@ -69,6 +69,8 @@ void tst_QPlcManifest::badTextIsRefusedWithPlaceAndRemedy_data()
     row("unknown need", "[A]\nneed = vital\n", "m.ini:2:8: 'vital' is not a need; use critical, required, optional");
     row("unknown profile", "profile = Plan\n[A]\n",
         "m.ini:1:11: 'Plan' is not a profile; use Plant, Simulation or Automatic");
+    row("no node, and another error", "profile = Plan\n",
+        "m.ini:1:11: 'Plan' is not a profile; use Plant, Simulation or Automatic");
     row("key before nodes", "need = critical\n[A]\n",
         "m.ini:1:1: the key 'need' stands before the first node; only 'profile' may stand there");
     row("profile of a node", "[A]\nprofile = Plant\n",

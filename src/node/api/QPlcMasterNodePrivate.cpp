@@ -220,9 +220,8 @@ bool QPlcMasterNodePrivate::startServer(const QPlcUnderlyingProtocol &protocol)
 {
     if (!prepare() || !apply(Event::Listen))
         return false;
-    QString fault = serverSettings.security.errorString(QPlcSecurity::MasterSide);
-    if (fault.isEmpty() && serverSettings.security.isNone())
-        fault = needed.identityFault();
+    const QPlcSecurity &security = serverSettings.security;
+    const QString fault = security.isNone() ? needed.identityFault() : security.errorString(QPlcSecurity::MasterSide);
     if (!fault.isEmpty()) {
         setError(QPlcMasterNode::ServerError, fault);
         apply(Event::ServerFailed, errorString);
