@@ -13,7 +13,7 @@ namespace qplc {
 
 namespace {
 
-constexpr int Backlog = 32;                             // connections in the queue of the kernel
+constexpr int Backlog = 256;                            // connections in the queue of the kernel
 constexpr std::int64_t LongestWaiting = 5'000'000'000;  // [ns] from its connection to its registration
 
 }  // namespace

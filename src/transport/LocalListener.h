@@ -22,8 +22,9 @@ namespace qplc {
 class LocalListener
 {
 public:
-    /// Most connections that wait for their registration; then the oldest one is closed.
-    static constexpr std::size_t MaximumWaiting = 32;
+    /// Most connections that wait for their registration; then the oldest one is closed. All nodes
+    /// of a computer may start at once.
+    static constexpr std::size_t MaximumWaiting = 256;
 
     /// Listens for nodes of the master with this session. \return false, with the reason in \a
     /// error
