@@ -16,7 +16,8 @@
 /// \endcode
 ///
 /// Indices belong to the table of the process (QPlcSignalIndexTable). A look-up takes time in
-/// proportion to the size of the list.
+/// proportion to the size of the list, or to its logarithm if the signals were inserted in the
+/// order of their indices.
 ///
 /// \threadsafe a value type: several threads may read one object
 ///
@@ -64,7 +65,11 @@ public:
     /// Returns an iterator behind the last entry.
     const_iterator end() const { return m_entries.cend(); }
     /// Removes all values.
-    void clear() { m_entries.clear(); }
+    void clear()
+    {
+        m_entries.clear();
+        m_isAscending = true;
+    }
     /// Reserves memory for \a size entries, so that the next insertions do not allocate.
     void reserve(int size) { m_entries.reserve(size); }
 
@@ -74,7 +79,10 @@ public:
     friend bool operator!=(const QPlcSignalList &a, const QPlcSignalList &b) { return !(a == b); }
 
 private:
+    Q_DECL_HIDDEN int find(QPlcSignalIndex index) const;
+
     QVector<Entry> m_entries;
+    bool m_isAscending = true;  // in their indices
 };
 
 Q_DECLARE_METATYPE(QPlcSignalList)

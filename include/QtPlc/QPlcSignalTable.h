@@ -122,6 +122,10 @@ public:
     /// `slope`). Section 6.3 of docs/protocol.md has the exact text. Equal tables have equal hashes
     /// on all machines. Descriptions, names of values and initial values do not count.
     quint64 hash() const { return m_hash; }
+    /// Returns the FNV-1a-64 hash of the safety parameters of a signal: of the second one of these
+    /// lines.
+    /// \pre \a index < size()
+    quint64 safetyHash(QPlcSignalIndex index) const { return m_safetyHashes.at(index); }
     /// Returns true if fromMaster() has read the table, and nothing has been appended since. A node
     /// with such a table takes a newer one of its master if the signals are the same.
     bool isFromMaster() const { return m_isFromMaster; }
@@ -132,6 +136,7 @@ private:
 
     QVector<QPlcSignalDefinition> m_signals;
     QHash<QString, QPlcSignalIndex> m_indices;
+    QVector<quint64> m_safetyHashes;      // of each signal
     quint64 m_hash = 0xCBF29CE484222325;  // as FNV-1a-64 begins
     bool m_isFromMaster = false;
 };

@@ -5,25 +5,28 @@
 
 #include <algorithm>
 
-namespace {
-
-template<typename Iterator>
-Iterator find(Iterator begin, Iterator end, QPlcSignalIndex index)
+/// \return position of the entry; -1: there is none
+int QPlcSignalList::find(QPlcSignalIndex index) const
 {
-    return std::find_if(begin, end, [index](const QPlcSignalList::Entry &entry) { return entry.index == index; });
+    const auto isIt = [index](const Entry &entry) { return entry.index == index; };
+    const auto found = m_isAscending
+        ? std::lower_bound(begin(), end(), index,
+                           [](const Entry &entry, QPlcSignalIndex wanted) { return entry.index < wanted; })
+        : std::find_if(begin(), end(), isIt);
+    return found != end() && isIt(*found) ? int(found - begin()) : -1;
 }
-
-}  // namespace
 
 void QPlcSignalList::insert(QPlcSignalIndex index, const QPlcValue &value)
 {
     if (index == QPlcInvalidSignalIndex)
         return;
-    const auto entry = find(m_entries.begin(), m_entries.end(), index);
-    if (entry != m_entries.end())
-        entry->value = value;
-    else
-        m_entries.append(Entry{index, value});
+    const int position = find(index);
+    if (position >= 0) {
+        m_entries[position].value = value;
+        return;
+    }
+    m_isAscending = m_isAscending && (isEmpty() || m_entries.last().index < index);
+    m_entries.append(Entry{index, value});
 }
 
 bool QPlcSignalList::insert(const QString &name, const QPlcValue &value)
@@ -35,8 +38,8 @@ bool QPlcSignalList::insert(const QString &name, const QPlcValue &value)
 
 QPlcValue QPlcSignalList::value(QPlcSignalIndex index) const
 {
-    const auto entry = find(begin(), end(), index);
-    return entry != end() ? entry->value : QPlcValue();
+    const int position = find(index);
+    return position >= 0 ? m_entries.at(position).value : QPlcValue();
 }
 
 QPlcValue QPlcSignalList::value(const QString &name) const
@@ -46,7 +49,7 @@ QPlcValue QPlcSignalList::value(const QString &name) const
 
 bool QPlcSignalList::contains(QPlcSignalIndex index) const
 {
-    return find(begin(), end(), index) != end();
+    return find(index) >= 0;
 }
 
 QPlcSignalIndexList QPlcSignalList::indices() const

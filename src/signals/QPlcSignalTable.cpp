@@ -49,7 +49,9 @@ QPlcSignalTable QPlcSignalTable::read(qplc::TableReader reader, QVector<QPlcPars
     QPlcSignalTable table;
     if (!found.isEmpty())
         return table;
+    table.m_signals.reserve(definitions.size());
     table.m_indices.reserve(definitions.size());
+    table.m_safetyHashes.reserve(definitions.size());
     for (const QPlcSignalDefinition &definition : definitions)
         table.add(definition);
     return table;
@@ -108,7 +110,9 @@ void QPlcSignalTable::add(const QPlcSignalDefinition &definition)
     m_signals.append(definition);
     const QString text = definition.name + QLatin1Char(':') + definition.type.name() + QLatin1Char(':')
         + definition.unit + QLatin1Char('\n');
-    m_hash = qplc::fnv1a64(text.toUtf8() + qplc::safetyLine(definition), m_hash);
+    const QByteArray safety = qplc::safetyLine(definition);
+    m_safetyHashes.append(qplc::fnv1a64(safety));
+    m_hash = qplc::fnv1a64(text.toUtf8() + safety, m_hash);
 }
 
 QStringList QPlcSignalTable::closeNames(const QString &name, int count) const

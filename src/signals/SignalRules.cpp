@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SignalRules.h"
 
-#include "Fnv1a.h"
 #include "IniParser.h"
 #include "MessageText.h"
 #include "ValueOrder.h"
@@ -303,11 +302,6 @@ QByteArray safetyLine(const QPlcSignalDefinition &signal)
     const QByteArray nan = signal.nanAllowed ? nanAllowedText().toLatin1() : QByteArray();
     const QByteArrayList parts = {hex(signal.minimum), hex(signal.maximum), hex(signal.safe), hold, nan, slope};
     return parts.join(':') + ':' + writersText(signal.writers).toUtf8() + '\n';
-}
-
-quint64 safetyHash(const QPlcSignalDefinition &signal)
-{
-    return fnv1a64(safetyLine(signal));
 }
 
 QString iniSection(const QPlcSignalDefinition &signal)

@@ -50,8 +50,6 @@ double slopeFromText(const QString &text);
 /// Section 6.3 of docs/protocol.md: the parameters of \a signal that decide which values are taken,
 /// and what takes their place. \pre there are no complaints about it
 QByteArray safetyLine(const QPlcSignalDefinition &signal);
-/// By which master and node agree on them.
-quint64 safetyHash(const QPlcSignalDefinition &signal);
 
 struct Complaint
 {

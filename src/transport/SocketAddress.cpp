@@ -27,6 +27,8 @@ const sockaddr_in6 &ipv6Of(const SocketAddress &address)
 /// "eth0" or "2", as behind the % of fe80::1%eth0; 0: none.
 quint32 scopeOf(const QString &scope)
 {
+    if (scope.isEmpty())
+        return 0;  // without a system call
     const quint32 index = ::if_nametoindex(scope.toLocal8Bit().constData());
     return index != 0 ? index : scope.toUInt();
 }

@@ -251,8 +251,7 @@ void tst_AccessRights::anObserverListensOnly()
     qplc::messages::Register registration;
     registration.name = "x";
     registration.outputs = {{"sum", "Real64", {}, false, {}}};
-    const auto refusal
-        = [&] { return qplc::refusalOf(peerOf(Role::Observer), qplc::messages::toMessage(registration)); };
+    const auto refusal = [&] { return qplc::refusalOf(peerOf(Role::Observer), registration); };
     QVERIFY(refusal().contains("may only listen"));
     registration.listener = true;
     QVERIFY(refusal().contains("may not write signal 'sum'"));

@@ -79,7 +79,7 @@ void tst_LayoutVectors::tablesMatchTheVectors()
     QCOMPARE(safety.size(), table.size());
     for (int i = 0; i < table.size(); ++i) {
         QCOMPARE(QString::fromUtf8(qplc::safetyLine(table.at(QPlcSignalIndex(i)))).chopped(1), lines.at(2 * i + 1));
-        QCOMPARE(qplc::safetyHash(table.at(QPlcSignalIndex(i))), vectors::number(safety.at(i)));
+        QCOMPARE(table.safetyHash(QPlcSignalIndex(i)), vectors::number(safety.at(i)));
     }
     QCOMPARE(table.hash(), vectors::number(row[QStringLiteral("hash")]));
     QCOMPARE(QPlcSignalTable::fromIni(table.toIni()).hash(), table.hash());

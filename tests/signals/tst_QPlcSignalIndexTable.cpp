@@ -21,6 +21,7 @@ private Q_SLOTS:
     void indexListHoldsEachSignalOnce();
     void indexListRemembersUnknownNames();
     void lastInsertedValueOfASignalIsKept();
+    void valuesAreFoundInEveryOrderOfInsertion();
     void valueOfAMissingSignalIsInvalid();
     void listsCompareByContent();
 };
@@ -130,6 +131,25 @@ void tst_QPlcSignalIndexTable::lastInsertedValueOfASignalIsKept()
     QCOMPARE(list.indices().toVector(), (QVector<QPlcSignalIndex>{1, 0}));
     list.clear();
     QVERIFY(list.isEmpty());
+}
+
+void tst_QPlcSignalIndexTable::valuesAreFoundInEveryOrderOfInsertion()
+{
+    QPlcSignalList list;
+    for (const QVector<QPlcSignalIndex> &order :
+         {QVector<QPlcSignalIndex>{0, 3, 4, 9}, QVector<QPlcSignalIndex>{9, 4, 3, 0},
+          QVector<QPlcSignalIndex>{3, 9, 0, 4}, QVector<QPlcSignalIndex>{0, 9, 4, 3}}) {
+        list.clear();
+        for (int value : {1, 100}) {
+            for (const QPlcSignalIndex index : order)
+                list.insert(index, value + index);
+        }
+        QCOMPARE(list.indices().toVector(), order);
+        for (QPlcSignalIndex index = 0; index < 11; ++index) {
+            QCOMPARE(list.contains(index), order.contains(index));
+            QCOMPARE(list.value(index), order.contains(index) ? QPlcValue(100 + index) : QPlcValue());
+        }
+    }
 }
 
 void tst_QPlcSignalIndexTable::valueOfAMissingSignalIsInvalid()

@@ -5,7 +5,6 @@
 #include "node/Logging.h"
 #include "protocol/messages/Vocabulary.h"
 #include "signals/MessageText.h"
-#include "signals/SignalRules.h"
 
 #include <QtCore/QMetaEnum>
 #include <QtCore/QSet>
@@ -26,7 +25,8 @@ std::vector<messages::DeclaredSignal> describe(const QPlcSignalTable &table, con
     std::vector<messages::DeclaredSignal> declared;
     for (const PayloadLayout::Field &field : layout.fields()) {
         const QPlcSignalDefinition &signal = table.at(field.signal);
-        declared.push_back({signal.name, field.type.name(), signal.unit, false, messages::Hex64(safetyHash(signal))});
+        declared.push_back(
+            {signal.name, field.type.name(), signal.unit, false, messages::Hex64(table.safetyHash(field.signal))});
     }
     return declared;
 }
@@ -142,7 +142,7 @@ bool NodeRegistry::agreeOnSafety(const NodeDeclaration &declaration, Refusal *re
     QStringList others;
     for (const auto *direction : {&declaration.inputs, &declaration.outputs}) {
         for (const messages::DeclaredSignal &signal : *direction) {
-            if (signal.safety && *signal.safety != safetyHash(m_table.at(m_table.indexOf(signal.name))))
+            if (signal.safety && *signal.safety != m_table.safetyHash(m_table.indexOf(signal.name)))
                 others.append(QStringLiteral("'%1'").arg(signal.name));
         }
     }
@@ -241,8 +241,11 @@ void NodeRegistry::addWriter(const QString &name, QPlcSignalIndex signal)
     present.insert(std::find_if(present.begin(), present.end(), isBehind), name);
 }
 
+/// Among those that are there, there is none: a loop goes through one of its same-cycle inputs.
 bool NodeRegistry::closesLoop(const std::shared_ptr<NodeSlot> &slot, Refusal *refusal) const
 {
+    if (std::find(slot->sameCycle.begin(), slot->sameCycle.end(), true) == slot->sameCycle.end())
+        return false;
     std::vector<std::shared_ptr<NodeSlot>> nodes = m_nodes;
     nodes.push_back(slot);
     const Schedule schedule = scheduleOf(nodes);

@@ -5,8 +5,10 @@
 #include "protocol/messages/MessageTable.h"
 
 #include <QtCore/QRegularExpression>
+#include <QtCore/QSet>
 
 #include <algorithm>
+#include <vector>
 
 namespace qplc {
 
@@ -27,10 +29,44 @@ struct WrittenSignals
     void operator()(const messages::ReleaseLease &wish) { names = wish.signals.value_or(QStringList()); }
 };
 
-bool matches(const QString &pattern, const QString &signal)
+/// The signals that somebody may write.
+class Writable
 {
-    return pattern == signal
-        || QRegularExpression(QRegularExpression::wildcardToRegularExpression(pattern)).match(signal).hasMatch();
+public:
+    explicit Writable(const Peer &peer)
+        : m_areAll(peer.mayWriteAll && peer.role != Role::Observer)
+    {
+        if (m_areAll || peer.role == Role::Observer)
+            return;
+        for (const QString &text : peer.writes) {
+            m_names.insert(text);
+            if (text.contains(QRegularExpression(QStringLiteral("[*?[]"))))
+                m_patterns.emplace_back(QRegularExpression::wildcardToRegularExpression(text));
+        }
+    }
+
+    bool contains(const QString &signal) const
+    {
+        return m_areAll || m_names.contains(signal)
+            || std::any_of(m_patterns.begin(), m_patterns.end(),
+                           [&](const QRegularExpression &pattern) { return pattern.match(signal).hasMatch(); });
+    }
+
+private:
+    const bool m_areAll;
+    QSet<QString> m_names;
+    std::vector<QRegularExpression> m_patterns;
+};
+
+QString writingRefusal(const Peer &peer, const QStringList &names)
+{
+    const Writable writable(peer);
+    for (const QString &signal : names) {
+        if (!writable.contains(signal))
+            return QStringLiteral("Denied: identity '%1' with role %2 may not write signal '%3'")
+                .arg(peer.identity, roleName(peer.role), printable(signal));
+    }
+    return {};
 }
 
 QString registrationRefusal(const Peer &peer, const messages::Register &registration)
@@ -93,15 +129,6 @@ QStringList signalsWrittenBy(const QPlcMessage &message)
     return written.names;
 }
 
-bool mayWrite(const Peer &peer, const QString &signal)
-{
-    if (peer.role == Role::Observer)
-        return false;
-    return peer.mayWriteAll || std::any_of(peer.writes.begin(), peer.writes.end(), [&](const QString &pattern) {
-               return matches(pattern, signal);
-           });
-}
-
 QString refusalOf(const Peer &peer, const QPlcMessage &message)
 {
     if (peer.isCyclicOnly && message.kind() != QPlcMessage::AttachCyclicChannel)
@@ -111,17 +138,17 @@ QString refusalOf(const Peer &peer, const QPlcMessage &message)
     const Roles roles = whoMaySend(message.kind());
     if (!roles.isEmpty() && !roles.contains(peer.role))
         return QStringLiteral("Denied: role %1 may not send %2").arg(roleName(peer.role), message.kindName());
-    if (const auto registration = messages::readAs<messages::Register>(message)) {
-        const QString refusal = registrationRefusal(peer, *registration);
-        if (!refusal.isEmpty())
-            return refusal;
-    }
-    for (const QString &signal : signalsWrittenBy(message)) {
-        if (!mayWrite(peer, signal))
-            return QStringLiteral("Denied: identity '%1' with role %2 may not write signal '%3'")
-                .arg(peer.identity, roleName(peer.role), printable(signal));
-    }
-    return {};
+    return message.kind() == QPlcMessage::Register ? QString() : writingRefusal(peer, signalsWrittenBy(message));
+}
+
+QString refusalOf(const Peer &peer, const messages::Register &registration)
+{
+    if (!peer.isSecured)
+        return {};
+    WrittenSignals written;
+    written(registration);
+    const QString refusal = registrationRefusal(peer, registration);
+    return refusal.isEmpty() ? writingRefusal(peer, written.names) : refusal;
 }
 
 }  // namespace qplc

@@ -95,11 +95,12 @@ QString shownName(const Peer &peer, const QString &called);
 
 /// Signals that \a message would write, as it names them; none of a message that cannot be read.
 QStringList signalsWrittenBy(const QPlcMessage &message);
-/// Whether \a peer may write \a signal.
-bool mayWrite(const Peer &peer, const QString &signal);
 /// Why \a peer may not send \a message: "Denied: role Observer may not send StartRealTime"; empty:
 /// it may. Looks at the kind, and at the signals that the message writes. What only masters send,
-/// and what cannot be read, is left to those who answer that it makes no sense.
+/// and what cannot be read, is left to those who answer that it makes no sense; and so is what a
+/// Register says, to the next function.
 QString refusalOf(const Peer &peer, const QPlcMessage &message);
+/// Why \a peer may not register so; empty: it may.
+QString refusalOf(const Peer &peer, const messages::Register &registration);
 
 }  // namespace qplc

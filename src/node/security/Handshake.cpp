@@ -178,14 +178,13 @@ bool Handshake::identify(QString *reason)
         *reason = QStringLiteral("it has no identity");
         return false;
     }
-    const QMap<QString, Peer> peers = m_settings.peers();
-    const auto found = peers.constFind(m_peer.identity);
-    if (found == peers.constEnd()) {
+    const std::optional<Peer> peer = m_settings.peer(m_peer.identity);
+    if (!peer) {
         *reason = QStringLiteral("identity '%1' has no role in the access file of the master")
                       .arg(printable(m_peer.identity));
         return false;
     }
-    m_peer = *found;
+    m_peer = *peer;
     return true;
 }
 

@@ -5,6 +5,8 @@
 #include "SecretFile.h"
 #include "signals/IniParser.h"
 
+#include <QtCore/QHash>
+
 namespace qplc {
 
 namespace {
@@ -15,7 +17,9 @@ QString placeOf(const QString &fileName, int line, int column)
 }
 
 /// What is wrong with a line of such a file; empty: nothing.
-QString complaint(const IniItem &item, const QStringList &keys, const QVector<RightsSection> &sections)
+/// \param lines  of the identities so far
+QString complaint(const IniItem &item, const QStringList &keys, const QVector<RightsSection> &sections,
+                  const QHash<QString, int> &lines)
 {
     if (!item.error.isEmpty() || item.kind == IniItem::Broken)
         return QStringLiteral("this line cannot be read; use [identity] or name = value, in UTF-8");  // it may be a key
@@ -24,10 +28,8 @@ QString complaint(const IniItem &item, const QStringList &keys, const QVector<Ri
             return QStringLiteral("'%1' is not a valid identity; use 1 ... %2 letters, digits, '.', '-', '_'")
                 .arg(item.name)
                 .arg(Keyring::LongestIdentity);
-        for (const RightsSection &section : sections) {
-            if (section.identity == item.name)
-                return QStringLiteral("'%1' has a section in line %2 already").arg(item.name).arg(section.line);
-        }
+        if (const auto line = lines.constFind(item.name); line != lines.constEnd())
+            return QStringLiteral("'%1' has a section in line %2 already").arg(item.name).arg(*line);
         return {};
     }
     if (sections.isEmpty())
@@ -45,17 +47,20 @@ bool RightsSection::parse(const QByteArray &text, const QString &fileName, const
                           QVector<RightsSection> *sections, QString *error)
 {
     IniParser parser(text);
+    QHash<QString, int> lines;
     for (IniItem item = parser.next(); item.kind != IniItem::End; item = parser.next()) {
-        const QString wrong = complaint(item, keys, *sections);
+        const QString wrong = complaint(item, keys, *sections, lines);
         if (!wrong.isEmpty()) {
             *error = QStringLiteral("%1: %2").arg(
                 placeOf(fileName, item.line, item.error.isEmpty() ? item.column : item.errorColumn), wrong);
             return false;
         }
-        if (item.kind == IniItem::Section)
+        if (item.kind == IniItem::Section) {
             sections->append({fileName, item.name, item.line, {}});
-        else
+            lines.insert(item.name, item.line);
+        } else {
             sections->last().values.insert(item.name, {item.value, item.line, item.valueColumn});
+        }
     }
     return true;
 }

@@ -51,6 +51,7 @@ public:
     bool parse(const QByteArray &text, const QString &fileName, QString *error);
 
     QStringList identities() const { return m_peers.keys(); }
+    bool contains(const QString &identity) const { return m_peers.contains(identity); }
     /// Gives \a peer the role and rights of its identity, if they are known here.
     void apply(Peer *peer) const;
 

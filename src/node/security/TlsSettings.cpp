@@ -131,29 +131,37 @@ bool TlsSettings::read(const QPlcSecurity &security, QPlcSecurity::Side side, Tl
     return false;
 }
 
+/// \pre there is such an identity
+Peer TlsSettings::peerOf(const QString &identity, const QStringList &known) const
+{
+    Peer peer;
+    peer.isSecured = true;
+    peer.identity = identity;
+    peer.role = Role::Observer;
+    if (const Keyring::Entry *entry = keys.find(identity)) {
+        peer.role = entry->role;
+        peer.keyMark = QCryptographicHash::hash(entry->key, QCryptographicHash::Sha256);
+    }
+    access.apply(&peer);
+    if (peer.role != Role::Node)  // who has its own name anyway
+        peer.known = known;
+    return peer;
+}
+
 QMap<QString, Peer> TlsSettings::peers() const
 {
-    const QStringList known = keys.entries().keys() + access.identities();
+    const QStringList known = this->known();
+    const QStringList identities = keys.entries().isEmpty() ? access.identities() : keys.entries().keys();
     QMap<QString, Peer> peers;
-    const auto add = [&](const QString &name, Role role, const QByteArray &keyMark) {
-        Peer peer;
-        peer.isSecured = true;
-        peer.identity = name;
-        peer.role = role;
-        peer.keyMark = keyMark;
-        access.apply(&peer);
-        if (peer.role != Role::Node)  // who has its own name anyway
-            peer.known = known;
-        peers.insert(name, peer);
-    };
-    const QMap<QString, Keyring::Entry> &entries = keys.entries();
-    for (auto entry = entries.begin(); entry != entries.end(); ++entry)
-        add(entry.key(), entry->role, QCryptographicHash::hash(entry->key, QCryptographicHash::Sha256));
-    if (entries.isEmpty()) {
-        for (const QString &name : access.identities())
-            add(name, Role::Observer, {});
-    }
+    for (const QString &identity : identities)
+        peers.insert(identity, peerOf(identity, known));
     return peers;
+}
+
+std::optional<Peer> TlsSettings::peer(const QString &identity) const
+{
+    const bool isThere = keys.entries().isEmpty() ? access.contains(identity) : keys.find(identity) != nullptr;
+    return isThere ? std::optional<Peer>(peerOf(identity, known())) : std::nullopt;
 }
 
 /// The alert of TLS by which the other end has refused; 0: none.

@@ -26,10 +26,16 @@ struct TlsSettings
 
     /// All that may come to a master, by its files.
     QMap<QString, Peer> peers() const;
+    /// One of them; nothing if \a identity has no role.
+    std::optional<Peer> peer(const QString &identity) const;
 
     /// Whether a suite has forward secrecy and authenticated encryption. \param mode that of the
     /// security
     static bool isAcceptable(const QSslCipher &cipher, QPlcSecurity::Mode mode);
+
+private:
+    QStringList known() const { return keys.entries().keys() + access.identities(); }
+    Peer peerOf(const QString &identity, const QStringList &known) const;
 };
 
 /// Alerts of TLS (RFC 5246, RFC 4279) that tell more than that a handshake failed.

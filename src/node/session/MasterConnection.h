@@ -12,6 +12,7 @@
 #include <QtCore/QObject>
 
 #include <deque>
+#include <functional>
 #include <memory>
 
 namespace qplc {
@@ -44,6 +45,7 @@ struct MasterConnection
     QStringList features;                                // that both ends have offered
     bool leasesDue = false;                              // they have changed and it was not told yet
     quint64 eventsTold = 0;                              // sequence number of the newest event that was sent
+    std::function<void()> nextStep{};                    // of a message that is carried out in steps; null: none
     std::unique_ptr<messages::ListAnswer> listAnswer{};  // being made; null: none. What it asks next waits
     bool isAhead = false;                                // the message at hand has overtaken others of it
     std::deque<QPlcMessage> keptAnswers{};               // to such messages, until it is their turn

@@ -167,6 +167,15 @@ void MasterServer::open(MasterConnection *connection, const messages::Register &
                QStringLiteral("node '%1' registers twice").arg(connection->name));
         return;
     }
+    const QString denial = refusalOf(connection->peer, registration);
+    if (denial.isEmpty())
+        connection->nextStep = [this, connection, registration] { admit(connection, registration); };
+    else
+        deny(connection, denial, true);
+}
+
+void MasterServer::admit(MasterConnection *connection, const messages::Register &registration)
+{
     NodeDeclaration declaration;
     Refusal refusal;
     QString error;

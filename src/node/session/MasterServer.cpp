@@ -11,6 +11,7 @@
 #include <QtCore/QScopedValueRollback>
 
 #include <algorithm>
+#include <utility>
 
 namespace qplc {
 
@@ -190,8 +191,12 @@ void MasterServer::enter(QPlcSlaveSocket *socket, const Peer &peer, ConnectionGa
     if (!peer.isSecured)
         return;
     Q_EMIT authenticated(connection);
-    m_rights.check();  // its handshake has read older files
-    expelRevoked();
+    m_rights.check();
+    if (connectionOf(guarded) != connection)
+        return;
+    const Refusal refusal = revocation(connection);  // its handshake may have read older files
+    if (!refusal.error.isEmpty())
+        expelOne(guarded, refusal);
 }
 
 void MasterServer::dropSlow(ConnectionGate::Ticket ticket, const QString &reason)
@@ -312,7 +317,7 @@ Refusal MasterServer::revocation(MasterConnection *connection) const
 }
 
 /// What a node has registered, as far as it needs rights.
-QPlcMessage MasterServer::registrationOf(const NodeSlot &slot) const
+messages::Register MasterServer::registrationOf(const NodeSlot &slot) const
 {
     messages::Register registration;
     registration.name = slot.name;
@@ -321,7 +326,7 @@ QPlcMessage MasterServer::registrationOf(const NodeSlot &slot) const
         registration.outputs.emplace_back();
         registration.outputs.back().name = m_image.table().at(field.signal).name;
     }
-    return messages::toMessage(registration);
+    return registration;
 }
 
 void MasterServer::expelRevoked()
@@ -380,6 +385,11 @@ void MasterServer::takeTurn()
 /// more
 bool MasterServer::serve(MasterConnection *connection)
 {
+    if (connection->nextStep) {
+        const QScopedValueRollback<MasterConnection *> receiving(m_receiving, connection);
+        std::exchange(connection->nextStep, nullptr)();
+        return true;
+    }
     if (connection->listAnswer) {
         if (connection->listAnswer->makePortion())
             sendListAnswer(connection);
@@ -446,6 +456,14 @@ void MasterServer::receive(MasterConnection *connection, const Message &message)
     if (isSettled(connection, message) || isTooMuch(connection, message))
         return;
     const QScopedValueRollback<MasterConnection *> receiving(m_receiving, connection);
+    if (message.kind() == Message::Register)  // of 65 534 signals, each of its steps is long
+        connection->nextStep = [this, connection, message] { carryOut(connection, message); };
+    else
+        carryOut(connection, message);
+}
+
+void MasterServer::carryOut(MasterConnection *connection, const Message &message)
+{
     const QString refusal = refusalOf(connection->peer, message);
     if (!refusal.isEmpty()) {
         deny(connection, refusal, message.kind() == Message::Register);
