@@ -111,11 +111,16 @@ bool BenchMaster::addSlaves()
     if (!m_master.startServer(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, 0)))
         return setError(m_master.errorString());
     const QString address = QStringLiteral("%1://127.0.0.1:%2").arg(m_options.transport).arg(m_master.serverPort());
+    QElapsedTimer clock;
+    clock.start();
     for (int i = 0; i < m_options.slaves; ++i) {
         if (!m_processes.start(m_options.slaveArguments(i, address, m_keysFile)))
             return setError(QStringLiteral("cannot start slave process %1").arg(i));
     }
-    return waitForSlaves();
+    if (!waitForSlaves())
+        return false;
+    m_registration = double(clock.nsecsElapsed()) * 1e-9;
+    return true;
 }
 
 bool BenchMaster::waitForSlaves()
@@ -123,7 +128,7 @@ bool BenchMaster::waitForSlaves()
     QElapsedTimer timer;
     timer.start();
     while (m_master.nodes().size() < m_options.slaves + 1) {
-        if (timer.elapsed() > 20000 || !m_processes.allAlive())
+        if (timer.elapsed() > 60000 || !m_processes.allAlive())
             return setError(
                 QStringLiteral("only %1 of %2 slaves came").arg(m_master.nodes().size() - 1).arg(m_options.slaves));
         wait(0.01);
@@ -164,8 +169,13 @@ BenchMaster::Snapshot BenchMaster::snapshot() const
 
 bool BenchMaster::run()
 {
-    if (!prepare() || !addSlaves() || !startPhase())
+    if (!prepare() || !addSlaves())
         return false;
+    QElapsedTimer clock;
+    clock.start();
+    if (!startPhase())
+        return false;
+    m_start = double(clock.nsecsElapsed()) * 1e-9;
     wait(m_options.warmup);
     if (!m_options.isBackToBack()) {  // statistics begin with a phase
         stopPhase();
@@ -217,6 +227,8 @@ QJsonObject BenchMaster::result() const
          ::sched_getscheduler(0) == SCHED_FIFO ? QStringLiteral("fifo") : QStringLiteral("other")},
         {QStringLiteral("cycles"), cycles},
         {QStringLiteral("all_cycles"), double(m_allCycles)},
+        {QStringLiteral("registration_s"), m_registration},
+        {QStringLiteral("start_s"), m_start},
         {QStringLiteral("seconds"), seconds},
         {QStringLiteral("cycles_per_s"), cycles / seconds},
         {QStringLiteral("errors"), double(m_probe.errors())},

@@ -48,8 +48,10 @@ private:
     std::vector<std::unique_ptr<BenchSlave>> m_localSlaves;
     SlaveProcesses m_processes;
     QTemporaryDir m_keysFolder;
-    QString m_keysFile;       // empty: no security
-    quint64 m_allCycles = 0;  // of all phases, those that were not measured included
+    QString m_keysFile;           // empty: no security
+    double m_registration = 0.0;  // [s] from the start of the first process until all are registered
+    double m_start = 0.0;         // [s] from there until cycles run
+    quint64 m_allCycles = 0;      // of all phases, those that were not measured included
     Snapshot m_before;
     Snapshot m_after;
     QString m_errorString;

@@ -35,6 +35,16 @@ bool isPeriodPossible(QPlcCoreApplication &application, const BenchOptions &opti
                   QStringLiteral("--period-us %1: use 10 or more, or 0 for back to back").arg(options.periodUs));
 }
 
+bool isTablePossible(QPlcCoreApplication &application, const BenchOptions &options)
+{
+    const int count = options.slaves * (options.inputs + options.outputs);
+    return count <= QPlcSignalTable::MaximumSignals
+        || refuse(application,
+                  QStringLiteral("%1 signals are too many for a table of %2; use fewer slaves, or fewer --out")
+                      .arg(count)
+                      .arg(QPlcSignalTable::MaximumSignals));
+}
+
 }  // namespace
 
 QStringList BenchOptions::slaveArguments(int index, const QString &address, const QString &keysFile) const
@@ -58,6 +68,7 @@ bool readBenchOptions(QPlcCoreApplication &application, BenchOptions *options)
     addOption(application, "slaves", "Number of slaves.", "N", "1");
     addOption(application, "in", "Real32 signals from the master to each slave.", "N", "3");
     addOption(application, "out", "Real32 signals from each slave to the master.", "N", "32");
+    addOption(application, "description", "Characters of the description of each signal.", "N", "0");
     addOption(application, "period-us", "Period [us]; 0: the next cycle as soon as all answers are there.", "P", "0");
     addOption(application, "seconds", "Measured time.", "S", "1");
     addOption(application, "warmup", "Time before it.", "S", "0.2");
@@ -86,11 +97,12 @@ bool readBenchOptions(QPlcCoreApplication &application, BenchOptions *options)
     return readInteger(application, "slave", -1, 249, &options->slaveIndex)
         && readInteger(application, "slaves", 1, 250, &options->slaves)
         && readInteger(application, "in", 1, 1000, &options->inputs)
-        && readInteger(application, "out", 1, 1000, &options->outputs)
+        && readInteger(application, "out", 1, QPlcSignalTable::MaximumSignals - 1, &options->outputs)
+        && readInteger(application, "description", 0, 1000, &options->description)
         && readInteger(application, "period-us", 0, 10'000'000, &options->periodUs)
         && readInteger(application, "idle-latency-us", -1, 1'000'000, &options->idleLatencyUs)
         && readInteger(application, "spin-us", 0, 1000, &options->spinUs)
         && application.number(QStringLiteral("seconds"), 0.01, 86400.0, &options->seconds)
         && application.number(QStringLiteral("warmup"), 0.0, 3600.0, &options->warmup)
-        && isPeriodPossible(application, *options);
+        && isPeriodPossible(application, *options) && isTablePossible(application, *options);
 }

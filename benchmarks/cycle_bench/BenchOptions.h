@@ -8,9 +8,10 @@ struct BenchOptions
 {
     QString transport = QStringLiteral("udp");  // udp, udp-multicast, tcp, local, inprocess
     int slaves = 1;
-    int inputs = 3;    // Real32 signals, master -> slave
-    int outputs = 32;  // Real32 signals, slave -> master
-    int periodUs = 0;  // 0: back to back
+    int inputs = 3;       // Real32 signals, master -> slave
+    int outputs = 32;     // Real32 signals, slave -> master
+    int description = 0;  // [characters] of each signal
+    int periodUs = 0;     // 0: back to back
     double seconds = 1.0;
     double warmup = 0.2;  // [s] before it
     int spinUs = 0;

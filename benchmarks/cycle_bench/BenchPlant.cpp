@@ -20,12 +20,14 @@ qint64 monotonicNow()
 
 QPlcSignalTable benchTable(const BenchOptions &options)
 {
+    const QByteArray rest = "]\ntype = Real32\nhold = 1000000\n"
+        + (options.description > 0 ? "description = " + QByteArray(options.description, 'd') + '\n' : QByteArray());
     QByteArray ini;
     for (int slave = 0; slave < options.slaves; ++slave) {
         for (int i = 0; i < options.inputs; ++i)
-            ini += '[' + signalName("in", slave, i) + "]\ntype = Real32\nhold = 1000000\n";
+            ini += '[' + signalName("in", slave, i) + rest;
         for (int i = 0; i < options.outputs; ++i)
-            ini += '[' + signalName("out", slave, i) + "]\ntype = Real32\nhold = 1000000\n";
+            ini += '[' + signalName("out", slave, i) + rest;
     }
     return QPlcSignalTable::fromIni(ini);
 }

@@ -21,10 +21,12 @@ int runSlave(QPlcCoreApplication &application, const BenchOptions &options)
     slave.setRealTimeOptions(realTime);
     if (!options.keys.isEmpty())
         slave.setSecurity(QPlcSecurity::preSharedKeys(options.keys, slave.name()));
-    if (!master.isValid() || !slave.connectToMasterAndWaitForConnected(master)) {
-        QPlcCoreApplication::printError(master.isValid() ? slave.errorString() : error);
+    if (!master.isValid()) {
+        QPlcCoreApplication::printError(error);
         return QPlcCoreApplication::Failure;
     }
+    slave.setReconnectPolicy(QPlcSlaveNode::ReconnectAlways);  // many may be too many at a time
+    slave.connectToMaster(master);
     return application.exec();
 }
 
