@@ -12,10 +12,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
 #include <memory>
+#include <sys/prctl.h>
 #include <utility>
 #include <vector>
 
@@ -40,6 +42,7 @@ class Tool
 public:
     Tool(const QString &name, const QString &keys, const QPlcUnderlyingProtocol &master)
     {
+        m_socket.setMessageLimit(longestAnswer);
         m_socket.setSecurity(QPlcSecurity::preSharedKeys(keys, name));
         QObject::connect(&m_socket, &QPlcAbstractSocket::connected, &m_socket, [this, name] {
             send(QPlcMessage::Hello, {{"protocol", 2}, {"name", name}, {"role", "tool"}});
@@ -62,6 +65,8 @@ public:
     std::function<void(const QPlcMessage &)> onMessage;
 
 private:
+    static constexpr quint32 longestAnswer = 64 << 20;  // [byte]
+
     QPlcMasterSocket m_socket;
 };
 
@@ -79,6 +84,8 @@ public:
         kill();
         waitForFinished();
     }
+    /// It does not outlive a measurement that has failed.
+    void setupChildProcess() override { ::prctl(PR_SET_PDEATHSIG, SIGKILL); }
     /// The words behind \a word of the next line that begins with it.
     QStringList next(const QString &word)
     {

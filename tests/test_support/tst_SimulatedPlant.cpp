@@ -63,6 +63,31 @@ private:
     QPlcOutput<double> m_speed{this, "tetherSpeed"};
 };
 
+/// Notes of which cycles it hears.
+class Screen : public QPlcCompactSlaveNode
+{
+public:
+    Screen()
+        : QPlcCompactSlaveNode(QStringLiteral("Screen"))
+    {
+        setSignalTable(winchTable());
+        setListener(true);
+    }
+    ~Screen() override { disconnectFromMaster(); }
+
+    QVector<quint64> heard;  // cycles
+    quint64 missed = 0;      // of them it was told
+
+private:
+    void step(const QPlcCycle &cycle) override
+    {
+        heard << cycle.number();
+        missed += cycle.missedCycles();
+    }
+
+    QPlcInput<double> m_length{this, "tetherLength"};
+};
+
 QHostAddress address(int number)
 {
     return QHostAddress(QStringLiteral("127.0.1.%1").arg(number));
@@ -179,6 +204,7 @@ private Q_SLOTS:
     void sameSeedGivesSameTrafficInOtherProcess();
     void halfOpenConnectionIsClosed();
     void stoppedProgramResumes();
+    void stoppedListenerKnowsOfEveryCycle();
     void lostAndDuplicateFramesAreTolerated();
     void echoReachesTheNextOwnerOfAPort();
     void cyclesResumeAfterALinkOutage();
@@ -308,6 +334,49 @@ void tst_SimulatedPlant::stoppedProgramResumes()
     });
     QCOMPARE(duringStop, quint64(0));
     QVERIFY2(behindIt >= 95, qPrintable(QString::number(behindIt)));
+}
+
+void tst_SimulatedPlant::stoppedListenerKnowsOfEveryCycle()
+{
+    QVector<quint64> heard;
+    quint64 missed = 0;
+    QPlcSlaveNode::Counters counters;
+    quint64 end = 0;
+    Simulator::run(1, [&](Simulator &simulator) {
+        Plant plant(simulator);
+        SimulatedHost host(simulator, QStringLiteral("screen"), address(4));
+        Screen *screen = nullptr;
+        host.start([&screen] {
+            auto node = connectedNode<Screen>();
+            screen = node.get();
+            return node;
+        });
+        const auto areThere = [&plant] { return plant.master->nodes().size() == 3; };
+        if (!simulator.runUntil(areThere, 10 * Second) || !plant.starts())
+            return;
+        simulator.network().usual.loss = 0.1;
+        simulator.runFor(20 * Second);
+        host.setStopped(true);
+        simulator.runFor(5 * Second);
+        host.setStopped(false);
+        simulator.runFor(20 * Second);
+        host.setStopped(true);  // the end comes, and it does not hear it yet
+        simulator.runFor(Second);
+        plant.stop();
+        end = plant.master->statistics().cycles;
+        simulator.runFor(Second);
+        host.setStopped(false);
+        (void)simulator.runUntil([&] { return screen->state() == QPlcSlaveNode::Off; }, 10 * Second);
+        heard = screen->heard;
+        missed = screen->missed;
+        counters = screen->counters();
+    });
+    QVERIFY2(end > 4500, qPrintable(QString::number(end)));
+    QCOMPARE(quint64(heard.size()), counters.cycles);
+    QVERIFY(counters.cycles > 3000);
+    QVERIFY(counters.missed > 300);
+    QCOMPARE(counters.cycles + counters.missed + counters.skipped, end);
+    QCOMPARE(heard.last() + 1, counters.cycles + missed);
 }
 
 void tst_SimulatedPlant::lostAndDuplicateFramesAreTolerated()
