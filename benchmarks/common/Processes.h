@@ -42,9 +42,9 @@ class Tool
 public:
     Tool(const QString &name, const QString &keys, const QPlcUnderlyingProtocol &master)
     {
-        m_socket.setMessageLimit(longestAnswer);
         m_socket.setSecurity(QPlcSecurity::preSharedKeys(keys, name));
         QObject::connect(&m_socket, &QPlcAbstractSocket::connected, &m_socket, [this, name] {
+            m_socket.setMessageLimit(longestAnswer);
             send(QPlcMessage::Hello, {{"protocol", 2}, {"name", name}, {"role", "tool"}});
         });
         QObject::connect(&m_socket, &QPlcAbstractSocket::messageReceived, &m_socket,

@@ -5,8 +5,7 @@
 //   control_flood [--signals N] [--connections N] [--stops N] [--leases N] [--rounds N]
 //                 [--seconds S]
 //
-// The program starts itself as master and as tools. --signals: all of them are in one table, which
-// has to fit into a control message.
+// The program starts itself as master and as tools. --signals: of the table.
 #include "../common/Processes.h"
 
 #include <QtCore/QCommandLineParser>
