@@ -44,7 +44,8 @@ public:
     {
         m_socket.setSecurity(QPlcSecurity::preSharedKeys(keys, name));
         QObject::connect(&m_socket, &QPlcAbstractSocket::connected, &m_socket, [this, name] {
-            m_socket.setMessageLimit(longestAnswer);
+            m_socket.setMessageLimit(longestMessage);
+            m_socket.setSendLimit(longestMessage);
             send(QPlcMessage::Hello, {{"protocol", 2}, {"name", name}, {"role", "tool"}});
         });
         QObject::connect(&m_socket, &QPlcAbstractSocket::messageReceived, &m_socket,
@@ -65,7 +66,7 @@ public:
     std::function<void(const QPlcMessage &)> onMessage;
 
 private:
-    static constexpr quint32 longestAnswer = 64 << 20;  // [byte]
+    static constexpr quint32 longestMessage = 64 << 20;  // [byte]
 
     QPlcMasterSocket m_socket;
 };

@@ -117,8 +117,50 @@ void askMost(Tool &tool, int number, int signalCount)
         tool.send(QPlcMessage::GetStatistics, {{"histograms", true}});
 }
 
-int runFlood(const QString &keys, quint16 port, int connections, int signalCount)
+/// Registers as a listener of all signals, leaves, and comes again, without end.
+class Registrant
 {
+public:
+    Registrant(const QString &keys, quint16 port, int signalCount)
+        : m_keys(keys)
+        , m_port(port)
+    {
+        QJsonArray inputs;
+        for (int i = 1; i < signalCount; ++i)
+            inputs << QJsonObject{{"name", signalName(i)}, {"type", "Int8"}, {"unit", ""}};
+        m_registration
+            = {{"name", "observer"}, {"policy", "SilentZeroOrderHold"}, {"listener", true}, {"inputs", inputs},
+               {"cyclic", "udp"},    {"outputs", QJsonArray()},         {"udpPort", 9}};
+        begin();
+    }
+
+private:
+    void begin()
+    {
+        m_tool = std::make_unique<Tool>(QStringLiteral("observer"), m_keys,
+                                        QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, m_port));
+        m_tool->onMessage = [this](const QPlcMessage &message) {
+            if (message.kind() == QPlcMessage::Hello) {
+                m_tool->send(QPlcMessage::Register, m_registration);
+            } else if (message.kind() == QPlcMessage::Registered || message.kind() == QPlcMessage::Rejected) {
+                tell(message.kindName());
+                QTimer::singleShot(0, qApp, [this] { begin(); });
+            }
+        };
+    }
+
+    const QString m_keys;
+    const quint16 m_port;
+    QJsonObject m_registration;
+    std::unique_ptr<Tool> m_tool;
+};
+
+/// \param isRegistering  a listener also registers and leaves
+int runFlood(const QString &keys, quint16 port, int connections, int signalCount, bool isRegistering)
+{
+    std::unique_ptr<Registrant> registrant;
+    if (isRegistering)
+        registrant = std::make_unique<Registrant>(keys, port, signalCount);
     std::vector<std::unique_ptr<Tool>> tools;
     quint64 answers = 0;
     for (int i = 0; i < connections; ++i) {
@@ -166,16 +208,18 @@ public:
         m_person.onMessage = {};
     }
 
-    void stops(int count)
+    void stops(int count, bool isRegistering)
     {
-        const std::unique_ptr<Child> flood = makeFlood(m_port);
+        const std::unique_ptr<Child> flood = makeFlood(m_port, isRegistering);
         std::vector<double> delays;
         for (int i = 0; i < count; ++i) {
             pass(QRandomGenerator::global()->bounded(20, 40));
             delays.push_back(stop());
         }
         checkThatItGoesOn(*flood);
-        show("stop", delays, "ms");
+        if (isRegistering)
+            flood->next("Registered");
+        show(isRegistering ? "stop, while a listener of all signals registers and leaves" : "stop", delays, "ms");
     }
 
     void leases(int count)
@@ -223,10 +267,11 @@ public:
     }
 
 private:
-    std::unique_ptr<Child> makeFlood(const QString &port)
+    std::unique_ptr<Child> makeFlood(const QString &port, bool isRegistering = false)
     {
-        auto flood = std::make_unique<Child>(
-            QStringList{"flood", m_keys, port, QString::number(m_connections), QString::number(m_signals)});
+        auto flood
+            = std::make_unique<Child>(QStringList{"flood", m_keys, port, QString::number(m_connections),
+                                                  QString::number(m_signals), QString::number(int(isRegistering))});
         flood->next("floods");
         return flood;
     }
@@ -261,7 +306,7 @@ int runAll(const QCoreApplication &application)
     const auto option = [&parser](const char *name, const char *preset) {
         parser.addOption({QLatin1String(name), {}, QStringLiteral("number"), QLatin1String(preset)});
     };
-    option("signals", "30000");
+    option("signals", "65534");
     option("connections", "8");
     option("stops", "1000");
     option("leases", "50");
@@ -273,7 +318,8 @@ int runAll(const QCoreApplication &application)
     const QTemporaryDir folder;
     Measurement measurement(makeKeys(folder, {{"operator", "Operator"}, {"observer", "Observer"}}), number("signals"),
                             number("connections"));
-    measurement.stops(number("stops"));
+    measurement.stops(number("stops"), false);
+    measurement.stops(number("stops") / 4, true);
     measurement.leases(number("leases"));
     measurement.cycles(number("rounds"), number("seconds"));
     return 0;
@@ -289,6 +335,6 @@ int main(int argc, char **argv)
         return runMaster(arguments.at(2), arguments.at(3).toInt());
     if (arguments.value(1) == QLatin1String("flood"))
         return runFlood(arguments.at(2), quint16(arguments.at(3).toInt()), arguments.at(4).toInt(),
-                        arguments.at(5).toInt());
+                        arguments.at(5).toInt(), arguments.at(6) == QLatin1String("1"));
     return runAll(application);
 }

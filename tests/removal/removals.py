@@ -74,7 +74,7 @@ REMOVALS = [
             "if (node.listener && needed.need != QPlcManifest::Optional)", "if (node.listener && needed.need == QPlcManifest::Optional)",
             "tst_NeededNodes", "listenerDoesNotReplaceANode"),
     Removal("manifest with identities at a master without security", "src/node/api/QPlcMasterNodePrivate.cpp",
-            "if (fault.isEmpty() && serverSettings.security.isNone())", "if (fault.isEmpty() && !serverSettings.security.isNone())",
+            "security.isNone() ? needed.identityFault() :", "security.isNone() ? QString() :",
             "tst_NeededNodes", "identitiesNeedSecurity"),
     Removal("initialization without a node of the manifest", "src/node/api/QPlcMasterNodePrivate.cpp",
             "apply(missingText().isEmpty() ? Event::Initialize : Event::InitializeIncomplete)", "apply(Event::Initialize)",
