@@ -35,6 +35,7 @@ private Q_SLOTS:
     void nodeWithAllSignalsBothWaysStarts();
     void tableComesOnlyWhenItIsWanted();
     void messageBeyondTheLimitOfTheMasterEndsItsConnection();
+    void tableThatIsTooLongForAMessageIsRefusedWithTheRemedy();
 
 private:
     /// \return the greeting of the master
@@ -121,6 +122,31 @@ void tst_LargeTables::messageBeyondTheLimitOfTheMasterEndsItsConnection()
     tool.send(QPlcMessage::SafeStop, {{"reason", QString(int(longest), 'x')}});
     QVERIFY(waitUntil([&] { return !tool.control.isConnected(); }, Patience));
     QVERIFY(tool.messages.isEmpty() || tool.messages.first().kind() == QPlcMessage::Rejected);
+}
+
+/// A table of a file has at most 64 MiB of text; one that a program makes may have more.
+void tst_LargeTables::tableThatIsTooLongForAMessageIsRefusedWithTheRemedy()
+{
+    QPlcSignalTable table;
+    QPlcSignalDefinition signal;
+    signal.type = QPlcSignalType(QPlcSignalType::Real64);
+    signal.description = QString(4000, 'x');
+    constexpr int many = int(qplc::MaximumControlFrame / 4000) + 1;
+    for (int i = 0; i < many; ++i) {
+        signal.name = nameOf(i);
+        QVERIFY(table.append(signal));
+    }
+    m_master = std::make_unique<TestMaster>(QPlcClock::realTime(), table);
+    QVERIFY(m_master->listen());
+    LogCapture log;
+    ScriptedTool wanting;
+    const QPlcMessage refusal = greet(wanting, true);
+    QCOMPARE(refusal.kind(), QPlcMessage::Rejected);
+    QCOMPARE(refusal.text("error"), QString("TooLong"));
+    QVERIFY2(refusal.text("text").contains("the signal table is too long to be sent; give"),
+             qPrintable(refusal.text("text")));
+    ScriptedTool content;  // with its own table, or none
+    QCOMPARE(greet(content, false).kind(), QPlcMessage::Hello);
 }
 
 QTEST_GUILESS_MAIN(tst_LargeTables)
