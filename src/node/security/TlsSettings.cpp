@@ -132,13 +132,13 @@ bool TlsSettings::read(const QPlcSecurity &security, QPlcSecurity::Side side, Tl
 }
 
 /// \pre there is such an identity
-Peer TlsSettings::peerOf(const QString &identity, const QStringList &known) const
+Peer TlsSettings::peerOf(const QString &name, const QStringList &known) const
 {
     Peer peer;
     peer.isSecured = true;
-    peer.identity = identity;
+    peer.identity = name;
     peer.role = Role::Observer;
-    if (const Keyring::Entry *entry = keys.find(identity)) {
+    if (const Keyring::Entry *entry = keys.find(name)) {
         peer.role = entry->role;
         peer.keyMark = QCryptographicHash::hash(entry->key, QCryptographicHash::Sha256);
     }
@@ -153,15 +153,15 @@ QMap<QString, Peer> TlsSettings::peers() const
     const QStringList known = this->known();
     const QStringList identities = keys.entries().isEmpty() ? access.identities() : keys.entries().keys();
     QMap<QString, Peer> peers;
-    for (const QString &identity : identities)
-        peers.insert(identity, peerOf(identity, known));
+    for (const QString &name : identities)
+        peers.insert(name, peerOf(name, known));
     return peers;
 }
 
-std::optional<Peer> TlsSettings::peer(const QString &identity) const
+std::optional<Peer> TlsSettings::peer(const QString &name) const
 {
-    const bool isThere = keys.entries().isEmpty() ? access.contains(identity) : keys.find(identity) != nullptr;
-    return isThere ? std::optional<Peer>(peerOf(identity, known())) : std::nullopt;
+    const bool isThere = keys.entries().isEmpty() ? access.contains(name) : keys.find(name) != nullptr;
+    return isThere ? std::optional<Peer>(peerOf(name, known())) : std::nullopt;
 }
 
 /// The alert of TLS by which the other end has refused; 0: none.

@@ -26,8 +26,8 @@ struct TlsSettings
 
     /// All that may come to a master, by its files.
     QMap<QString, Peer> peers() const;
-    /// One of them; nothing if \a identity has no role.
-    std::optional<Peer> peer(const QString &identity) const;
+    /// That of one identity; nothing if \a name has no role.
+    std::optional<Peer> peer(const QString &name) const;
 
     /// Whether a suite has forward secrecy and authenticated encryption. \param mode that of the
     /// security
@@ -35,7 +35,7 @@ struct TlsSettings
 
 private:
     QStringList known() const { return keys.entries().keys() + access.identities(); }
-    Peer peerOf(const QString &identity, const QStringList &known) const;
+    Peer peerOf(const QString &name, const QStringList &known) const;
 };
 
 /// Alerts of TLS (RFC 5246, RFC 4279) that tell more than that a handshake failed.
