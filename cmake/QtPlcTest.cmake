@@ -58,7 +58,7 @@ function(qtplc_add_test name)
         set(arg_TIMEOUT 300)
     endif()
     set_tests_properties(${name} PROPERTIES TIMEOUT ${arg_TIMEOUT} LABELS "${arg_LABELS}"
-        ENVIRONMENT "QT_QPA_PLATFORM=offscreen")
+        ENVIRONMENT "QT_QPA_PLATFORM=offscreen;XDG_STATE_HOME=${CMAKE_BINARY_DIR}/state")
     foreach(label ${arg_LABELS})
         qtplc_build_with_label(${label} ${name})
     endforeach()
@@ -78,7 +78,7 @@ function(qtplc_add_screen_test name target)
     endif()
     add_test(NAME ${name} COMMAND ${XVFB_RUN} -a -s "-screen 0 ${screen}x24" $<TARGET_FILE:${target}>)
     set_tests_properties(${name} PROPERTIES TIMEOUT 300
-        ENVIRONMENT "QT_QPA_PLATFORM=xcb;QT_FONT_DPI=96;LIBGL_ALWAYS_SOFTWARE=1;ASAN_OPTIONS=detect_leaks=0;QTPLC_SCREENSHOTS=${CMAKE_BINARY_DIR}/screenshots;${ARGN}")
+        ENVIRONMENT "QT_QPA_PLATFORM=xcb;QT_FONT_DPI=96;LIBGL_ALWAYS_SOFTWARE=1;XDG_STATE_HOME=${CMAKE_BINARY_DIR}/state;ASAN_OPTIONS=detect_leaks=0;QTPLC_SCREENSHOTS=${CMAKE_BINARY_DIR}/screenshots;${ARGN}")
     file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/screenshots)
 endfunction()
 

@@ -14,6 +14,8 @@
 #include <functional>
 #include <memory>
 
+class QPlcMasterNode;
+
 /// What all programs of QtPLC have in common, with or without a window: UTF-8, numbers with a
 /// decimal point, options with clear errors, and an orderly end on Ctrl-C. It is a base class of
 /// QPlcCoreApplication and QPlcGuiApplication.
@@ -119,6 +121,11 @@ public:
     /// \return false, with the message printed and exitCode() UsageError, when the file cannot be
     ///     read or has errors
     bool readManifest(QPlcManifest *manifest);
+
+    /// Adds --events FILE|none to a master: where its events go (QPlcMasterNode::setEventFile()).
+    void addEventOption();
+    /// Gives \a master the file of --events. Without the option it decides itself.
+    void readEventOption(QPlcMasterNode *master) const;
 
     /// Adds --enable-fault-injection and --faults, which belong together: the faults of a bad
     /// network, for a test.

@@ -189,6 +189,19 @@ public:
     /// Returns why the plant has this profile, for people: "node 'Winch' drives real devices".
     QString profileReason() const;
 
+    /// Sets the file to which the master appends its events, one JSON object in a line, so that
+    /// they survive it. `qtplc events --file` shows it, docs/design/event-files.md describes it. A
+    /// full file (8 MiB) is renamed, and 8 of them are kept. A thread of its own writes them. If it
+    /// cannot, the plant goes on, and the event "event file" says so.
+    ///
+    /// By default, a master with security, or of a plant with the profile Plant, writes to
+    /// NAME-PORT.jsonl in $LOGS_DIRECTORY or $STATE_DIRECTORY (as systemd sets them), else in
+    /// $XDG_STATE_HOME/qtplc, else in /var/log/qtplc for root and ~/.local/state/qtplc for others.
+    /// \param fileName  in a folder that exists; empty: no file
+    void setEventFile(const QString &fileName);
+    /// Returns the file to which the master writes its events; empty: none yet.
+    QString eventFile() const;
+
     /// Sets the nodes that the plant needs. Neither an initialization nor a start begins while a
     /// node is missing that the manifest calls critical or required: missingNodes() names it. A
     /// node that the manifest calls critical is critical, whatever it says itself. A node whose

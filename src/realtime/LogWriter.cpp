@@ -49,34 +49,6 @@ const char *severityOf(QtMsgType type)
     return "";
 }
 
-}  // namespace
-
-struct LogWriter::State
-{
-    explicit State(int output)
-        : descriptor(output)
-        , toJournal(isJournal(output))
-    {
-    }
-    QByteArray linesOf(QtMsgType type, QByteArray text) const;
-    void push(const QByteArray &line);
-    void tellDropped();
-    void run();
-
-    const int descriptor;
-    const bool toJournal;
-    mutable std::mutex mutex;
-    std::condition_variable changed;
-    std::deque<QByteArray> lines;
-    int bytes = 0;       // of lines, and of what is being written
-    quint64 untold = 0;  // dropped lines that no line has told yet
-    quint64 dropped = 0;
-    bool isEnding = false;
-    bool hasThread = false;  // set before anybody writes
-};
-
-namespace {
-
 /// Writes all of \a bytes, however long that takes. A descriptor that cannot be written to loses
 /// them.
 void writeAll(int descriptor, const QByteArray &bytes)
@@ -94,6 +66,28 @@ void writeAll(int descriptor, const QByteArray &bytes)
     }
 }
 
+class DescriptorOutput final : public LogOutput
+{
+public:
+    explicit DescriptorOutput(int descriptor)
+        : m_descriptor(descriptor)
+        , m_toJournal(isJournal(descriptor))
+    {
+    }
+    /// The journal takes each line as a message of its own.
+    QByteArray linesOf(QtMsgType type, QByteArray text) const override
+    {
+        if (m_toJournal)
+            text = severityOf(type) + text.replace('\n', QByteArray(1, '\n') + severityOf(type));
+        return LogOutput::linesOf(type, text);
+    }
+    void write(const QByteArray &line) override { writeAll(m_descriptor, line); }
+
+private:
+    const int m_descriptor;
+    const bool m_toJournal;
+};
+
 void leaveRealTime()
 {
     const sched_param ordinary = {};
@@ -102,6 +96,39 @@ void leaveRealTime()
 }
 
 }  // namespace
+
+QByteArray LogOutput::linesOf(QtMsgType, QByteArray text) const
+{
+    return text + '\n';
+}
+
+QByteArray LogOutput::gapText(quint64 dropped) const
+{
+    return "... " + QByteArray::number(dropped) + " lines are missing here: the reader of this log was too slow";
+}
+
+struct LogWriter::State
+{
+    explicit State(std::unique_ptr<LogOutput> to)
+        : output(std::move(to))
+    {
+    }
+    void push(const QByteArray &line);
+    void tellDropped();
+    bool waitForLines(std::unique_lock<std::mutex> *lock);
+    void run();
+
+    std::unique_ptr<LogOutput> output;  // its end may take long, so the thread destroys it
+    mutable std::mutex mutex;
+    std::condition_variable changed;
+    std::deque<QByteArray> lines;
+    int bytes = 0;       // of lines, and of what is being written
+    quint64 untold = 0;  // dropped lines that no line has told yet
+    quint64 dropped = 0;
+    quint64 written = 0;
+    bool isEnding = false;
+    bool hasThread = false;  // set before anybody writes
+};
 
 /// Signals that a process may be sent go to the main thread. The stack is small: a program may lock
 /// all of its memory.
@@ -131,14 +158,6 @@ bool LogWriter::startThread(const std::shared_ptr<State> &state)
     return isStarted;
 }
 
-/// The journal takes each line as a message of its own.
-QByteArray LogWriter::State::linesOf(QtMsgType type, QByteArray text) const
-{
-    if (toJournal)
-        text = severityOf(type) + text.replace('\n', QByteArray(1, '\n') + severityOf(type));
-    return text + '\n';
-}
-
 void LogWriter::State::push(const QByteArray &line)
 {
     bytes += line.size();
@@ -147,33 +166,58 @@ void LogWriter::State::push(const QByteArray &line)
 
 void LogWriter::State::tellDropped()
 {
-    push(linesOf(QtWarningMsg,
-                 "... " + QByteArray::number(untold) + " lines are missing here: the reader of this log was too slow"));
+    const QByteArray text = output->gapText(untold);
     untold = 0;
+    if (!text.isEmpty())
+        push(output->linesOf(QtWarningMsg, text));
+    changed.notify_all();
+}
+
+/// \return false: there are none, and the writer ends
+bool LogWriter::State::waitForLines(std::unique_lock<std::mutex> *lock)
+{
+    const auto hasWork = [this] { return !lines.empty() || untold > 0 || isEnding; };
+    while (!hasWork()) {
+        lock->unlock();
+        const int pause = output->rest();
+        lock->lock();
+        if (pause == 0)
+            changed.wait(*lock, hasWork);
+        else
+            changed.wait_for(*lock, std::chrono::milliseconds(pause), hasWork);
+    }
+    if (lines.empty() && untold > 0)
+        tellDropped();
+    return !lines.empty() || !isEnding;
 }
 
 void LogWriter::State::run()
 {
     leaveRealTime();
     std::unique_lock<std::mutex> lock(mutex);
-    while (true) {
-        changed.wait(lock, [this] { return !lines.empty() || untold > 0 || isEnding; });
-        if (lines.empty() && untold > 0)
-            tellDropped();
+    while (waitForLines(&lock)) {
         if (lines.empty())
-            return;
+            continue;
         const QByteArray line = lines.front();
         lines.pop_front();
         lock.unlock();
-        writeAll(descriptor, line);
+        output->write(line);
         lock.lock();
         bytes -= line.size();
+        ++written;
         changed.notify_all();
     }
+    lock.unlock();
+    output.reset();
 }
 
 LogWriter::LogWriter(int descriptor)
-    : d(std::make_shared<State>(descriptor))
+    : LogWriter(std::make_unique<DescriptorOutput>(descriptor))
+{
+}
+
+LogWriter::LogWriter(std::unique_ptr<LogOutput> output)
+    : d(std::make_shared<State>(std::move(output)))
 {
     d->hasThread = startThread(d);
 }
@@ -189,7 +233,7 @@ LogWriter::~LogWriter()
 void LogWriter::write(const QByteArray &line)
 {
     if (!d->hasThread) {
-        writeAll(d->descriptor, line);
+        d->output->write(line);
         return;
     }
     const std::lock_guard<std::mutex> lock(d->mutex);
@@ -206,7 +250,7 @@ void LogWriter::write(const QByteArray &line)
 
 void LogWriter::write(QtMsgType type, const QByteArray &text)
 {
-    write(d->linesOf(type, text));
+    write(d->output->linesOf(type, text));
 }
 
 bool LogWriter::flush(int milliseconds)
@@ -220,6 +264,12 @@ quint64 LogWriter::dropped() const
 {
     const std::lock_guard<std::mutex> lock(d->mutex);
     return d->dropped;
+}
+
+quint64 LogWriter::written() const
+{
+    const std::lock_guard<std::mutex> lock(d->mutex);
+    return d->written;
 }
 
 LogWriter &LogWriter::ofStandardError()

@@ -231,9 +231,13 @@ const QVector<Command> &commands()
          "",
          "Shows what has happened in the master.",
          "States, nodes, late answers, faults, values that were set, leases and overruns:\n"
-         "the last 1000 of them. --json prints an object for each line.",
-         {{"follow", "", "Goes on with what happens, until Ctrl-C."}},
+         "the last 1000 of them. --json prints an object for each line. --file needs no\n"
+         "master: it shows the events that one has written to FILE, and to the older files\n"
+         "FILE.1, FILE.2, ... The option --events of a master says where they are.",
+         {{"follow", "", "Goes on with what happens, until Ctrl-C."},
+          {"file", "FILE", "Reads the events of a master that has ended."}},
          {QStringLiteral("qtplc events"), QStringLiteral("qtplc events --follow"),
+          QStringLiteral("qtplc events --file /var/log/qtplc/awe_master-50000.jsonl"),
           QStringLiteral("qtplc events --json | jq -r 'select(.severity != \"info\").text'")},
          Command::NoArguments,
          0,

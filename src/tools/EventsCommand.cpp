@@ -2,8 +2,11 @@
 // events: what has happened in the master, and what happens.
 #include "Commands.h"
 #include "TerminalText.h"
+#include "node/statistics/EventFile.h"
+#include "protocol/messages/StoredEvent.h"
 
 #include <QtCore/QDateTime>
+#include <QtCore/QFile>
 
 namespace tools {
 
@@ -23,20 +26,40 @@ public:
     void print(const std::vector<messages::EventEntry> &events)
     {
         for (const messages::EventEntry &event : events)
-            m_sourceWidth = qBound(m_sourceWidth, displayWidth(printable(event.source)), longestSource);
+            makeRoomFor(event);
         for (const messages::EventEntry &event : events) {
-            if (event.sequence <= m_newest)
-                continue;
-            m_newest = event.sequence;
-            if (m_isJson)
-                printJson(QJsonDocument(messages::toObject(event)));
-            else
-                printLineOf(event);
+            if (event.sequence > m_newest)
+                printOne(event);
+        }
+    }
+    /// Prints all of them: several masters may have written them, one after the other.
+    void print(const std::vector<messages::StoredEvent> &events)
+    {
+        for (const messages::StoredEvent &event : events)
+            makeRoomFor(event);
+        for (const messages::StoredEvent &event : events) {
+            const bool isNewRun = std::exchange(m_run, event.run) != event.run;
+            if (!isNewRun && event.sequence > m_newest + 1 && !m_isJson)
+                printText(QStringLiteral("... %1 events are missing here\n").arg(event.sequence - m_newest - 1));
+            printOne(event);
         }
     }
     quint64 newest() const { return m_newest; }
 
 private:
+    void makeRoomFor(const messages::EventEntry &event)
+    {
+        m_sourceWidth = qBound(m_sourceWidth, displayWidth(printable(event.source)), longestSource);
+    }
+    template<typename Event>
+    void printOne(const Event &event)
+    {
+        m_newest = event.sequence;
+        if (m_isJson)
+            printJson(QJsonDocument(messages::toObject(event)));
+        else
+            printLineOf(event);
+    }
     void printLineOf(const messages::EventEntry &event) const
     {
         const QString gap = QStringLiteral("  ");
@@ -62,6 +85,7 @@ private:
     const bool m_isJson;
     int m_sourceWidth = 0;  // of the widest so far
     quint64 m_newest = 0;
+    quint64 m_run = 0;
 };
 
 /// Prints the events that the master still has. \return false, with the message out, when the
@@ -91,11 +115,52 @@ int follow(const CommandCall &call)
     return exitCode;
 }
 
+/// Prints the events of a file. \return false, with the message out, when it cannot be read, or has
+/// lines that are no events
+bool printFile(const QString &path, EventPrinter *printer)
+{
+    QFile file(path);
+    if (!file.open(QIODevice::ReadOnly)) {
+        QPlcCoreApplication::printError(QStringLiteral("cannot read %1: %2").arg(path, file.errorString()));
+        return false;
+    }
+    std::vector<messages::StoredEvent> events;
+    int unreadable = 0;
+    while (!file.atEnd()) {
+        messages::StoredEvent event;
+        if (event.fromLine(file.readLine()))
+            events.push_back(event);
+        else
+            ++unreadable;
+    }
+    printer->print(events);
+    if (unreadable > 0)
+        QPlcCoreApplication::printError(QStringLiteral("%1: %2 lines are not events").arg(path).arg(unreadable));
+    return unreadable == 0;
+}
+
+/// The oldest file first.
+int showStored(const QString &path, bool isJson)
+{
+    EventPrinter printer(isJson);
+    bool isReadable = true;
+    for (int number = qplc::EventFile::mostFiles - 1; number >= 0; --number) {
+        const QString each = qplc::EventFile::numbered(path, number);
+        if (number == 0 || QFile::exists(each))
+            isReadable = printFile(each, &printer) && isReadable;
+    }
+    return isReadable ? QPlcCoreApplication::Success : QPlcCoreApplication::Failure;
+}
+
 }  // namespace
 
 int showEvents(const CommandCall &call)
 {
     const bool isFollowing = call.application.isSet(QStringLiteral("follow"));
+    if (call.application.isSet(QStringLiteral("file")))
+        return isFollowing
+            ? call.application.usageError(QStringLiteral("--follow needs a master, and --file none; use tail -F FILE"))
+            : showStored(call.application.value(QStringLiteral("file")), call.isJson());
     EventPrinter printer(call.isJson());
     if (isFollowing) {
         call.client.control().offer(messages::feature::events);

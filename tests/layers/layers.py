@@ -42,7 +42,7 @@ ARROWS = {
     "gui/window": {"signals", "node", "node/state", "node/session", "gui", "gui/plant", "gui/models", "gui/panel", "gui/layout", "gui/window"},
     "gui3d": {"signals", "node", "gui", "gui/panel", "gui3d"},
     "test_support": BELOW_NODE | {"node", "test_support"},
-    "tools": BELOW_NODE | {"node", "node/state", "node/security", "node/cycle", "node/session", "tools"},
+    "tools": BELOW_NODE | {"node", "node/state", "node/security", "node/cycle", "node/statistics", "node/session", "tools"},
 }
 # Room with a library of its own: folder of its list of headers, and its umbrella header. All others belong to QtPlc::Core.
 LIBRARIES = {"hardware": ("src/hardware", "QtPlcHardware"), "gui": ("src/gui", "QtPlcGui"), "gui3d": ("src/gui3d", "QtPlcGui3D"), "test_support": ("src/test_support", "QtPlcTest"), "test": ("src/test_support", "QtPlcTest")}

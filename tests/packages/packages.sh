@@ -92,7 +92,7 @@ inside /tmp/winch/build/winch --help | grep -q -- --master || fail "the program 
 [ ! -e "$root/usr/include/QtPlc/QPlcHardwareNode.h" ] || inside qtplc_hardware --drivers > /dev/null || fail "qtplc_hardware fails"
 
 # A service has made these by now.
-install --directory "$root/var/lib/qtplc" "$root/etc/qtplc"
+install --directory "$root/var/lib/qtplc" "$root/var/log/qtplc" "$root/etc/qtplc"
 echo key > "$root/etc/qtplc/keys.ini"
 apt "Purge the packages" purge $(cd "$packages" && for package in *.deb; do echo "${package%%_*}"; done)
 inventory > "$root/tmp/after"

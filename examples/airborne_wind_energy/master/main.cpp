@@ -71,6 +71,7 @@ void addMasterOptions(QPlcCoreApplication &application)
                            QStringLiteral("SPEED"), QStringLiteral("0")));
     application.addProfileOption();
     application.addManifestOption();
+    application.addEventOption();
     application.addOption(QCommandLineOption(
         QStringLiteral("initialization-timeout"),
         QStringLiteral("Longest wait for each answer of a node while it is initialized or started [s]."),
@@ -175,6 +176,7 @@ int main(int argc, char **argv)
     QPlcMasterNode master;
     master.setRealTimeOptions(settings.realTime);
     master.setProfile(settings.profile);
+    application.readEventOption(&master);
     if (!settings.manifest.isEmpty())
         master.setManifest(settings.manifest);
     master.setInitializationTimeout(std::chrono::milliseconds(qRound64(settings.initializationTimeout * 1e3)));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "QPlcApplicationOptions.h"
 
+#include "QPlcMasterNode.h"
 #include "realtime/LogWriter.h"
 #include "signals/MessageText.h"
 #include "transport/FaultPlan.h"
@@ -320,6 +321,22 @@ bool QPlcApplicationOptions::readManifest(QPlcManifest *manifest)
     if (!errors.isEmpty())
         usageError(QPlcParseError::toString(errors));
     return errors.isEmpty();
+}
+
+void QPlcApplicationOptions::addEventOption()
+{
+    addOption(QCommandLineOption(
+        QStringLiteral("events"),
+        QStringLiteral("File to which the master appends its events, or none. Without it: a file for a master with "
+                       "--security or of the profile plant, in /var/log/qtplc or ~/.local/state/qtplc."),
+        QStringLiteral("FILE")));
+}
+
+void QPlcApplicationOptions::readEventOption(QPlcMasterNode *master) const
+{
+    const QString file = value(QStringLiteral("events"));
+    if (isSet(QStringLiteral("events")))
+        master->setEventFile(file == QLatin1String("none") ? QString() : file);
 }
 
 void QPlcApplicationOptions::addFaultOptions()

@@ -195,6 +195,16 @@ QString QPlcMasterNode::profileReason() const
     return d->profile().reason;
 }
 
+void QPlcMasterNode::setEventFile(const QString &fileName)
+{
+    d->eventKeeper.setFile(fileName);
+}
+
+QString QPlcMasterNode::eventFile() const
+{
+    return d->eventKeeper.file();
+}
+
 bool QPlcMasterNode::setManifest(const QPlcManifest &manifest)
 {
     if (serverPort() != 0 || (d->parts && !d->parts->registry.nodes().empty()))

@@ -97,6 +97,21 @@ std::chrono::nanoseconds usualWatchdog(const QPlcMasterNodePrivate &master)
                                               defaults.watchdogPeriods * master.phaseSettings.interval);
 }
 
+/// Where the events of a plant go that has people or machines to answer for. A simulator has no
+/// disk.
+std::optional<qplc::EventFile::Place> usualEventFile(const QPlcMasterNodePrivate &master)
+{
+    const bool isInUse = master.parts && (master.parts->server.port() != 0 || master.parts->isPhaseUnderWay());
+    const bool isStrict = !master.serverSettings.security.isNone() || master.profile().value == QPlcProfile::Plant;
+    if (!isInUse || !isStrict || !qplc::Host::current().hasKernelTimers())
+        return std::nullopt;
+    const qplc::ServerSettings &settings = master.serverSettings;
+    QString name = settings.localName.isEmpty() ? QCoreApplication::applicationName() : settings.localName;
+    if (settings.localName.isEmpty() && settings.port != 0)
+        name += QStringLiteral("-%1").arg(settings.port);
+    return qplc::EventFile::usualPlace(name.isEmpty() ? NodeRegistry::masterName() : name);
+}
+
 }  // namespace
 
 QPlcMasterNodePrivate::QPlcMasterNodePrivate(QPlcMasterNode *master)
@@ -105,6 +120,12 @@ QPlcMasterNodePrivate::QPlcMasterNodePrivate(QPlcMasterNode *master)
     , session(newSession())
     , uuid(qplc::newUuid())
     , needed(nodes, [this] { return usualWatchdog(*this); })
+    , eventKeeper(journal,
+                  {session, [this] { return usualEventFile(*this); },
+                   [this] {
+                       return parts && parts->phase.isRunning() ? std::make_optional(parts->phase.cycle())
+                                                                : std::nullopt;
+                   }})
 {
 }
 
@@ -227,6 +248,7 @@ bool QPlcMasterNodePrivate::startServer(const QPlcUnderlyingProtocol &protocol)
         apply(Event::ServerFailed, errorString);
         return false;
     }
+    serverSettings.port = protocol.port();
     const QHostAddress address = serverSettings.allowedAddress(protocol.address());
     networkSecurity = serverSettings.securityName(address);
     qplc::MasterServer &server = parts->server;
@@ -251,6 +273,7 @@ bool QPlcMasterNodePrivate::startServer(const QPlcUnderlyingProtocol &protocol)
                  serverSettings.hasBeacon);
     qCInfo(lcMaster).noquote() << "listening on" << address.toString() << "port" << server.port() << "security"
                                << serverSettings.security.modeName();
+    eventKeeper.keep();
     return succeed();
 }
 

@@ -13,6 +13,7 @@
 #include "node/session/ServerSettings.h"
 #include "node/session/StartSequence.h"
 #include "node/session/StopSequence.h"
+#include "node/statistics/EventKeeper.h"
 
 #include <QtCore/QTimer>
 
@@ -108,6 +109,7 @@ public:
     qplc::NeededNodes needed;
     qplc::Evictions evictions;
     std::unique_ptr<Parts> parts;  // null: there is no table yet
+    qplc::EventKeeper eventKeeper;
 
 private:
     using Connection = qplc::MasterConnection;

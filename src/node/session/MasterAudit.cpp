@@ -23,13 +23,13 @@ QString signalsText(const QPlcMessage &command)
 MasterAudit::MasterAudit(const MasterServer &server, Journal &journal, const RealTimePhase &phase)
 {
     connect(&server, &MasterServer::authenticated, this, [&](const MasterConnection *connection) {
-        journal.tell(JournalEvent::Info, JournalEvent::Security, connection->peer.identity,
-                     QStringLiteral("accepted identity '%1' with role %2 from %3%4")
-                         .arg(printable(connection->peer.identity), roleName(connection->peer.role),
-                              connection->socket->peerName(), phase.cycleText()));
+        journal.accepted(connection->peer.identity, connection->socket->peerName(),
+                         QStringLiteral("accepted identity '%1' with role %2 from %3%4")
+                             .arg(printable(connection->peer.identity), roleName(connection->peer.role),
+                                  connection->socket->peerName(), phase.cycleText()));
     });
     connect(&server, &MasterServer::denied, this, [&](const MasterConnection *connection, const QString &reason) {
-        journal.denied(connection->peer.identity,
+        journal.denied(connection->peer.identity, connection->socket->peerName(),
                        QStringLiteral("%1 from %2").arg(reason, connection->socket->peerName()) + phase.cycleText());
     });
     connect(&server, &MasterServer::strangerRefused, this,
@@ -38,7 +38,7 @@ MasterAudit::MasterAudit(const MasterServer &server, Journal &journal, const Rea
             });
     connect(&server, &MasterServer::commanded, this,
             [&](const MasterConnection *connection, const QPlcMessage &message) {
-                journal.commanded(connection->peer.identity, message.kindName(),
+                journal.commanded(connection->peer.identity, connection->socket->peerName(), message.kindName(),
                                   QStringLiteral("%1 from %2%3")
                                       .arg(signalsText(message), connection->socket->peerName(), phase.cycleText()));
             });

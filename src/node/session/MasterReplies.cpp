@@ -115,19 +115,8 @@ messages::State stateReply(const QPlcMasterNode &master, const ChosenProfile &pr
 messages::Events eventReply(const std::vector<JournalEvent> &events)
 {
     messages::Events reply;
-    for (const JournalEvent &event : events) {
-        messages::EventEntry entry;
-        entry.sequence = event.sequence;
-        entry.time = quint64(event.time);
-        entry.severity = severityName(event.severity);
-        entry.kind = kindName(event.kind);
-        entry.source = event.source;
-        entry.text = event.text;
-        entry.alarm = event.alarm;
-        if (!event.alarm.isEmpty())
-            entry.active = event.isActive;
-        reply.events.push_back(entry);
-    }
+    for (const JournalEvent &event : events)
+        reply.events.push_back(toEntry(event));
     return reply;
 }
 

@@ -22,21 +22,24 @@ MasterViewers::MasterViewers(const MasterServer &server, Journal &journal, const
     connect(&settings, &MasterWrites::valueSet, this,
             [&](const QObject *owner, QPlcSignalIndex signal, const QPlcValue &former, const QPlcValue &value) {
                 const QPlcSignalDefinition &definition = table.at(signal);
-                journal.valueSet(nameOf(owner), definition.name, definition.textOf(former), definition.textOf(value));
+                const MasterConnection *const by = connectionOf(owner);
+                journal.valueSet(by ? by->shownName() : NodeRegistry::masterName(),
+                                 by ? by->socket->peerName() : QString(), definition.name, definition.textOf(former),
+                                 definition.textOf(value));
             });
     connect(&settings, &MasterWrites::valueCameBack, this, [&](QPlcSignalIndex signal, const QPlcValue &value) {
         journal.valueCameBack(table.at(signal).name, table.at(signal).textOf(value));
     });
 }
 
-/// Who is at the other end of a connection; without one: the master.
-QString MasterViewers::nameOf(const QObject *socket) const
+/// Null: that of none, the program of the master.
+const MasterConnection *MasterViewers::connectionOf(const QObject *socket) const
 {
     for (const std::unique_ptr<MasterConnection> &connection : m_server.connections()) {
         if (connection->socket == socket)
-            return connection->shownName();
+            return connection.get();
     }
-    return NodeRegistry::masterName();
+    return nullptr;
 }
 
 }  // namespace qplc

@@ -17,7 +17,7 @@ public:
                   const MasterLeases &leases, RealTimePhase &phase, const QPlcSignalTable &table);
 
 private:
-    QString nameOf(const QObject *socket) const;
+    const MasterConnection *connectionOf(const QObject *socket) const;
 
     const MasterServer &m_server;
     ViewerPushes m_pushes;

@@ -17,6 +17,7 @@ struct ServerSettings
     bool insecureNetworkAllowed = false;
     int maximumConnections = ConnectionGate::Limits().connections;
     QString localName;
+    quint16 port = 0;  // that was asked for; 0: a free one
     QHostAddress multicastGroup;
     QString faultPlan;
     bool hasBeacon = false;

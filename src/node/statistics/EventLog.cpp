@@ -41,13 +41,29 @@ QString kindName(JournalEvent::Kind kind)
     return {};
 }
 
-void EventLog::append(JournalEvent event, std::int64_t time)
+messages::EventEntry toEntry(const JournalEvent &event)
+{
+    messages::EventEntry entry;
+    entry.sequence = event.sequence;
+    entry.time = quint64(event.time);
+    entry.severity = severityName(event.severity);
+    entry.kind = kindName(event.kind);
+    entry.source = event.source;
+    entry.text = event.text;
+    entry.alarm = event.alarm;
+    if (!event.alarm.isEmpty())
+        entry.active = event.isActive;
+    return entry;
+}
+
+void EventLog::append(JournalEvent event, std::int64_t time, std::int64_t monotonic)
 {
     if (event.text.size() > LongestText)
         event.text = event.text.left(LongestText - 1) + QChar(0x2026);
     event.source.truncate(LongestSource);
     event.sequence = ++m_newest;
     event.time = time;
+    event.monotonic = monotonic;
     m_events.push_back(std::move(event));
     if (m_events.size() > Capacity)
         m_events.pop_front();

@@ -9,6 +9,10 @@
 
 namespace qplc {
 
+namespace messages {
+struct EventEntry;
+}
+
 /// What happened at a master, as people want to know it.
 struct JournalEvent
 {
@@ -21,15 +25,18 @@ struct JournalEvent
     QString text;
     QString alarm{};        // name of a condition that begins or ends with this; empty: it is over at once
     bool isActive = false;  // of an alarm: it begins
+    QString address{};      // of who did it; empty: nobody over a connection
     // given by EventLog
-    quint64 sequence = 0;   // from 1, without gaps
-    std::int64_t time = 0;  // [ns since 1970]
+    quint64 sequence = 0;        // from 1, without gaps
+    std::int64_t time = 0;       // [ns since 1970]
+    std::int64_t monotonic = 0;  // [ns]
 };
 
 /// "info", "warning", "error"
 QString severityName(JournalEvent::Severity severity);
 /// "state", "node", "late", "fault", "set", "lease", "overrun", "security", "quality"
 QString kindName(JournalEvent::Kind kind);
+messages::EventEntry toEntry(const JournalEvent &event);
 
 /// The newest events of a master; older ones are forgotten.
 class EventLog
@@ -40,7 +47,8 @@ public:
     static constexpr int LongestSource = 100;  // [characters] a name that somebody has sent
 
     /// \param time  of the wall clock [ns since 1970]
-    void append(JournalEvent event, std::int64_t time);
+    /// \param monotonic  of the clock that never steps [ns]
+    void append(JournalEvent event, std::int64_t time, std::int64_t monotonic = 0);
     /// Sequence number of the newest event; 0: there is none yet.
     quint64 newest() const { return m_newest; }
     /// The oldest \a most of those events that came after \a sequence and are still there.

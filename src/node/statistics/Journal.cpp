@@ -12,6 +12,14 @@ namespace qplc {
 
 namespace {
 
+JournalEvent eventOf(JournalEvent::Severity severity, const QString &identity, const QString &address,
+                     const QString &text)
+{
+    JournalEvent event{severity, JournalEvent::Security, identity, text};
+    event.address = address;
+    return event;
+}
+
 /// The thing that time stands still, or goes on.
 QString waiting()
 {
@@ -51,13 +59,18 @@ Journal::Journal()
 void Journal::append(const JournalEvent &event)
 {
     log(event);
-    m_events.append(event, wallClockNow());
+    m_events.append(event, wallClockNow(), monotonicNow());
     Q_EMIT appended();
 }
 
 void Journal::tell(JournalEvent::Severity severity, JournalEvent::Kind kind, const QString &source, const QString &text)
 {
     append({severity, kind, source, text});
+}
+
+void Journal::accepted(const QString &identity, const QString &address, const QString &text)
+{
+    append(eventOf(JournalEvent::Info, identity, address, text));
 }
 
 void Journal::raise(const QString &alarm, JournalEvent::Severity severity, JournalEvent::Kind kind,
@@ -100,10 +113,13 @@ void Journal::clear(const QString &alarm, const QString &text)
 
 void Journal::clearAll(const QString &text)
 {
-    while (!m_alarms.empty()) {
-        const QString alarm = m_alarms.begin()->first;
-        clear(alarm, QStringLiteral("%1: %2").arg(alarm, text));
+    QStringList over;
+    for (const auto &[name, alarm] : m_alarms) {
+        if (alarm.event.kind != JournalEvent::State)
+            over << name;
     }
+    for (const QString &alarm : qAsConst(over))
+        clear(alarm, QStringLiteral("%1: %2").arg(alarm, text));
 }
 
 void Journal::stateChanged(const QString &state, bool isTransient)
@@ -136,11 +152,14 @@ void Journal::answeredLate(const QString &node, std::uint64_t cycle)
                 {JournalEvent::Warning, JournalEvent::Late, node, QString::number(cycle)});
 }
 
-void Journal::valueSet(const QString &who, const QString &signal, const QString &former, const QString &value)
+void Journal::valueSet(const QString &who, const QString &address, const QString &signal, const QString &former,
+                       const QString &value)
 {
-    tellLimited(
-        QStringLiteral("set %1 %2").arg(signal, who), QStringLiteral("'%1' has set %2: %3").arg(who, signal, former),
-        {JournalEvent::Info, JournalEvent::Set, NodeRegistry::masterName(), QStringLiteral(" -> %1").arg(value)});
+    JournalEvent event{JournalEvent::Info, JournalEvent::Set, NodeRegistry::masterName(),
+                       QStringLiteral(" -> %1").arg(value)};
+    event.address = address;
+    tellLimited(QStringLiteral("set %1 %2").arg(signal, who),
+                QStringLiteral("'%1' has set %2: %3").arg(who, signal, former), event);
 }
 
 void Journal::becameSafe(const QStringList &values)
@@ -164,23 +183,24 @@ void Journal::valueCameBack(const QString &signal, const QString &value)
 
 // ---- security: strangers may do it as often as they like ----
 
-void Journal::denied(const QString &identity, const QString &text)
+void Journal::denied(const QString &identity, const QString &address, const QString &text)
 {
     tellLimited(QStringLiteral("denied ") + identity, QString(),
-                {JournalEvent::Warning, JournalEvent::Security, identity, text});
+                eventOf(JournalEvent::Warning, identity, address, text));
 }
 
-void Journal::commanded(const QString &identity, const QString &what, const QString &from)
+void Journal::commanded(const QString &identity, const QString &address, const QString &what, const QString &from)
 {
     tellLimited(QStringLiteral("commanded %1 %2").arg(identity, what),
                 QStringLiteral("identity '%1' commands %2").arg(identity, what),
-                {JournalEvent::Info, JournalEvent::Security, identity, from});
+                eventOf(JournalEvent::Info, identity, address, from));
 }
 
 void Journal::refused(const QString &name, const QString &address, const QString &reason)
 {
-    const JournalEvent event{JournalEvent::Warning, JournalEvent::Node, name,
-                             QStringLiteral("refused %1 %2").arg(address, reason)};
+    JournalEvent event{JournalEvent::Warning, JournalEvent::Node, name,
+                       QStringLiteral("refused %1 %2").arg(address, reason)};
+    event.address = address;
     if (m_refusals.take(monotonicNow()))
         append(event);
     else
@@ -190,8 +210,8 @@ void Journal::refused(const QString &name, const QString &address, const QString
 void Journal::strangerRefused(const QString &address, const QString &reason)
 {
     tellLimited(QStringLiteral("strangers"), QString(),
-                {JournalEvent::Warning, JournalEvent::Security, NodeRegistry::masterName(),
-                 QStringLiteral("refused %1: %2").arg(address, reason)});
+                eventOf(JournalEvent::Warning, NodeRegistry::masterName(), address,
+                        QStringLiteral("refused %1: %2").arg(address, reason)));
 }
 
 // ---- what may happen often ----

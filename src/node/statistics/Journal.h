@@ -39,7 +39,7 @@ public:
                const QString &text);
     /// Tells that it is over, and how long it lasted. Nothing is told of what was not raised.
     void clear(const QString &alarm, const QString &text);
-    /// All that lasts is over.
+    /// All that lasts is over, but for the troubles of the master itself (of the kind State).
     void clearAll(const QString &text);
     /// \param isTransient  time stands still, or goes on again: this may happen in every cycle
     void stateChanged(const QString &state, bool isTransient);
@@ -48,16 +48,19 @@ public:
     /// while it joins.
     void nodeLost(const QString &node, JournalEvent::Severity severity, const QString &reason);
     void nodeReturned(const QString &node);
-    void valueSet(const QString &who, const QString &signal, const QString &former, const QString &value);
+    void valueSet(const QString &who, const QString &address, const QString &signal, const QString &former,
+                  const QString &value);
     /// \param values  "tetherSpeed = 0"
     void becameSafe(const QStringList &values);
     /// A signal with several writers has its values from another one.
     void sourceChanged(const QString &signal, const QString &from, const QString &to);
+    /// Somebody has proven \a identity.
+    void accepted(const QString &identity, const QString &address, const QString &text);
     /// A message without the right to it. \param identity  proven; empty: nobody's
-    void denied(const QString &identity, const QString &text);
+    void denied(const QString &identity, const QString &address, const QString &text);
     /// Somebody with a right to it has commanded \a what. \param from where from, and what else
     /// differs from time to time
-    void commanded(const QString &identity, const QString &what, const QString &from);
+    void commanded(const QString &identity, const QString &address, const QString &what, const QString &from);
     /// Somebody whose greeting or registration was refused; anybody can be, again and again. \param
     /// name as he calls himself
     void refused(const QString &name, const QString &address, const QString &reason);
