@@ -7,12 +7,17 @@ PayloadLayout::PayloadLayout(const QPlcSignalTable &table, const QVector<QPlcSig
                              Qualities qualities)
 {
     m_fields.reserve(std::size_t(signalIndices.size()));
+    QPlcSignalType type;
+    QByteArray typeName;  // of type: many signals in a row have the same one
     for (const QPlcSignalIndex index : signalIndices) {
         const QPlcSignalDefinition &signal = table.at(index);
         m_fields.push_back({index, m_size, signal.type});
-        const QString text = signal.name + QLatin1Char(':') + signal.type.name() + QLatin1Char('@')
-            + QString::number(m_size) + QLatin1Char('\n');
-        m_hash = fnv1a64(text.toUtf8(), m_hash);
+        if (signal.type != type) {
+            type = signal.type;
+            typeName = type.name().toUtf8();
+        }
+        m_hash = fnv1a64(signal.name.toUtf8(), m_hash);
+        m_hash = fnv1a64(':' + typeName + '@' + QByteArray::number(m_size) + '\n', m_hash);
         m_size += quint32(signal.type.size());
     }
     m_valueSize = m_size;

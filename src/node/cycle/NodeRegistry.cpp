@@ -7,7 +7,6 @@
 #include "signals/MessageText.h"
 
 #include <QtCore/QMetaEnum>
-#include <QtCore/QSet>
 
 #include <algorithm>
 
@@ -101,7 +100,9 @@ NodeRegistry::NodeRegistry(const QPlcSignalTable &table)
 bool NodeRegistry::resolve(const QString &node, const std::vector<messages::DeclaredSignal> &declared,
                            QVector<QPlcSignalIndex> *indices, Refusal *refusal) const
 {
-    QSet<QPlcSignalIndex> seen;
+    std::vector<bool> seen(std::size_t(m_table.size()));
+    QPlcSignalType type;
+    QString typeName;  // of type: many signals in a row have the same one
     for (const messages::DeclaredSignal &signal : declared) {
         const QPlcSignalIndex index = m_table.indexOf(signal.name);
         if (index == QPlcInvalidSignalIndex) {
@@ -110,11 +111,15 @@ bool NodeRegistry::resolve(const QString &node, const std::vector<messages::Decl
             return false;
         }
         const QPlcSignalDefinition &definition = m_table.at(index);
-        if (definition.type.name() != signal.type) {
+        if (definition.type != type) {
+            type = definition.type;
+            typeName = type.name();
+        }
+        if (typeName != signal.type) {
             *refusal = {messages::errorWord::typeMismatch,
                         QStringLiteral(
                             "signal '%1' is %2 in the table of the master, %3 in that of node '%4'; use the same table")
-                            .arg(signal.name, definition.type.name(), signal.type, node)};
+                            .arg(signal.name, typeName, signal.type, node)};
             return false;
         }
         if (definition.unit != signal.unit) {
@@ -124,12 +129,12 @@ bool NodeRegistry::resolve(const QString &node, const std::vector<messages::Decl
                             .arg(signal.name, definition.unit, signal.unit, node)};
             return false;
         }
-        if (seen.contains(index)) {
+        if (seen[index]) {
             *refusal = {messages::errorWord::malformedMessage,
                         QStringLiteral("node '%1' declares signal '%2' twice; declare it once").arg(node, signal.name)};
             return false;
         }
-        seen.insert(index);
+        seen[index] = true;
         indices->append(index);
     }
     return true;
@@ -137,15 +142,20 @@ bool NodeRegistry::resolve(const QString &node, const std::vector<messages::Decl
 
 /// A node that loses the master becomes safe by its own table: with other parameters it would do
 /// what the plant does not expect.
-bool NodeRegistry::agreeOnSafety(const NodeDeclaration &declaration, Refusal *refusal) const
+bool NodeRegistry::agreeOnSafety(const NodeDeclaration &declaration, const QVector<QPlcSignalIndex> &inputs,
+                                 const QVector<QPlcSignalIndex> &outputs, Refusal *refusal) const
 {
     QStringList others;
-    for (const auto *direction : {&declaration.inputs, &declaration.outputs}) {
-        for (const messages::DeclaredSignal &signal : *direction) {
-            if (signal.safety && *signal.safety != m_table.safetyHash(m_table.indexOf(signal.name)))
-                others.append(QStringLiteral("'%1'").arg(signal.name));
-        }
-    }
+    const auto compare
+        = [&](const std::vector<messages::DeclaredSignal> &declared, const QVector<QPlcSignalIndex> &indices) {
+              for (std::size_t i = 0; i < declared.size(); ++i) {
+                  const messages::DeclaredSignal &signal = declared[i];
+                  if (signal.safety && *signal.safety != m_table.safetyHash(indices.at(int(i))))
+                      others.append(QStringLiteral("'%1'").arg(signal.name));
+              }
+          };
+    compare(declaration.inputs, inputs);
+    compare(declaration.outputs, outputs);
     others.removeDuplicates();
     if (!others.isEmpty())
         *refusal = {messages::errorWord::safetyMismatch,
@@ -185,7 +195,8 @@ std::shared_ptr<NodeSlot> NodeRegistry::admit(const NodeDeclaration &declaration
     QVector<QPlcSignalIndex> inputs;
     QVector<QPlcSignalIndex> outputs;
     if (!resolve(declaration.name, declaration.inputs, &inputs, refusal)
-        || !resolve(declaration.name, declaration.outputs, &outputs, refusal) || !agreeOnSafety(declaration, refusal))
+        || !resolve(declaration.name, declaration.outputs, &outputs, refusal)
+        || !agreeOnSafety(declaration, inputs, outputs, refusal))
         return nullptr;
     for (QPlcSignalIndex output : outputs) {
         if (!mayWrite(declaration.name, output, refusal))

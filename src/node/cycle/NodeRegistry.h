@@ -75,8 +75,9 @@ private:
     bool resolve(const QString &node, const std::vector<messages::DeclaredSignal> &declared,
                  QVector<QPlcSignalIndex> *indices, Refusal *refusal) const;
     /// Whether node and master have the same safety parameters of all declared signals. \pre they
-    /// are resolved
-    bool agreeOnSafety(const NodeDeclaration &declaration, Refusal *refusal) const;
+    /// are \a inputs and \a outputs
+    bool agreeOnSafety(const NodeDeclaration &declaration, const QVector<QPlcSignalIndex> &inputs,
+                       const QVector<QPlcSignalIndex> &outputs, Refusal *refusal) const;
     /// Whether \a slot would close a loop of same-cycle inputs, with the path in \a refusal.
     bool closesLoop(const std::shared_ptr<NodeSlot> &slot, Refusal *refusal) const;
     /// Whether the node \a name may write \a signal, with the reason in \a refusal.

@@ -13,6 +13,7 @@
 #include <QtCore/QTimer>
 
 #include <algorithm>
+#include <utility>
 
 namespace qplc {
 
@@ -160,7 +161,7 @@ void MasterServer::open(MasterConnection *connection, const messages::ClientHell
                    .arg(connection->name));
 }
 
-void MasterServer::open(MasterConnection *connection, const messages::Register &registration)
+void MasterServer::open(MasterConnection *connection, messages::Register registration)
 {
     if (connection->isNode()) {
         reject(connection, messages::errorWord::wrongState,
@@ -169,7 +170,8 @@ void MasterServer::open(MasterConnection *connection, const messages::Register &
     }
     const QString denial = refusalOf(connection->peer, registration);
     if (denial.isEmpty())
-        connection->nextStep = [this, connection, registration] { admit(connection, registration); };
+        connection->nextStep
+            = [this, connection, registered = std::move(registration)] { admit(connection, registered); };
     else
         deny(connection, denial, true);
 }

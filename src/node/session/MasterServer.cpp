@@ -478,7 +478,7 @@ void MasterServer::carryOut(MasterConnection *connection, const Message &message
         return;
     }
     QString fault;
-    const auto openFor = [&](const auto &opening) { open(connection, opening); };
+    const auto openFor = [&](auto &opening) { open(connection, std::move(opening)); };
     switch (messages::dispatch(messages::Openings(), message, openFor, &fault)) {
     case messages::Dispatch::Delivered:
         break;

@@ -101,7 +101,7 @@ private:
     void dropClosed(const QPlcSlaveSocket *socket);
     void receiveGarbage(MasterConnection *connection);
     void open(MasterConnection *connection, const messages::ClientHello &greeting);
-    void open(MasterConnection *connection, const messages::Register &registration);
+    void open(MasterConnection *connection, messages::Register registration);
     void open(MasterConnection *connection, const messages::AttachCyclicChannel &wish);
     void admit(MasterConnection *connection, const messages::Register &registration);
     void replace(const MasterConnection *newcomer, const QString &name);
