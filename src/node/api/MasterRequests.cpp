@@ -111,12 +111,12 @@ public:
     void operator()(const messages::Evict &wish) const
     {
         qplc::Refusal refusal;
-        finish(d.evict(wish.name, m_connection, &refusal), refusal);
+        finish(d.parts->evictions.evict(wish.name, m_connection, &refusal), refusal);
     }
     void operator()(const messages::Admit &wish) const
     {
         qplc::Refusal refusal;
-        finish(d.admit(wish.name, m_connection, &refusal), refusal);
+        finish(d.parts->evictions.admit(wish.name, m_connection, &refusal), refusal);
     }
 
     // ---- values from outside ----

@@ -229,13 +229,15 @@ QString QPlcMasterNode::missingNodes() const
 bool QPlcMasterNode::evict(const QString &name)
 {
     qplc::Refusal refusal;
-    return d->succeed() && (d->evict(name, nullptr, &refusal) || d->setError(NodeError, refusal.text));
+    return d->succeed() && d->prepare()
+        && (d->parts->evictions.evict(name, nullptr, &refusal) || d->setError(NodeError, refusal.text));
 }
 
 bool QPlcMasterNode::admit(const QString &name)
 {
     qplc::Refusal refusal;
-    return d->succeed() && (d->admit(name, nullptr, &refusal) || d->setError(NodeError, refusal.text));
+    return d->succeed() && d->prepare()
+        && (d->parts->evictions.admit(name, nullptr, &refusal) || d->setError(NodeError, refusal.text));
 }
 
 QStringList QPlcMasterNode::evictedNames() const

@@ -81,12 +81,6 @@ qplc::ProfileFacts factsOf(const QPlcMasterNodePrivate &master)
     return facts;
 }
 
-/// Who asks, for people. \param asker  null: the program of the master
-QString shownAsker(const qplc::MasterConnection *asker)
-{
-    return asker ? QStringLiteral("'%1'").arg(asker->shownName()) : QStringLiteral("the master");
-}
-
 /// Of a node that has set no watchdog, in the next phase; 0: watchdogs only report.
 std::chrono::nanoseconds usualWatchdog(const QPlcMasterNodePrivate &master)
 {
@@ -147,6 +141,7 @@ QPlcMasterNodePrivate::Parts::Parts(QPlcMasterNodePrivate &master)
     , faults(master, master.nodes, phase)
     , reports(master, cycle, registry, master.nodes, phase, faults, master.phaseSettings, master.journal)
     , audit(server, master.journal, phase)
+    , evictions(master.evictions, server, master.nodes, master.needed, master.journal, phase)
     , viewers(server, master.journal, settings, leases, phase, master.table)
     , values(cycle, registry, master.leaseBooks, ownSignals.statistics())
     , starts(master.phaseSettings, master.phaseProfile, phase, master.hub, master.session)
@@ -318,75 +313,6 @@ void QPlcMasterNodePrivate::removeLocalNode(QPlcSlaveNode *node)
     needed.forget(node->name());
     needed.tellFate(node->name(), QStringLiteral("was removed"));
     local->leave();
-}
-
-/// Why \a asker may not evict \a name; no error: it may.
-qplc::Refusal QPlcMasterNodePrivate::evictionRefusal(const QString &name, const Connection *asker) const
-{
-    namespace words = qplc::messages::errorWord;
-    QStringList others;
-    for (const auto &connection : parts->server.connections()) {
-        const bool isEngineer
-            = connection->peer.role == qplc::Role::Engineer && connection->peer.provenIdentity() == name;
-        if (connection->isOf(name) && connection.get() == asker)
-            return {words::denied, QStringLiteral("'%1' is you; somebody else has to evict you").arg(name)};
-        if (isEngineer && asker && asker->peer.role != qplc::Role::Engineer)
-            return {words::denied, QStringLiteral("Denied: only an Engineer may evict '%1'").arg(name)};
-        others << connection->name << connection->peer.provenIdentity();
-    }
-    for (const auto &node : nodes.all()) {
-        if (node->name() == name && node->object())
-            return {words::nodeError,
-                    QStringLiteral("node '%1' runs in the process of the master; stop the plant, or end the master")
-                        .arg(name)};
-    }
-    if (!name.isEmpty() && (others.contains(name) || needed.contains(name)))
-        return {};
-    others.removeDuplicates();
-    return {
-        words::nodeError,
-        QStringLiteral("nobody is connected as '%1'%2").arg(name, qplc::didYouMean(qplc::closeNames(name, others, 1)))};
-}
-
-bool QPlcMasterNodePrivate::evict(const QString &given, const Connection *asker, qplc::Refusal *refusal)
-{
-    const QString name = qplc::MasterServer::nameOf(given);
-    if (evictions.contains(name))
-        return true;
-    *refusal
-        = prepare() ? evictionRefusal(name, asker) : qplc::Refusal{qplc::messages::errorWord::nodeError, errorString};
-    if (!refusal->error.isEmpty())
-        return false;
-    const QString by = shownAsker(asker);
-    if (!evictions.add(name, by, asker ? asker->peer.role : qplc::Role::Engineer)) {
-        *refusal = {qplc::messages::errorWord::tooMuch,
-                    QStringLiteral("%1 names are evicted already; admit one of them, or start the master again")
-                        .arg(qplc::Evictions::Most)};
-        return false;
-    }
-    journal.tell(JournalEvent::Warning, JournalEvent::Security, name,
-                 QStringLiteral("'%1' is evicted by %2%3").arg(name, by, parts->phase.cycleText()));
-    parts->server.expel([&](const Connection *connection) {
-        return connection->isOf(name) ? evictions.refusalOf(name, connection->peer) : qplc::Refusal();
-    });
-    needed.tellFate(name, QStringLiteral("was evicted by %1: qtplc admit '%2'").arg(by, name));
-    return true;
-}
-
-bool QPlcMasterNodePrivate::admit(const QString &given, const Connection *asker, qplc::Refusal *refusal)
-{
-    const QString name = qplc::MasterServer::nameOf(given);
-    if (!evictions.remove(name)) {
-        *refusal = {qplc::messages::errorWord::nodeError,
-                    QStringLiteral("'%1' is not evicted%2")
-                        .arg(name, qplc::didYouMean(qplc::closeNames(name, evictions.names(), 1)))};
-        return false;
-    }
-    const QString by = shownAsker(asker);
-    journal.tell(JournalEvent::Warning, JournalEvent::Security, name,
-                 QStringLiteral("'%1' is admitted again by %2").arg(name, by));
-    needed.tellFate(name, QStringLiteral("was evicted, and has not registered since it was admitted again"));
-    return true;
 }
 
 void QPlcMasterNodePrivate::nodeAttached(Connection *connection)

@@ -7,6 +7,7 @@
 #include "node/session/InitializeSequence.h"
 #include "node/session/MasterAudit.h"
 #include "node/session/MasterBeacon.h"
+#include "node/session/MasterEvictions.h"
 #include "node/session/MasterReports.h"
 #include "node/session/MasterViewers.h"
 #include "node/session/NeededNodes.h"
@@ -30,9 +31,6 @@ public:
     bool startServer(const QPlcUnderlyingProtocol &protocol);
     bool addLocalNode(QPlcSlaveNode *node);
     void removeLocalNode(QPlcSlaveNode *node);
-    /// \param asker  null: the program of the master
-    bool evict(const QString &name, const qplc::MasterConnection *asker, qplc::Refusal *refusal);
-    bool admit(const QString &name, const qplc::MasterConnection *asker, qplc::Refusal *refusal);
 
     bool initializeAllStates();
     /// \param cycles  to compute; 0: as the cycle limit says
@@ -75,6 +73,7 @@ public:
         qplc::MasterFaults faults;
         qplc::MasterReports reports;
         qplc::MasterAudit audit;
+        qplc::MasterEvictions evictions;
         qplc::MasterViewers viewers;
         qplc::InitialValues values;
         qplc::StartMessages starts;
@@ -118,7 +117,6 @@ private:
     void connectParts();
     void startInitialized();
     void announce(const qplc::messages::StatesInitialized &news) override;
-    qplc::Refusal evictionRefusal(const QString &name, const Connection *asker) const;
     void nodeAttached(Connection *connection);
     void nodeLost(Connection *connection, const QString &reason);
     void receive(Connection *connection, const QPlcMessage &message);
