@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ControlFrame.h"
 
-#include "JsonNames.h"
 #include "LittleEndian.h"
+#include "signals/JsonNames.h"
 
 #include <QtCore/QJsonDocument>
 

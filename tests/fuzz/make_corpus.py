@@ -58,6 +58,30 @@ def manifests():
     return files
 
 
+# ---- files with keys and with rights: the text as it is ---------------------------------------------------------------
+
+KEY = "".join(f"{byte:02x}" for byte in range(32))
+KEY_FILES = {
+    "keys": f"; of the plant\n[Winch]\nkey = {KEY}\nrole = Node\n[anna]\nkey = {KEY[::-1]}\nrole = Operator\n",
+    "keys and crlf": f"\ufeff[a.b-1_]\r\nrole = Engineer\r\nkey = {KEY.upper()}\r\n",
+    "short key": f"[Winch]\nkey = {KEY[:62]}\nrole = Node\n",
+    "no key": "[Winch]\nrole = Node\n",
+    "key as a role": f"[Winch]\nkey = {KEY}\nrole = {KEY[1:]}\n",
+    "twice": f"[Winch]\nkey = {KEY}\nrole = Node\n[Winch]\nkey = {KEY}\nkey = {KEY}\n",
+    "rights": "[Winch]\nrole = Node\nwrites = tetherLength, tether*, [a-z]?, *\n[anna]\nrole = Observer\n",
+    "rights of nothing": "[Winch]\nrole = Node\nwrites =\n",
+    "many stars": "[Winch]\nrole = Node\nwrites = " + "*a" * 60 + "\n",
+    "everything wrong": "key = 1\n[-x]\n[]\n[a\nrole = King\ncolour = red\n",
+}
+
+
+# ---- beacons: the datagram as it is ---------------------------------------------------------------------------------
+
+def beacons():
+    rows = vectors("beacons")
+    return {row["name"]: bytes.fromhex(row["hex"]) for row in rows["good"] + rows["bad"]}
+
+
 # ---- control frames: the stream as it is ----------------------------------------------------------------------------
 
 def control_frames():
@@ -209,6 +233,62 @@ def local_links():
     }
 
 
+# ---- shared memory: what the other end writes, and what this one does meanwhile -------------------------------------------
+
+def shared_memory():
+    poke = lambda offset, value, head=1: struct.pack("<BBII", 0, head, offset, value)
+    knock = lambda offset, value: struct.pack("<BBII", 1, 1, offset, value)
+    pop, ring = b"\x02", b"\x04"
+    push = lambda data: struct.pack("<BH", 3, len(data)) + data
+    want = lambda count: bytes((5, count))
+    return {
+        "frames": (push(b"question") + pop) * 3,
+        "full": push(bytes(2047)) * 33 + pop * 34,
+        "tail far away": poke(64, 0xffffffff) + pop + push(b"next") + pop,
+        "tail in front of the head": push(b"question") + poke(0, 100) + pop + push(b"next"),
+        "head far away": poke(0, 0x80000000) + push(b"question") + pop,
+        "long block": push(b"question") + poke(128, 0xffffffff) + pop + pop,
+        "block beyond the end": poke(64, 65540) + poke(0, 65530) + pop + poke(65650, 0x7fffffff, 0) + pop,
+        "block of nothing": push(b"question") + poke(128, 0) + pop,
+        "bell": want(2) + ring + ring + want(1) + ring,
+        "bell of a stranger": want(2) + knock(0, 0xffffffff) + ring + knock(4, 0x80000000) + ring + knock(8, 7) + want(0) + ring,
+    }
+
+
+# ---- layouts: the text as it is ---------------------------------------------------------------------------------------
+
+def layouts():
+    def panel(name, share=1, **more):
+        return dict(id=name, type="Gauge", settings={}, share=share, **more)
+
+    def split(orientation, *children, share=1):
+        return dict(share=share, split=orientation, children=list(children))
+
+    def layout(tree, **more):
+        return dict(dict(format="QtPLC layout", version=1, currentTab="a", windows=[], tabs=[dict(id="a", name="A", tree=tree)]), **more)
+
+    window = dict(id="w", geometry=dict(x=1, y=-2, width=300, height=200), tree=panel("q"),
+                  home=dict(tab="a", first="p", last="p", side="below", share=0.3333))
+    deep = panel("p")
+    for level in range(40):
+        deep = split("horizontal" if level % 2 else "vertical", panel(f"p{level}", 0.5), dict(deep, share=0.5))
+    files = {
+        "one panel": layout(panel("p")),
+        "a split": layout(split("horizontal", panel("p", 0.25), panel("q", 0.75))),
+        "other keys": layout(panel("p", later=[1, 2.5, None]), later=9007199254740991),
+        "a window": layout(panel("p"), windows=[window]),
+        "maximized": layout(panel("p"), tabs=[dict(id="a", name="A", maximized="p", tree=panel("p"))]),
+        "an empty tab": layout(panel("p"), tabs=[dict(id="a", name="A")]),
+        "deep": layout(deep),
+        "the same panel twice": layout(split("vertical", panel("p"), panel("p"))),
+        "odd shares": layout(split("vertical", panel("p", 1e308), panel("q", -1), panel("r", 0), panel("s", "x"))),
+        "a newer version": layout(panel("p"), version=2),
+        "no tabs": layout(panel("p"), tabs=[]),
+    }
+    return dict({name: json.dumps(value, indent=1).encode() for name, value in files.items()},
+                **{"no json": b"{\"format\": \"QtPLC layout\"", "an array": b"[1, 2]", "text": "\u00e4".encode("latin-1")})
+
+
 # ---- sentences of NMEA 0183: what comes from a serial line ------------------------------------------------------------
 
 def sentence(body):
@@ -272,6 +352,11 @@ MANIFEST_WORDS = ["profile", "need", "transport", "watchdog", "identity", "criti
                   "udp-multicast", "inprocess", "Master", " ms", " h", " = ", " ; "]
 
 
+RIGHTS_WORDS = ["key", "role", "writes", "Observer", "Operator", "Node", "Engineer", "tether*", "[a-z]", " = ", " ; ", KEY]
+LAYOUT_WORDS = ["format", "QtPLC layout", "version", "currentTab", "tabs", "windows", "id", "name", "tree", "type", "settings", "share", "split", "children", "horizontal",
+                "vertical", "geometry", "width", "height", "home", "first", "last", "side", "below", "above", "left", "right", "maximized", "1e308", "null", "{}", "[]"]
+
+
 def texts_of(value):
     """Names and short texts of a JSON value."""
     if isinstance(value, dict):
@@ -288,7 +373,8 @@ def dictionary(words):
 
 def dictionaries():
     fields = set().union(*(texts_of(row["fields"]) for row in vectors("control_frames")["good"]))
-    return {"keys.dict": dictionary(KEYS), "dbc.dict": dictionary(DBC_WORDS), "manifest.dict": dictionary(MANIFEST_WORDS), "fields.dict": dictionary(sorted(word for word in fields if word.isascii()))}
+    return {"keys.dict": dictionary(KEYS), "dbc.dict": dictionary(DBC_WORDS), "manifest.dict": dictionary(MANIFEST_WORDS),
+            "rights.dict": dictionary(RIGHTS_WORDS), "layout.dict": dictionary(LAYOUT_WORDS), "fields.dict": dictionary(sorted(word for word in fields if word.isascii()))}
 
 
 # ---- files ----------------------------------------------------------------------------------------------------------
@@ -298,7 +384,9 @@ def main():
         sys.exit(__doc__)
     wanted = {HERE / name: data for name, data in dictionaries().items()}
     for folder, files in (("signal_table", signal_tables()), ("manifest", manifests()), ("control_frames", control_frames()), ("cyclic_frames", cyclic_frames()),
-                          ("session", sessions()), ("local_link", local_links()), ("dbc_file", dbc_files()), ("nmea", nmea())):
+                          ("session", sessions()), ("local_link", local_links()), ("dbc_file", dbc_files()), ("nmea", nmea()),
+                          ("key_file", {name: text.encode() for name, text in KEY_FILES.items()}), ("beacon", beacons()), ("shared_memory", shared_memory()),
+                          ("layout", layouts())):
         for name, data in files.items():
             path = HERE / "corpus" / folder / file_name(name)
             assert path not in wanted, f"two inputs are called {path}"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "protocol/ControlFrame.h"
-#include "protocol/JsonNames.h"
+#include "signals/JsonNames.h"
 
 #include "Vectors.h"
 

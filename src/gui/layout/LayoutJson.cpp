@@ -3,6 +3,7 @@
 
 #include "LayoutReader.h"
 #include "gui/WindowText.h"
+#include "signals/JsonNames.h"
 
 #include <QtCore/QFile>
 #include <QtCore/QJsonArray>
@@ -129,6 +130,14 @@ QByteArray layoutToJson(const Layout &layout)
 
 std::optional<Layout> layoutFromJson(const QByteArray &text, QPlcParseError *error)
 {
+    if (const std::optional<QString> name = doubledJsonName(text)) {
+        QPlcParseError doubled;
+        doubled.message
+            = WindowText::tr("an object has the name \"%1\" twice; remove one of them, or choose another layout")
+                  .arg(*name);
+        setError(error, doubled);
+        return {};
+    }
     QJsonParseError json;
     const QJsonDocument document = QJsonDocument::fromJson(text, &json);
     if (json.error != QJsonParseError::NoError) {

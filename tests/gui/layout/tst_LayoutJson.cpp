@@ -164,6 +164,8 @@ void tst_LayoutJson::badTextIsRefusedWithPlaceAndRemedy_data()
     row("empty", "", "1:1: this is not JSON");
     row("cut", WithOtherKeys.left(60), "this is not JSON");
     row("syntax", with(WithOtherKeys, "\"currentTab\":", "\"currentTab\""), "2:19: this is not JSON");
+    row("name there twice", with(WithOtherKeys, "\"share\": 0.25", "\"share\": 0.25, \"share\": [0.5]"),
+        "an object has the name \"share\" twice; remove one of them, or choose another");
     row("array", "[]", "format must be \"QtPLC layout\", and is missing: this is not a layout; choose another file");
     row("other format", with(WithOtherKeys, "QtPLC layout", "something"), "and is \"something\"");
     row("newer", with(WithOtherKeys, "\"version\": 1", "\"version\": 2"),
