@@ -8,6 +8,8 @@
 #include <QtCore/QLoggingCategory>
 
 #include <cstdio>
+#include <limits>
+#include <optional>
 
 namespace {
 
@@ -63,6 +65,19 @@ QCommandLineOption option(const char *name, const QString &description, const ch
     return QCommandLineOption(QString::fromLatin1(name), description, QString::fromLatin1(valueName), value);
 }
 
+/// A whole number that an option has to have. \return nothing: it is none, or too small
+std::optional<quint64> number(const QCommandLineParser &parser, const char *name, quint64 least)
+{
+    const QString text = parser.value(QString::fromLatin1(name));
+    bool isNumber = false;
+    const quint64 value = text.toULongLong(&isNumber);
+    if (isNumber && value >= least && value <= quint64(std::numeric_limits<int>::max()))
+        return value;
+    std::fprintf(stderr, "qtplc_simulate: '--%s %s': use a whole number from %llu to %d\n", name, qPrintable(text),
+                 qulonglong(least), std::numeric_limits<int>::max());
+    return std::nullopt;
+}
+
 }  // namespace
 
 int main(int argc, char **argv)
@@ -70,7 +85,8 @@ int main(int argc, char **argv)
     const QCoreApplication application(argc, argv);
     QCommandLineParser parser;
     parser.setApplicationDescription(
-        QStringLiteral("Runs a simulated plant with random faults. Exit code 1: a gate does not hold."));
+        QStringLiteral("Runs a simulated plant with random faults. Exit code 1: a gate does not hold; 2: an option is "
+                       "wrong."));
     parser.addHelpOption();
     parser.addOptions(
         {option("seed", QStringLiteral("First seed (1)."), "N", QStringLiteral("1")),
@@ -89,20 +105,22 @@ int main(int argc, char **argv)
     }
     if (!parser.isSet(QStringLiteral("log")))
         QLoggingCategory::setFilterRules(QStringLiteral("*=false"));
+    const std::optional<quint64> seconds = number(parser, "seconds", 1);
+    const std::optional<quint64> first = number(parser, "seed", 0);
+    const std::optional<quint64> count = number(parser, "seeds", 1);
     Options options;
-    options.seconds = parser.value(QStringLiteral("seconds")).toInt();
     options.isVerbose = parser.isSet(QStringLiteral("report"));
     options.scenario = soak::Scenario::named(parser.value(QStringLiteral("scenario")));
-    if (!options.scenario || options.seconds < 1) {
-        std::fprintf(stderr, "use --scenario %s, and --seconds 1 or more\n",
-                     qPrintable(names().join(QStringLiteral("|"))));
+    if (!options.scenario)
+        std::fprintf(stderr, "qtplc_simulate: use --scenario %s\n", qPrintable(names().join(QStringLiteral("|"))));
+    if (!parser.positionalArguments().isEmpty())
+        std::fprintf(stderr, "qtplc_simulate: '%s' is no option\n", qPrintable(parser.positionalArguments().first()));
+    if (!seconds || !first || !count || !options.scenario || !parser.positionalArguments().isEmpty())
         return 2;
-    }
-    const quint64 first = parser.value(QStringLiteral("seed")).toULongLong();
-    const quint64 count = parser.value(QStringLiteral("seeds")).toULongLong();
+    options.seconds = int(*seconds);
     quint64 failed = 0;
-    for (quint64 seed = first; seed < first + count; ++seed)
+    for (quint64 seed = *first; seed < *first + *count; ++seed)
         failed += simulate(seed, options) ? 0 : 1;
-    std::printf("%llu of %llu seeds fail\n", qulonglong(failed), qulonglong(count));
+    std::printf("%llu of %llu seeds fail\n", qulonglong(failed), qulonglong(*count));
     return failed == 0 ? 0 : 1;
 }

@@ -23,6 +23,11 @@ SimulatedRun runOf(const char *scenario, quint64 seed)
     return run(scenarioNamed(scenario), Seconds, seed, planOf(scenarioNamed(scenario), Seconds, seed));
 }
 
+QString simulateProgram()
+{
+    return QCoreApplication::applicationDirPath() + QStringLiteral("/qtplc_simulate");
+}
+
 }  // namespace
 
 class tst_SimulatedSoak : public QObject
@@ -40,6 +45,8 @@ private Q_SLOTS:
     void faultsBeginWhenAllNodesCompute();
     void processGatesAreNotJudged();
     void shrinkingKeepsTheFaultsThatMatter();
+    void typingErrorsAreRefused_data();
+    void typingErrorsAreRefused();
 };
 
 void tst_SimulatedSoak::allGatesPass_data()
@@ -59,7 +66,6 @@ void tst_SimulatedSoak::allGatesPass()
 
 void tst_SimulatedSoak::sameSeedGivesSameTrafficInOtherProcess()
 {
-    const QString program = QCoreApplication::applicationDirPath() + QStringLiteral("/qtplc_simulate");
     QSet<QByteArray> digests;
     for (const char *hashSeed : {"4711", "815"}) {
         QProcess other;
@@ -67,7 +73,7 @@ void tst_SimulatedSoak::sameSeedGivesSameTrafficInOtherProcess()
         environment.insert(QStringLiteral("QT_HASH_SEED"), QString::fromLatin1(hashSeed));
         environment.insert(QStringLiteral("MALLOC_MMAP_THRESHOLD_"), QString::fromLatin1(hashSeed));  // other addresses
         other.setProcessEnvironment(environment);
-        other.start(program,
+        other.start(simulateProgram(),
                     {QStringLiteral("--scenario"), QStringLiteral("storm"), QStringLiteral("--seed"),
                      QStringLiteral("7"), QStringLiteral("--seconds"), QStringLiteral("20"),
                      QStringLiteral("--report")});
@@ -161,6 +167,24 @@ void tst_SimulatedSoak::shrinkingKeepsTheFaultsThatMatter()
         return std::count_if(shorter.begin(), shorter.end(), [](const Fault &fault) { return fault.amount < 0; }) == 2;
     });
     QCOMPARE(shortest.size(), std::size_t(2));
+}
+
+/// They must not look like a run without violations.
+void tst_SimulatedSoak::typingErrorsAreRefused_data()
+{
+    QTest::addColumn<QStringList>("arguments");
+    for (const char *arguments : {"--seeds 0", "--seeds -1", "--seed abc", "--seconds 1.5", "--scenario nobody", "7"})
+        QTest::newRow(arguments) << QString::fromLatin1(arguments).split(QLatin1Char(' '));
+}
+
+void tst_SimulatedSoak::typingErrorsAreRefused()
+{
+    QFETCH(QStringList, arguments);
+    QProcess simulate;
+    simulate.start(simulateProgram(), arguments);
+    QVERIFY(simulate.waitForFinished(60'000));
+    QCOMPARE(simulate.exitCode(), 2);
+    QVERIFY(!simulate.readAllStandardError().isEmpty());
 }
 
 QTEST_GUILESS_MAIN(tst_SimulatedSoak)
