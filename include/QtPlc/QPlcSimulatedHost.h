@@ -38,6 +38,9 @@ class SimulatedHost;
 /// host, with its clocks, its network and its random numbers. Functions that only return a value
 /// may be called from outside.
 ///
+/// As a process does, each program begins without a signal table of its own and without security:
+/// QPlcSignalIndexTable::current() and QPlcSecurity::current() are those of the program.
+///
 /// \threadsafe no: call all functions in the thread in which QPlcSimulator::run() calls the
 ///     scenario
 ///

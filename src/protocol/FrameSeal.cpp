@@ -43,11 +43,12 @@ SealKey::~SealKey()
     sodium_memzero(m_bytes.data(), Size);
 }
 
-SealKey SealKey::random()
+SealKey SealKey::make(const std::function<std::uint64_t()> &random)
 {
     prepareSodium();
     char bytes[Size];
-    randombytes_buf(bytes, Size);
+    for (std::size_t i = 0; i < Size; i += sizeof(std::uint64_t))
+        storeLittle(random(), bytes + i);
     const SealKey key(bytes);
     sodium_memzero(bytes, Size);
     return key;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 
 namespace qplc {
 
@@ -18,8 +19,8 @@ public:
     SealKey(const SealKey &) = default;
     SealKey &operator=(const SealKey &) = default;
     ~SealKey();
-    /// A new one that nobody can guess.
-    static SealKey random();
+    /// A new one. \param random  64 bits that nobody can guess, new with each call
+    static SealKey make(const std::function<std::uint64_t()> &random);
 
     const char *data() const { return m_bytes.data(); }
 
@@ -33,7 +34,10 @@ struct SealKeys
     SealKey inputs;   // master -> node
     SealKey outputs;  // node -> master
 
-    static SealKeys random() { return {SealKey::random(), SealKey::random()}; }
+    static SealKeys make(const std::function<std::uint64_t()> &random)
+    {
+        return {SealKey::make(random), SealKey::make(random)};
+    }
 };
 
 /// Seals the frames of one direction of one node, or opens them: ChaCha20-Poly1305 (RFC 8439) over

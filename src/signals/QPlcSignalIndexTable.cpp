@@ -1,23 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "QPlcSignalIndexTable.h"
 
+#include "ProgramScope.h"
+
 #include <mutex>
 
 namespace {
 
-struct ProcessTable
+struct ProgramTable
 {
     std::mutex mutex;
     QPlcSignalTable table;
     QString lastErrorString;
 };
 
-// Made at the first use and never destroyed: nodes in static storage may ask for it until the very
-// end.
-ProcessTable &processTable()
+ProgramTable &programTable()
 {
-    static ProcessTable *const table = new ProcessTable;
-    return *table;
+    return qplc::ProgramScope::current().the<ProgramTable>();
 }
 
 }  // namespace
@@ -35,8 +34,9 @@ bool QPlcSignalIndexTable::initializeFromIni(const QByteArray &text, const QStri
 bool QPlcSignalIndexTable::take(const QPlcSignalTable &table)
 {
     {
-        const std::lock_guard<std::mutex> lock(processTable().mutex);
-        processTable().lastErrorString = errorString();
+        ProgramTable &program = programTable();
+        const std::lock_guard<std::mutex> lock(program.mutex);
+        program.lastErrorString = errorString();
     }
     if (!m_errors.isEmpty())
         return false;
@@ -46,24 +46,25 @@ bool QPlcSignalIndexTable::take(const QPlcSignalTable &table)
 
 QString QPlcSignalIndexTable::lastErrorString()
 {
-    const std::lock_guard<std::mutex> lock(processTable().mutex);
-    return processTable().lastErrorString;
+    ProgramTable &program = programTable();
+    const std::lock_guard<std::mutex> lock(program.mutex);
+    return program.lastErrorString;
 }
 
 QPlcSignalTable QPlcSignalIndexTable::current()
 {
-    ProcessTable &process = processTable();
-    const std::lock_guard<std::mutex> lock(process.mutex);
-    return process.table;
+    ProgramTable &program = programTable();
+    const std::lock_guard<std::mutex> lock(program.mutex);
+    return program.table;
 }
 
 void QPlcSignalIndexTable::setCurrent(const QPlcSignalTable &table)
 {
-    ProcessTable &process = processTable();
+    ProgramTable &program = programTable();
     QPlcSignalTable previous;  // is destroyed after the lock
-    const std::lock_guard<std::mutex> lock(process.mutex);
-    previous = process.table;
-    process.table = table;
+    const std::lock_guard<std::mutex> lock(program.mutex);
+    previous = program.table;
+    program.table = table;
 }
 
 QString QPlcSignalIndexTable::name(QPlcSignalIndex index)

@@ -32,6 +32,12 @@ private:
     Host *m_before;
 };
 
+ProgramScope *scopeOfHost()
+{
+    const auto *host = dynamic_cast<SimulatedHost *>(&Host::current());
+    return host ? host->scope() : nullptr;
+}
+
 }  // namespace
 
 SimulatedHost::SimulatedHost(Simulator &simulator, const QString &name, const QHostAddress &address)
@@ -41,6 +47,7 @@ SimulatedHost::SimulatedHost(Simulator &simulator, const QString &name, const QH
     , m_random(simulator.seed() ^ fnv1a64(name.toUtf8() + address.toString().toUtf8()))
     , m_network(simulator.controlWire().networkOf(*this))
 {
+    ProgramScope::setLookup(&scopeOfHost);
 }
 
 SimulatedHost::~SimulatedHost()
@@ -52,6 +59,7 @@ SimulatedHost::~SimulatedHost()
 void SimulatedHost::start(const std::function<std::shared_ptr<void>()> &program)
 {
     kill();
+    m_scope = std::make_unique<ProgramScope>();
     const Visit visit(this);
     m_isMute = false;
     m_program = program();

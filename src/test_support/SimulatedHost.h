@@ -3,6 +3,7 @@
 
 #include "Simulator.h"
 #include "realtime/Host.h"
+#include "signals/ProgramScope.h"
 
 #include <QtNetwork/QHostAddress>
 
@@ -84,6 +85,8 @@ public:
     Strand *runningStrand() noexcept override;
     ControlNetwork *controlNetwork() noexcept override;
 
+    /// What the program has once; new with each life.
+    ProgramScope *scope() const noexcept { return m_scope.get(); }
     Fiber *runningFiber() const noexcept { return m_fiber; }
     void setRunningFiber(Fiber *fiber) noexcept { m_fiber = fiber; }
 
@@ -95,6 +98,7 @@ private:
     const QHostAddress m_address;
     Clocks m_clocks;
     SeededRandom m_random;
+    std::unique_ptr<ProgramScope> m_scope = std::make_unique<ProgramScope>();
     std::shared_ptr<void> m_program;
     std::vector<SimulatedEvent> m_kept;
     std::unique_ptr<ControlNetwork> m_network;

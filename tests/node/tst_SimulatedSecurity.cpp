@@ -15,8 +15,8 @@ class tst_SimulatedSecurity : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void init() { QPlcSignalIndexTable::setCurrent({}); }
     void framesOfASecuredPlantAreSealed();
+    void theSameSeedGivesTheSameDigest();
     void nodeWithoutKeyGetsTheReason_data();
     void nodeWithoutKeyGetsTheReason();
     void securedNodeReportsAnUnsecuredMaster();
@@ -82,6 +82,26 @@ void tst_SimulatedSecurity::framesOfASecuredPlantAreSealed()
         QCOMPARE(counter->counters().forged + echo->counters().forged, quint64(0));
         masterHost.call([master] { master->stop(); });
     });
+}
+
+void tst_SimulatedSecurity::theSameSeedGivesTheSameDigest()
+{
+    const auto digestOf = [this](quint64 seed) {
+        quint64 digest = 0;
+        QPlcSimulator::run(seed, [&](QPlcSimulator &simulator) {
+            QPlcSimulatedHost masterHost(simulator, "master"), counterHost(simulator, "counter");
+            TestMaster *master = startMaster(masterHost, QPlcSecurity::preSharedKeys(m_files.masterKeys()));
+            startNode<CounterNode>(counterHost, masterHost, m_files.counter());
+            simulator.runUntil([&] { return master->nodes().size() == 1; }, 5s);
+            if (flies(simulator, masterHost, master))
+                digest = simulator.digest();
+        });
+        return digest;
+    };
+    const quint64 first = digestOf(7);
+    QVERIFY(first != 0);
+    QCOMPARE(digestOf(7), first);
+    QVERIFY(digestOf(8) != first);
 }
 
 void tst_SimulatedSecurity::nodeWithoutKeyGetsTheReason_data()

@@ -201,6 +201,8 @@ private Q_SLOTS:
     void killedNodeIsLostAndReconnects();
     void sameSeedGivesSameTraffic();
     void otherSeedGivesOtherTraffic();
+    void programsHaveTablesOfTheirOwn();
+    void aProgramThatStartsAgainHasNoTable();
     void sameSeedGivesSameTrafficInOtherProcess();
     void halfOpenConnectionIsClosed();
     void stoppedProgramResumes();
@@ -273,6 +275,36 @@ void tst_SimulatedPlant::sameSeedGivesSameTraffic()
 void tst_SimulatedPlant::otherSeedGivesOtherTraffic()
 {
     QVERIFY(digestOfMinute(7) != digestOfMinute(8));
+}
+
+void tst_SimulatedPlant::programsHaveTablesOfTheirOwn()
+{
+    const QPlcSignalTable ofProcess = QPlcSignalIndexTable::current();
+    Simulator::run(1, [&](Simulator &simulator) {
+        SimulatedHost winch(simulator, QStringLiteral("winch"), address(2));
+        SimulatedHost screen(simulator, QStringLiteral("screen"), address(3));
+        const auto nothing = [] { return std::make_shared<int>(0); };
+        winch.start(nothing);
+        screen.start(nothing);
+        winch.call([] { QPlcSignalIndexTable::setCurrent(winchTable()); });
+        winch.call([] { QCOMPARE(QPlcSignalIndexTable::current().size(), 2); });
+        screen.call([] { QVERIFY(QPlcSignalIndexTable::current().isEmpty()); });
+    });
+    QCOMPARE(QPlcSignalIndexTable::current().toIni(), ofProcess.toIni());
+}
+
+void tst_SimulatedPlant::aProgramThatStartsAgainHasNoTable()
+{
+    Simulator::run(1, [&](Simulator &simulator) {
+        SimulatedHost winch(simulator, QStringLiteral("winch"), address(2));
+        winch.start([] {
+            QPlcSignalIndexTable::setCurrent(winchTable());
+            return std::make_shared<int>(0);
+        });
+        winch.kill();
+        winch.start([] { return std::make_shared<int>(0); });
+        winch.call([] { QVERIFY(QPlcSignalIndexTable::current().isEmpty()); });
+    });
 }
 
 void tst_SimulatedPlant::sameSeedGivesSameTrafficInOtherProcess()

@@ -2,13 +2,13 @@
 #include "QPlcSecurity.h"
 
 #include "node/security/TlsSettings.h"
+#include "signals/ProgramScope.h"
 
 namespace {
 
 QPlcSecurity &currentSecurity()
 {
-    static QPlcSecurity security;
-    return security;
+    return qplc::ProgramScope::current().the<QPlcSecurity>();
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ std::optional<SealKeys> newSealKeys(const MasterConnection &connection)
 {
     if (!hasSealedFrames(connection))
         return std::nullopt;
-    return SealKeys::random();
+    return SealKeys::make([] { return Host::current().random(); });
 }
 
 /// Not before the slot is there.
