@@ -58,18 +58,13 @@ INCLUDE = r'^\s*#\s*include\s+"([^"]+)"'
 PRIVATE_INCLUDE = r'^\s*#\s*include\s+"((?:gui|gui3d|node|signals|protocol)/[^"]+)"'
 SOCKETS = r"<QtNetwork/|<sys/socket\.h>|<netinet/|<arpa/inet\.h>|Q(Tcp|Udp|Abstract)Socket\b"
 EVENT_LOOP = r"\bQ(Object|Thread|Timer|EventLoop|SocketNotifier)\b|\bQ_OBJECT\b"
-OTHER_CLOCKS = r"\b(steady_clock|system_clock|high_resolution_clock|clock_gettime|gettimeofday|QElapsedTimer)\b|\bcurrent(DateTime\w*|MSecs\w*|Secs\w*)\s*\("
 QT = r"[<\"]Q\w+|\bQ[A-Z]\w+|\bq[A-Z]\w+\s*\(|\bQ_\w+"
 # Room: what its code may not mention, and how to say that.
 FORBIDDEN = {
-    "src/signals": [(SOCKETS, "a socket"), (EVENT_LOOP, "the event loop of Qt"), (OTHER_CLOCKS, "a clock")],
+    "src/signals": [(SOCKETS, "a socket"), (EVENT_LOOP, "the event loop of Qt")],
     "src/realtime": [(SOCKETS, "a socket"), (EVENT_LOOP, "the event loop of Qt")],
-    "src/protocol": [(SOCKETS, "a socket"), (EVENT_LOOP, "the event loop of Qt"), (OTHER_CLOCKS, "a clock")],
-    "src/transport": [(OTHER_CLOCKS, "a clock other than qplc::TimeSource")],
-    "src/node": [(OTHER_CLOCKS, "a clock other than qplc::TimeSource")],
+    "src/protocol": [(SOCKETS, "a socket"), (EVENT_LOOP, "the event loop of Qt")],
     "src/node/cycle": [(EVENT_LOOP, "the event loop of Qt")],
-    "src/hardware": [(OTHER_CLOCKS, "a clock other than qplc::TimeSource")],
-    "src/tools": [(OTHER_CLOCKS, "a clock other than qplc::TimeSource")],
     "examples/airborne_wind_energy/plant": [(QT, "Qt")],
     "examples/airborne_wind_energy/flight_control": [(QT, "Qt")],
 }
@@ -94,20 +89,82 @@ READS_JSON = re.compile(r"\.to(?:Object|Array)\(\)|QJsonDocument::fromJson\(")
 # Panels know the window by QPlcPanelContext alone.
 WINDOW = re.compile(r'[wW]indowContext\b|"gui/(?:window|layout)/')
 PANEL_ROOMS = ("charts", "gauges", "setters", "tables")
-# Clocks, random numbers, wake-ups, threads and sockets come from the Host (docs/design/simulation.md), so that a
+# Clocks, random numbers, sleeps, threads and sockets come from the Host (docs/design/simulation.md), so that a
 # simulator can give others. QTimer and QSocketNotifier belong to the event dispatcher, which a simulator has, too.
-OF_KERNEL = (r"\b(clock_gettime|clock_nanosleep|timerfd_\w+|timer_create|pthread_\w+|QRandomGenerator|createUuid|"
-             r"QDeadlineTimer|QElapsedTimer|mt19937(?:_64)?|random_device|condition_variable|QThread|sleep_for|sleep_until|std::thread|QUdpSocket|QTcpServer)\b|\beventfd\([^)]|(?<!\w)::p?poll\(|new Q(Tcp|Ssl)Socket")
-HOSTED = ("signals", "realtime", "protocol", "transport", "node")
-# The machine as a Host, what measures or sets up the machine itself, what writes its log, and transports of the kernel. The last ones belong
-# to a Host one day: the beacon, names of a machine. A list that only shrinks.
-OF_MACHINE = {
-    "realtime/Machine.cpp", "realtime/CycleThread.cpp", "realtime/CycleThread.h", "realtime/AlarmTime.cpp",
-    "realtime/InterruptibleWaits.cpp", "realtime/InterruptibleWaits.h", "realtime/LogWriter.cpp", "realtime/RealTimeSetup.cpp",
-    "realtime/StackPrefault.cpp", "realtime/WakeUpProbe.cpp", "transport/ControlNetwork.cpp", "transport/CyclicHub.cpp",
-    "transport/LoopbackProbe.cpp", "transport/UdpTransport.cpp", "transport/OpenSslTls.cpp",
-    "node/session/MasterBeacon.cpp", "node/session/MasterFinder.cpp", "node/session/MasterFinder.h",
+# A word counts wherever it stands in the code. Functions whose name others have, too, count with :: or std:: before
+# them, or with the arguments of the kernel's.
+GLOBAL = r"(?:(?<![\w>])::|\bstd::)"
+ARGUMENT = r"(?:[^(),;]|\((?:[^()]|\([^()]*\))*\))*"
+
+
+def with_arguments(name, count):
+    return rf"(?<![\w:.>]){name}\s*\({','.join([ARGUMENT] * count)}\)"
+
+
+KERNEL = {
+    "a clock": r"\b(?:steady_clock|system_clock|high_resolution_clock|file_clock|clock_get(?:time|res)|gettimeofday|"
+               r"timespec_get|ftime|QElapsedTimer|QDeadlineTimer|current(?:DateTime\w*|MSecs\w*|Secs\w*|Time|Date)(?=\s*\())\b"
+               rf"|{GLOBAL}(?:time|clock|times)\s*\(|(?<![\w:.>])time\s*\(\s*(?:nullptr|NULL|0|&\s*\w+)\s*\)",
+    "a timer": r"\b(?:timerfd_\w+|timer_(?:create|settime)|[gs]etitimer|ualarm)\b" rf"|{GLOBAL}alarm\s*\(",
+    "a sleep": r"\b(?:[un]sleep|nanosleep|clock_nanosleep|sleep_for|sleep_until|msleep|qSleep|sigtimedwait|FUTEX_WAIT\w*)\b"
+               rf"|(?<![\w:.>])(?<!void )sleep\s*\(|\bQThread::sleep\b|{GLOBAL}(?:sleep|p?poll|p?select|pause)\s*\("
+               r"|\b(?:ppoll|pselect|epoll_\w+|io_uring_\w+)\s*\("
+               rf"|{with_arguments('poll', 3)}|{with_arguments('select', 5)}",
+    "a wake-up": r"\b(?:eventfd|signalfd)\s*\([^)]",
+    "a random number": r"\b(?:s?rand|rand_r|[dlm]rand48|getrandom|getentropy|arc4random\w*|randombytes_\w+|RAND_\w*bytes|"
+                       r"QRandomGenerator(?:64)?|qs?rand|createUuid\w*|mt19937(?:_64)?|minstd_rand0?|default_random_engine|"
+                       rf"random_device)\b|{GLOBAL}s?random\s*\(",
+    "a thread": r"\b(?:pthread_\w+|thrd_\w+|QThread|QThreadPool|QtConcurrent|QRunnable|QWaitCondition|QSemaphore|QFuture\w*|"
+                r"condition_variable(?:_any)?|std::(?:jthread|thread|async|packaged_task|promise))\b",
+    "a process": r"\b(?:v?fork|posix_spawnp?|exec[lv]p?e?|popen|QProcess|clone3?(?=\s*\([^)]))\b" rf"|{GLOBAL}system\s*\(",
+    # Whoever gets a socket may use it: a pointer to one is none.
+    "a socket": r"\b(?:Q(?:Udp|Local|Sctp|Web)Socket|Q(?:Tcp|Local|Sctp|WebSocket)Server|QNetworkAccessManager|QDnsLookup|"
+                r"QHostInfo|socketpair|accept4|getaddrinfo|gethostbyname\w*)\b"
+                r"|(?<!class )\bQ(?:Tcp|Ssl|Abstract)Socket\b(?!\s*(?:[*&]|::))"
+                rf"|{GLOBAL}(?:socket|accept)\s*\(|{with_arguments('socket', 3)}",
 }
+HOSTED = ("signals", "realtime", "protocol", "transport", "node", "gui", "gui3d", "hardware", "tools")
+# A window shows the time of the person before it, and measures its own drawing.
+OF_ROOM = {"gui": {"a clock"}, "gui3d": {"a clock"}}
+# Why, what, and by which files the machine itself is asked. A list that only shrinks: one day the beacon and the names
+# of a machine belong to a Host, too.
+OF_MACHINE = (
+    ("is the machine as a Host", "a clock, a sleep, a wake-up, a random number", "realtime/Machine.cpp"),
+    ("runs cycles where a host has no strand", "a thread", "realtime/CycleThread.cpp realtime/CycleThread.h"),
+    ("ends the waits of a thread", "a thread", "realtime/InterruptibleWaits.cpp realtime/InterruptibleWaits.h"),
+    ("ends the waits of a thread", "a timer", "realtime/InterruptibleWaits.cpp"),
+    ("wakes a wait of the kernel, where a host has kernel timers", "a timer", "realtime/AlarmTime.cpp"),
+    ("writes the log of the machine behind the cycles", "a sleep, a thread", "realtime/LogWriter.cpp"),
+    ("sets up or measures the machine", "a thread",
+     "realtime/RealTimeSetup.cpp realtime/StackPrefault.cpp realtime/WakeUpProbe.cpp transport/LoopbackProbe.cpp"),
+    ("measures the machine", "a socket", "transport/LoopbackProbe.cpp"),
+    ("is the network of the machine, to which hosts have others", "a socket",
+     "transport/ControlNetwork.cpp transport/OpenSslTls.cpp"),
+    ("is a transport of the kernel; hosts have those of their own", "a socket",
+     "transport/LocalListener.cpp transport/LocalSocket.cpp transport/UdpLink.cpp transport/UdpMulticastKind.cpp "
+     "transport/UdpTransport.cpp"),
+    ("waits for frames of the kernel or of other processes", "a sleep",
+     "transport/CyclicHub.cpp transport/SharedChannel.cpp"),
+    ("resolves the name of a machine", "a socket", "transport/TransportKind.cpp gui/plant/AddressResolver.cpp"),
+    ("finds masters by their beacons", "a socket",
+     "node/session/MasterBeacon.cpp node/session/MasterFinder.cpp node/session/MasterFinder.h"),
+    ("talks to the service manager of the machine", "a socket", "transport/NotifySocket.cpp"),
+    ("carries signals of the kernel, such as Ctrl-C", "a socket", "node/api/QPlcApplicationOptions.cpp"),
+    ("receives the values of a plant beside the drawing", "a thread", "gui/plant/Listener.cpp gui/plant/Listener.h"),
+    ("gives each connection a timeout that tells it from others", "a random number", "gui/plant/PlantLeases.cpp"),
+    ("waits for the graphics card", "a sleep, a thread", "gui3d/SceneRenderer.cpp"),
+    ("devices are read and written beside the cycle", "a thread",
+     "hardware/DriverRunner.cpp hardware/DriverRunner.h hardware/can/QtCanBus.cpp hardware/can/QtCanBus.h "
+     "hardware/can/CanLogWriter.cpp hardware/can/CanLogWriter.h"),
+    ("wakes the thread of a device, and tries again after a random pause", "a sleep, a wake-up, a random number",
+     "hardware/DriverRunner.cpp"),
+    ("wakes the thread of a device", "a wake-up", "hardware/can/QtCanBus.cpp"),
+    ("waits for the threads of devices", "a sleep", "hardware/QPlcHardwareNode.cpp"),
+    ("is a bus of the kernel", "a socket", "hardware/can/SocketCanBus.cpp hardware/can/FakeCanBus.cpp"),
+    ("prints at a rate that a person wants", "a clock", "tools/EchoCommand.cpp"),
+    ("makes keys, which nobody can guess", "a random number", "tools/KeysCommand.cpp"),
+)
+EXCUSED = {(file, what) for _, kinds, names in OF_MACHINE for file in names.split() for what in kinds.split(", ")}
 # A table of data may be longer: rows of a test, or one constant that is returned.
 TABLE = r"_data\(\)$|^\s*static const\b"
 # Columns. A text behind #error cannot be wrapped. A formula or a drawing, three spaces behind its ///, may take those of code.
@@ -120,12 +177,23 @@ def files(folder):
     return sorted(p for p in folder.rglob("*") if p.is_file() and (p.suffix in (".h", ".cpp") or p.parent.name == "QtPlc"))
 
 
+# A comment, or what may contain the signs of one: a raw text, a text, a character (an apostrophe in a number is none).
+COMMENT_OR_TEXT = re.compile(r'''//[^\n]*|/\*.*?\*/|\b(?:u8|[uUL])?R"([^()\\\s]*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"'''
+                             r"""|(?:(?<!\w)|(?<=\b[uUL])|(?<=\bu8))'(?:\\.|[^'\\\n])+'""", re.S)
+
+
 # A test looks at the same texts again and again.
 @functools.lru_cache(maxsize=None)
-def code_of(text):
-    """The lines of a file without comments, numbered from 1."""
-    text = re.sub(r"/\*.*?\*/", lambda match: "\n" * match[0].count("\n"), text, flags=re.S)
-    return list(enumerate((re.sub(r"//.*", "", line) for line in text.split("\n")), 1))
+def code_of(text, has_texts=True):
+    """The lines of a file without comments, numbered from 1. \param has_texts  false: texts are empty, and includes are left out"""
+    def kept(match):
+        is_comment = match[0].startswith(("//", "/*"))
+        return "\n" * match[0].count("\n") if is_comment else match[0] if has_texts else '""' + "\n" * match[0].count("\n")
+
+    text = COMMENT_OR_TEXT.sub(kept, text)
+    if not has_texts:
+        text = re.sub(r"^[ \t]*#[ \t]*include\b.*", "", text, flags=re.M)
+    return list(enumerate(text.split("\n"), 1))
 
 
 @functools.lru_cache(maxsize=None)
@@ -166,14 +234,20 @@ def lines_with(text, pattern):
 
 
 @functools.lru_cache(maxsize=None)
-def first_with(text, pattern):
+def first_with(text, pattern, has_texts=True):
     """Number and text of the line where the first piece of code begins that the pattern fits; it may go over lines."""
-    lines = [line for _, line in code_of(text)]
-    found = pattern.search("\n".join(lines))
+    lines = [line for _, line in code_of(text, has_texts)]
+    found = re.search(pattern, "\n".join(lines))
     if not found:
         return None
     number = found.string.count("\n", 0, found.start())
     return number + 1, lines[number].strip()
+
+
+def asked_of_machine(text):
+    """What the code asks of the machine: number and text of the first line where it does."""
+    found = {what: first_with(text, pattern, False) for what, pattern in KERNEL.items()}
+    return {what: line for what, line in found.items() if line}
 
 
 class Check:
@@ -245,15 +319,19 @@ class Check:
                 self.error(path, number, f"an example knows the public headers alone, not {header}")
 
     def kernel(self):
-        for path in (p for room in HOSTED for p in files(self.source / room)):
-            name = str(path.relative_to(self.source))
-            found = [(number, line) for number, line in lines_with(path.read_text(), OF_KERNEL)
-                     if not re.match(r"\s*#\s*include", line)]
-            if not found and name in OF_MACHINE:
-                self.error(path, 1, "asks nothing of the machine any more: take it out of OF_MACHINE")
-            elif found and name not in OF_MACHINE:
-                number, line = found[0]
-                self.error(path, number, f"ask Host::current() for it: {line.strip()}")
+        """What a file asks of the machine, and may not, or no longer does."""
+        for path in files(self.source) + [p for p in files(self.public) if p.suffix == ".h"]:
+            room = str(self.room(path)).split("/")[0]
+            if room not in HOSTED and room != "all":
+                continue
+            name = str(path.relative_to(self.source if self.source in path.parents else self.public))
+            asked = asked_of_machine(path.read_text())
+            for what, (number, line) in asked.items():
+                if (name, what) not in EXCUSED and what not in OF_ROOM.get(room, ()):
+                    self.error(path, number, f"asks the machine for {what}, ask Host::current() for it: {line}")
+            for what in KERNEL:
+                if (name, what) in EXCUSED and what not in asked:
+                    self.error(path, 1, f"asks the machine for {what} no more: take it out of OF_MACHINE")
 
     def public_headers(self):
         for path in sorted(self.public.rglob("*")):

@@ -15,6 +15,83 @@ import layers
 
 SOURCE = Path(sys.argv.pop(1)).resolve()
 
+# What it is, and a line that asks the machine for it.
+ASKS_THE_MACHINE = (
+    ("a clock", "timespec time; clock_gettime(CLOCK_MONOTONIC, &time);"),
+    ("a clock", "gettimeofday(&time, nullptr);"),
+    ("a clock", "const time_t now = time(nullptr);"),
+    ("a clock", "const auto now = ::time(&seconds);"),
+    ("a clock", "const auto now = std::time(nullptr);"),
+    ("a clock", "if (time(NULL) > end)"),
+    ("a clock", "const auto used = std::clock();"),
+    ("a clock", "const auto now = std::chrono::steady_clock::now();"),
+    ("a clock", "const auto now = std::chrono::high_resolution_clock::now();"),
+    ("a clock", "const QTime now = QTime::currentTime();"),
+    ("a clock", "const QDate day = QDate::currentDate();"),
+    ("a clock", "const QDateTime now = QDateTime::currentDateTimeUtc();"),
+    ("a clock", "const qint64 now = QDateTime::currentMSecsSinceEpoch();"),
+    ("a clock", "QElapsedTimer since;"),
+    ("a clock", "QDeadlineTimer end(10);"),
+    ("a timer", "const int timer = timerfd_create(CLOCK_MONOTONIC, 0);"),
+    ("a timer", "setitimer(ITIMER_REAL, &time, nullptr);"),
+    ("a sleep", "usleep(10);"),
+    ("a sleep", "nanosleep(&time, nullptr);"),
+    ("a sleep", "sleep(1);"),
+    ("a sleep", "::sleep(1);"),
+    ("a sleep", "std::this_thread::sleep_for(pause);"),
+    ("a sleep", "QThread::msleep(1);"),
+    ("a sleep", "poll(&descriptor, 1, 10);"),
+    ("a sleep", "if (poll(list.data(), nfds_t(list.size()), limit(now)) < 0)"),
+    ("a sleep", "::poll(&descriptor, 1, 10);"),
+    ("a sleep", "select(count, &in, nullptr, nullptr, &time);"),
+    ("a sleep", "epoll_wait(descriptor, events, 1, -1);"),
+    ("a wake-up", "const int descriptor = eventfd(0, EFD_CLOEXEC);"),
+    ("a socket", "const int descriptor = ::socket(AF_INET, SOCK_DGRAM, 0);"),
+    ("a socket", "const int descriptor = socket(AF_INET, SOCK_DGRAM, 0);"),
+    ("a socket", "::socketpair(AF_UNIX, SOCK_STREAM, 0, ends);"),
+    ("a socket", "QTcpSocket socket;"),
+    ("a socket", "auto *socket = new QTcpSocket(this);"),
+    ("a socket", "auto socket = std::make_unique<QTcpSocket>();"),
+    ("a socket", "auto *socket = new QSslSocket;"),
+    ("a socket", "QUdpSocket socket;"),
+    ("a socket", "QLocalSocket *socket;"),
+    ("a socket", "QTcpServer server;"),
+    ("a random number", "const int any = rand();"),
+    ("a random number", "const int any = std::rand();"),
+    ("a random number", "const long any = ::random();"),
+    ("a random number", "getrandom(bytes, sizeof bytes, 0);"),
+    ("a random number", "randombytes_buf(bytes, sizeof bytes);"),
+    ("a random number", "std::mt19937 engine;"),
+    ("a random number", "const auto any = QRandomGenerator::global()->generate();"),
+    ("a random number", "const QUuid name = QUuid::createUuid();"),
+    ("a thread", "const auto later = std::async(compute);"),
+    ("a thread", "pthread_create(&thread, nullptr, run, this);"),
+    ("a thread", "QWaitCondition changed;"),
+    ("a thread", "QtConcurrent::run(compute);"),
+    ("a thread", "QThreadPool::globalInstance()->start(task);"),
+    ("a thread", 'log("tcp://"); std::thread t;'),
+    ("a thread", "log('\"'); std::thread t; log('\"');"),
+    ("a thread", "const int most = 1'000; std::thread t; log('/');"),
+    ("a thread", 'log(R"(/*)"); std::thread t;'),
+    ("a process", "if (fork() == 0)"),
+    ("a process", "QProcess::startDetached(name);"),
+)
+ASKS_NOTHING = (
+    'log("usleep(1), fork(), std::thread t");',
+    'log("a \\" fork()"); // std::thread t',
+    "/* std::thread t; */ step();",
+    'const char *text = R"x(a " std::thread t; )" )x";',
+    "void connectTo(QTcpSocket *socket);",
+    "connect(socket, &QTcpSocket::connected, this, &Link::begin);",
+    "poll();",
+    "select(place);",
+    "return socket()->error();",
+    "link.poll(&frame, &size, limit);",
+    "const Time first = time(row);",
+    "const QPlcClock clock = master.clock();",
+    "const auto number = Host::current().random();",
+)
+
 
 class Faults(unittest.TestCase):
     @classmethod
@@ -90,7 +167,37 @@ class Faults(unittest.TestCase):
 
     def test_random_numbers_come_from_the_host(self):
         self.plant("src/node/session/ViewerPushes.cpp", "const auto any = QRandomGenerator::global()->generate();\n")
-        self.assert_named("src/node/session/ViewerPushes.cpp:", "ask Host::current() for it")
+        self.assert_named("src/node/session/ViewerPushes.cpp:", "a random number, ask Host::current() for it")
+
+    def test_whatever_asks_the_machine_is_found(self):
+        for what, line in ASKS_THE_MACHINE:
+            with self.subTest(line):
+                self.assertIn(what, layers.asked_of_machine(f"void step()\n{{\n    {line}\n}}\n"))
+
+    def test_the_line_is_the_one_of_the_file(self):
+        text = '#include <QtCore/QThread>\n\n/* a\ncomment */ log(R"(a\n"text//")"); poll(&line, 1,\n     100);\n'
+        self.assertEqual([number for number, _ in layers.asked_of_machine(text).values()], [5])
+
+    def test_what_only_looks_like_it_is_none(self):
+        for line in ASKS_NOTHING:
+            with self.subTest(line):
+                self.assertEqual(layers.asked_of_machine(f"void step()\n{{\n    {line}\n}}\n"), {})
+
+    def test_every_room_of_the_product_is_looked_at(self):
+        for path in ("src/signals/Fnv1a.h", "src/realtime/CycleClock.cpp", "src/protocol/CyclicFrame.cpp", "src/transport/UdpLink.cpp",
+                     "src/node/cycle/MasterCycle.cpp", "src/gui/plant/Plant.cpp", "src/gui3d/View3DEditor.cpp", "src/hardware/DeviceFiles.cpp",
+                     "src/tools/EchoCommand.cpp", "include/QtPlc/QPlcSlaveNode.h"):
+            with self.subTest(path):
+                self.plant(path, "std::future<int> later = std::async(compute);\n")
+                self.assert_named(f"{path}:", "asks the machine for a thread")
+
+    def test_realtime_has_one_clock(self):
+        self.plant("src/realtime/CycleThread.cpp", "const auto now = std::chrono::steady_clock::now();\n")
+        self.assert_named("src/realtime/CycleThread.cpp:", "asks the machine for a clock")
+
+    def test_an_excuse_is_for_one_thing(self):
+        self.plant("src/hardware/can/CanLogWriter.cpp", "QTcpSocket socket;\n")
+        self.assert_named("src/hardware/can/CanLogWriter.cpp:", "asks the machine for a socket")
 
     def test_a_file_that_asks_nothing_of_the_machine_leaves_the_list(self):
         self.replace("src/realtime/WakeUpProbe.cpp", "// SPDX-License-Identifier: Apache-2.0\n")
