@@ -92,7 +92,7 @@ def check_functions(root, errors):
     sources = "\n".join(path.read_text() for folder in ("src", "include") for path in (root / folder).rglob("*") if path.suffix in (".h", ".cpp"))
     for owner, name in re.findall(r"`(\w+)::(\w+)`", page.read_text()):
         body = re.search(rf"^(?:class|struct) [\w ]*\b{owner}\b[^;\n]*\n\{{\n.*?^\}};", sources, re.M | re.S)
-        if not re.search(rf"\b{owner}::{name}\(", sources) and not (body and re.search(rf"\b{name}\(", body[0])):
+        if not re.search(rf"\b{owner}::{name}\(|^class {owner}::{name}\b", sources, re.M) and not (body and re.search(rf"\b{name}\(", body[0])):
             errors.append(f"{page.relative_to(root)}: names {owner}::{name}, which the sources do not have")
 
 
