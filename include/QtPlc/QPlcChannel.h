@@ -51,7 +51,7 @@ public:
 
     /// Returns the name that the configuration uses.
     QString name() const { return m_name; }
-    /// Returns the direction of the value.
+    /// Returns Read for a value from the device, Write for a value to it.
     Direction direction() const { return m_direction; }
     /// Returns true if the configuration ties the channel to a signal, watches it, or sets its safe
     /// value. A driver need not read a channel that is not wired. Valid when all channels have been

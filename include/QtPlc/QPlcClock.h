@@ -40,12 +40,12 @@ public:
 
     /// Makes the clock of real time.
     constexpr QPlcClock() = default;
-    /// Returns the kind.
+    /// Returns whether cycles follow real time, a scaled time, or the answers of nodes.
     constexpr Kind kind() const { return m_kind; }
     /// Returns the simulated seconds per second: 1 for RealTime, 0 for Lockstep (as fast as
     /// possible).
     constexpr double scale() const { return m_scale; }
-    /// Returns true for Lockstep.
+    /// Returns true if each cycle waits for the nodes, not for time.
     constexpr bool isLockstep() const { return m_kind == Lockstep; }
     /// Returns false for a scale outside of 0.001 to 1000.
     constexpr bool isValid() const { return m_kind != Scaled || (m_scale >= 0.001 && m_scale <= 1000.0); }

@@ -140,9 +140,9 @@ public:
     /// Adds a command at the end of the menu 'Help'.
     /// \param action  not owned
     void addHelpAction(QAction *action);
-    /// Shows the start page.
+    /// Shows the start page, also while a plant is connected.
     void showStartPage();
-    /// Returns true if the start page is shown.
+    /// Returns true while the start page covers the panels.
     bool isStartPageShown() const;
     /// Shows a line above the panels until a person closes it or another one replaces it: "Not real
     /// time: ..."

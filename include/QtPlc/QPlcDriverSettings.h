@@ -51,7 +51,7 @@ public:
     ~QPlcDriverSettings();
     Q_DISABLE_COPY(QPlcDriverSettings)
 
-    /// Returns the name of the section.
+    /// Returns the name of the device: that of its section in the configuration.
     QString name() const;
     /// Returns true if the section has the key. The key does not count as read.
     bool has(const QString &key) const;

@@ -149,7 +149,7 @@ public:
     bool setInterval(std::chrono::nanoseconds period);
     /// Sets the period in seconds, rounded to 1 ns, as above. NaN and infinity are out of range.
     bool setInterval(double seconds);
-    /// Returns the period.
+    /// Returns the nominal time between two cycles.
     std::chrono::nanoseconds interval() const;
     /// Sets how the cycles follow each other; default QPlcClock::realTime(). Takes effect at the
     /// next start.

@@ -99,14 +99,14 @@ public:
     {
     }
 
-    /// Returns the kind.
+    /// Returns what the message asks for or tells; it decides which fields it needs.
     Kind kind() const { return m_kind; }
     /// Returns the name of the kind: "Register"; "unknown kind 77" for a kind that this version
     /// does not know.
     QString kindName() const;
     /// Returns the name of a kind, as above.
     static QString kindName(Kind kind);
-    /// Returns all fields.
+    /// Returns the fields as JSON, by name: as they travel in the frame.
     QJsonObject fields() const { return m_fields; }
 
     /// Returns a text field; empty if it is missing or not a text.

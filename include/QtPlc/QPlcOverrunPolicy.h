@@ -51,15 +51,15 @@ public:
     /// Largest number of cycles for catchUp().
     static constexpr int MaximumCatchUp = 1'000'000;
 
-    /// Returns the policy SkipToGrid.
+    /// Returns the policy that leaves out cycles and keeps the times of the others.
     static constexpr QPlcOverrunPolicy skipToGrid() { return QPlcOverrunPolicy(SkipToGrid, 0); }
     /// Returns the policy CatchUp.
     /// \param cycles  missed cycles that run in a row at most, 1 to MaximumCatchUp; outside of that
     ///     the policy is not valid
     static constexpr QPlcOverrunPolicy catchUp(int cycles) { return QPlcOverrunPolicy(CatchUp, cycles); }
-    /// Returns the policy Shift.
+    /// Returns the policy that moves the late cycle and all later ones.
     static constexpr QPlcOverrunPolicy shift() { return QPlcOverrunPolicy(Shift, 0); }
-    /// Returns the policy Stop.
+    /// Returns the policy that ends the real-time phase at the first overrun.
     static constexpr QPlcOverrunPolicy stop() { return QPlcOverrunPolicy(Stop, 0); }
 
     /// Makes the policy SkipToGrid.

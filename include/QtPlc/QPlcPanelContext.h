@@ -274,7 +274,7 @@ public:
     QAbstractItemModel *eventModel() const;
     /// Returns the number of warnings and errors that nobody has acknowledged.
     int unacknowledgedEvents() const;
-    /// Acknowledges all events.
+    /// Acknowledges all warnings and errors of the log; unacknowledgedEvents() is 0 then.
     void acknowledgeEvents();
 
     // -- look --

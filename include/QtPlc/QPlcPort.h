@@ -74,7 +74,7 @@ protected:
     /// Ends the cycles of the node and removes the port from it. The destructor of a derived port
     /// calls this first, while its variable still exists. Does nothing the second time.
     void leaveNode();
-    /// Sets the quality of an output.
+    /// Sets the quality that other nodes receive with the value of this output.
     void giveQuality(QPlcQuality quality) { m_given = char(quality.toByte()); }
 
 private:

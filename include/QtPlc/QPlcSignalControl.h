@@ -105,7 +105,7 @@ public:
     State state() const;
     /// Returns true if set() has an effect.
     bool mayWrite() const;
-    /// Returns true if take() is possible.
+    /// Returns false while you hold the signals, or if one is missing or cannot be leased.
     bool mayTake() const;
     /// Returns true if giveBack() is possible.
     bool mayGiveBack() const;

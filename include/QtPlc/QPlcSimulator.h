@@ -46,7 +46,7 @@ public:
     QPlcSimulator(const QPlcSimulator &) = delete;
     QPlcSimulator &operator=(const QPlcSimulator &) = delete;
 
-    /// Returns the seed of run().
+    /// Returns the seed of run(). Report it when a test fails: with it you repeat the run.
     quint64 seed() const;
     /// Returns the virtual time since the begin. Clocks of hosts may differ from it.
     std::chrono::nanoseconds now() const;

@@ -177,7 +177,7 @@ public:
     /// process of its own its faults end its connection, not the plant.
     /// \pre the node is not registered
     void setListener(bool listener);
-    /// Returns true if the node is a listener.
+    /// Returns true if the master does not wait for the answers of this node.
     bool isListener() const;
 
     /// Sets whether the node is critical; default false. The master stops safely when a critical
@@ -186,7 +186,7 @@ public:
     /// that has registered before (QPlcMasterNode::setManifest()). A listener is never critical.
     /// \pre the node is not registered
     void setCritical(bool critical);
-    /// Returns true if the node was set critical.
+    /// Returns the value of setCritical(). It has no effect for a listener.
     bool isCritical() const;
 
     /// Sets when the node connects again by itself; default ReconnectWhenLost. Takes effect at the

@@ -76,7 +76,7 @@ public:
     {
     }
 
-    /// Returns what is measured.
+    /// Returns which duration or counter of a master or node this figure belongs to.
     constexpr Quantity quantity() const { return m_quantity; }
     /// Returns which figure of a duration it is.
     constexpr Statistic statistic() const { return m_statistic; }
@@ -84,7 +84,7 @@ public:
     constexpr Window window() const { return m_window; }
     /// Returns true for a duration, false for a counter.
     constexpr bool isDuration() const { return m_quantity <= Slack; }
-    /// Returns true if a master has this quantity.
+    /// Returns true if masters measure it. Some quantities belong to masters and nodes.
     constexpr bool isOfMaster() const { return m_quantity <= Strangers; }
     /// Returns true if a node has this quantity. Execution, RoundTrip and Slack belong to both.
     constexpr bool isOfNode() const

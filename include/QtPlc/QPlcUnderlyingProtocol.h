@@ -85,7 +85,7 @@ public:
     Kind kind() const { return m_kind; }
     /// Returns the IP address of the master.
     QHostAddress address() const { return m_address; }
-    /// Returns the port of the master.
+    /// Returns the port on which the master accepts control connections (TCP).
     quint16 port() const { return m_port; }
     /// Returns a text that fromString() reads back: "udp://127.0.0.1:50000", "local://50000";
     /// "invalid" for an invalid address.

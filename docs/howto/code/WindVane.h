@@ -60,7 +60,7 @@ private:
     {
         pollfd line = {m_line, POLLIN, 0};
         if (::poll(&line, 1, 100) <= 0)
-            return true;  // nothing new: what was read grows old, and is not fresh any more after its timeout
+            return true;  // no new data: the last value becomes stale after its timeout
         char bytes[64];
         const ssize_t size = ::read(m_line, bytes, sizeof bytes);
         if (size < 0 && errno == EAGAIN)

@@ -249,7 +249,7 @@ QString GaugeFeed::missingText() const
         return tr("No signal yet.\nDrop one here, or choose one in the settings.");
     const bool isFormula = Formula::isFormula(m_settings.signal);
     if (isFormula && (!m_context || !m_signal))
-        return m_context ? m_pasts.value(0).problem : tr("What is calculated of signals is shown in a window only.");
+        return m_context ? m_pasts.value(0).problem : tr("Formulas need a Control Center window.");
     if (!isFormula && !m_reference.isValid())
         return m_referenceError;
     if (m_definition.name.isEmpty())

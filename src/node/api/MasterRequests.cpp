@@ -91,11 +91,11 @@ public:
     {
         if (d.isLatched() && reset.latch != d.latch)
             m_connection->fail(qplc::messages::errorWord::wrongState,
-                               QStringLiteral("Reset is for number %1 of the safe stops and faults, and this is number "
-                                              "%2 (%3); look at the state, and reset again")
-                                   .arg(reset.latch)
+                               QStringLiteral("there was another safe stop or fault (number %1: %2) than the one that "
+                                              "you reset (number %3); read the state, then reset again")
                                    .arg(d.latch)
-                                   .arg(d.stateReason));
+                                   .arg(d.stateReason)
+                                   .arg(reset.latch));
         else
             finish(d.reset());
     }

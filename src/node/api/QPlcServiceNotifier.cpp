@@ -102,7 +102,7 @@ void QPlcServiceNotifier::Private::tell(const QByteArray &line)
     const QByteArray status = "STATUS=" + qplc::printable(questions.status()).toUtf8();
     const bool isSent = socket.send(line.isEmpty() ? status : line + '\n' + status);
     if (!isSent && !hasFailed)
-        qCWarning(lcSlave, "the service manager is not told how this program is: %s", qPrintable(socket.errorString()));
+        qCWarning(lcSlave, "cannot report the state to systemd: %s", qPrintable(socket.errorString()));
     hasFailed = !isSent;
 }
 

@@ -159,9 +159,9 @@ bool NodeRegistry::agreeOnSafety(const NodeDeclaration &declaration, const QVect
     others.removeDuplicates();
     if (!others.isEmpty())
         *refusal = {messages::errorWord::safetyMismatch,
-                    QStringLiteral("safety parameters (min, max, safe, hold, nan, slope, writer) of %1 are other ones "
-                                   "in the table of the master than in that of node '%2'; use the same table, or "
-                                   "start the node without one")
+                    QStringLiteral("the safety parameters (min, max, safe, hold, nan, slope, writer) of %1 differ "
+                                   "between the master and node '%2'; use the same table, or start the node without "
+                                   "one")
                         .arg(firstOf(others, 5), declaration.name)};
     return others.isEmpty();
 }

@@ -45,8 +45,8 @@ MasterAudit::MasterAudit(const MasterServer &server, Journal &journal, const Rea
     connect(&server, &MasterServer::rightsUnreadable, this, [&](const QString &error) {
         journal.tell(
             JournalEvent::Warning, JournalEvent::Security, NodeRegistry::masterName(),
-            QStringLiteral("the files of keys and rights were changed, and cannot be read: %1; who is connected "
-                           "stays, and nobody else is let in")
+            QStringLiteral("cannot read the key or rights file: %1. Connected clients stay; the master refuses new "
+                           "ones. Repair the file.")
                 .arg(error));
     });
     connect(&server, &MasterServer::refused, this,

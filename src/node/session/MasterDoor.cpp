@@ -66,7 +66,7 @@ bool MasterDoor::accept(int descriptor)
         return false;
     }
     if (admission.crowdedOut != 0)
-        showOut(admission.crowdedOut, QStringLiteral("it has not greeted yet, and there are too many like it"));
+        showOut(admission.crowdedOut, QStringLiteral("too many connections have not sent Hello"));
     auto *handshake = new Handshake(descriptor, m_security, this);
     m_handshakes[admission.ticket] = handshake;
     connect(handshake, &Handshake::began, this, [this, number = admission.ticket] { m_gate.hear(number); });

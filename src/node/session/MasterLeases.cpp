@@ -111,8 +111,8 @@ bool MasterLeases::readValues(const QMap<QString, QString> &texts, Wish *wish, R
         const QPlcSignalIndex index = m_table.indexOf(it.key());
         SignalSetting setting;
         if (std::find(wish->indices.begin(), wish->indices.end(), index) == wish->indices.end())
-            *refusal = malformed(
-                QStringLiteral("'%1' has a value and is not one of 'signals'; name it there").arg(printable(it.key())));
+            *refusal = malformed(QStringLiteral("'values' contains '%1', which is not in 'signals'; add it there")
+                                     .arg(printable(it.key())));
         else if (m_settings.readValue(index, it.value(), &setting, refusal))
             wish->settings.push_back(setting);
     }
