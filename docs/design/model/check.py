@@ -78,6 +78,7 @@ PRESENT = "attached[0]&&(stage[0]"  # the critical node takes part, as far as th
 BOUNDED = "without<="               # and it really does, but for some cycles
 PERSON, RESET, SEEN, STAYS_SAFE = "permitted", "latched", "||seen", "mayNotMove"
 CYCLES = "cycles==("                # they run in the states in which they should
+OUT = "&&attached"                  # an evicted node has no session
 NEUTRAL, STOPS, RESTS, WATCHED = "unheard<=", "event!=ME_Stop", "connection[0]", "alone[0]<="
 
 RUNS = [
@@ -102,6 +103,10 @@ RUNS = [
     Run("thread_fails", "properties 1, 3, 4; the cycle thread may fail to start", COMMANDS=3, FAULTS=0, LOSS=0, THREAD_FAILS=1),
     Run("lease", "property 2", quick=True, COMMANDS=2, FAULTS=0, LOSS=0, PROMPT=1, LEASE=1),
     Run("lease_and_stop", "property 2; three commands", COMMANDS=3, FAULTS=0, LOSS=0, PROMPT=1, LEASE=1),
+    Run("evictions", "properties 1, 3, 4, 6; nodes are evicted and admitted", quick=True, COMMANDS=2, FAULTS=0, LOSS=0, EVICTS=1),
+    Run("eviction_and_fault", "the same with a fault", COMMANDS=2, FAULTS=1, LOSS=0, PROMPT=1, EVICTS=1),
+    Run("eviction_and_silence", "properties 1 and 5: an evicted node is safe soon", COMMANDS=2, FAULTS=0, LOSS=1, PRESENCE=1, SILENCE=1,
+        PROMPT=1, EVICTS=1),
     Run("moves_again", "property 4: after a fault a patient operator moves the plant again", formula="moves_again",
         HELPFUL=1, COMMANDS=0, FAULTS=1, LOSS=0, PROMPT=1),
     Run("stop_stops", "property 4: a Stop that was sent is carried out, or the master has died", formula="stop_stops",
@@ -141,6 +146,14 @@ RUNS = [
                   text("(attached[0] && (master != M_Ready || isComplete))", "attached[0]")), COMMANDS=2, FAULTS=0, LOSS=0),
     Run("mutant_manifest_is_empty_in_ready", "in Ready a start asks for nobody, and an initialization begins without the critical node", PRESENT,
         edit=text("(attached[0] && (master != M_Ready || isComplete))", "true"), COMMANDS=2, FAULTS=0, LOSS=0),
+    Run("mutant_evicted_node_registers", "an evicted node registers again", OUT,
+        edit=text(":: !isEvicted(n) && !attached[n] -> follows = n", ":: !attached[n] -> follows = n"), COMMANDS=1, FAULTS=0, LOSS=0, EVICTS=1),
+    Run("mutant_eviction_ends_no_session", "an eviction leaves the session of a node", OUT,
+        edit=text("sendToNode(who, Rejected); nodeLost(who)", "sendToNode(who, Rejected)"), COMMANDS=1, FAULTS=0, LOSS=0, EVICTS=1),
+    Run("mutant_evicted_node_is_not_needed", "a plant starts without a critical node that is evicted", PRESENT,
+        edit=both(text("(attached[0] && (master != M_Ready || isComplete))", "(isEvicted(0) || (attached[0] && (master != M_Ready || isComplete)))"),
+                  text("#define isComplete (stage[0] >= IsInitialized)", "#define isComplete (isEvicted(0) || stage[0] >= IsInitialized)")),
+        COMMANDS=2, FAULTS=0, LOSS=0, EVICTS=1),
     Run("mutant_late_answers_are_forgiven", "late answers of a critical node stop nothing", BOUNDED,
         edit=text(":: isCritical(n) && bucket[n] == BucketLimit -> trip(n + 2)", ":: false -> trip(n + 2)"),
         COMMANDS=1, FAULTS=1, LOSS=0, PRESENCE=1),

@@ -51,6 +51,9 @@
 #ifndef LEASE               /* whether the operator may take over a signal */
 #define LEASE 0
 #endif
+#ifndef EVICTS              /* whether the operator may evict nodes and admit them again */
+#define EVICTS 0
+#endif
 #ifndef MASTER_FAULTS
 #define MASTER_FAULTS 1
 #endif
@@ -144,6 +147,12 @@ bool attached[2];        /* there is a session */
 bool halfOpen[2];        /* it belongs to a connection that the node has given up, which the master does not know yet */
 bool stranger[2];        /* the process is another one than that of the session */
 bool awaited[2];         /* the step waits for it */
+#if EVICTS
+bool evicted[2];
+#define isEvicted(n) evicted[n]
+#else
+#define isEvicted(n) false
+#endif
 
 /* ---- the master: cycle thread, and what it shares with that of Qt ---- */
 
@@ -192,6 +201,9 @@ byte frame[2];           /* on the way, or in the queue of the kernel */
 #define C_SetSignal  8
 #define C_Release    9
 #define C_Ask        10  /* anything else: renews leases */
+#define C_Evict      11  /* node 0 */
+#define C_EvictOther 12  /* node 1 */
+#define C_Admit      13  /* both */
 chan toOperatorPort = [Typed] of { byte, bool };
 byte commands = COMMANDS;
 byte faults = FAULTS;
@@ -530,14 +542,14 @@ inline messageOfNode(n, what)
     if
     :: what == Register ->
         if
-        :: attached[n] && stranger[n] ->        /* the name is in use */
+        :: isEvicted(n) || (attached[n] && stranger[n]) ->    /* or the name is in use */
             if
             :: len(toNode[n]) < Queue -> toNode[n] ! Rejected
             :: len(toNode[n]) == Queue
             fi;
             linked[n] = false
-        :: attached[n] && !stranger[n] -> nodeLost(n); follows = n    /* MasterServer::replace() */
-        :: !attached[n] -> follows = n
+        :: !isEvicted(n) && attached[n] && !stranger[n] -> nodeLost(n); follows = n    /* MasterServer::replace() */
+        :: !isEvicted(n) && !attached[n] -> follows = n
         fi
     :: what == NodeFault ->
         if
@@ -589,6 +601,16 @@ inline command(what, seen)
     :: what == C_TakeLease -> lease = Held; leaseAge = 0; set(Moved)
     :: what == C_SetSignal && lease == Held -> set(Moved)
     :: what == C_Release -> lease = Free
+#if EVICTS
+    :: what == C_Evict || what == C_EvictOther ->    /* MasterEvictions::evict() */
+        who = what - C_Evict;
+        evicted[who] = true;
+        if
+        :: attached[who] -> sendToNode(who, Rejected); nodeLost(who)
+        :: !attached[who]
+        fi
+    :: what == C_Admit -> evicted[0] = false; evicted[1] = false
+#endif
     :: else                             /* refused, or a question */
     fi
 }
@@ -660,6 +682,7 @@ active proctype Master()
 #endif
         fi;
         apply();
+        assert(!(isEvicted(0) && attached[0]) && !(isEvicted(1) && attached[1]));      /* property 6 */
         what = 0; seen = false;
         joiner = NoNode
        }
@@ -1044,6 +1067,11 @@ active proctype Operator()
         :: toOperatorPort ! C_Reset, flag
 #endif
         :: ARMING -> toOperatorPort ! C_Arm, false
+#if EVICTS
+        :: toOperatorPort ! C_Evict, false
+        :: toOperatorPort ! C_EvictOther, false
+        :: toOperatorPort ! C_Admit, false
+#endif
         :: toOperatorPort ! C_Start, false
         :: toOperatorPort ! C_Stop, false; stopSent = true; stopDone = false
         :: toOperatorPort ! C_SafeStop, false
@@ -1075,6 +1103,9 @@ inline killMaster()
         linked[k] = false; attached[k] = false; halfOpen[k] = false; stranger[k] = false; stage[k] = Idle;
         flush(toMaster[k])
     };
+#if EVICTS
+    evicted[0] = false; evicted[1] = false;
+#endif
     endCycles();                      /* tells no node: there is no connection any more */
     endStep();
     do
