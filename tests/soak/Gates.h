@@ -41,7 +41,9 @@ Gate silentWritersBecomeSafe(const Evidence &evidence);  // a drive goes safe af
 Gate nodesAloneBecomeSafe(const Evidence &evidence);     // a node without its master goes safe by itself
 Gate nothingMovesByItself(const Evidence &evidence);     // after a safe state or another master: by the operator only
 Gate safeStopsAreTold(const Evidence &evidence);         // a master that stops its nodes safely says so itself
-Gate noFalseAlarms(const Evidence &evidence);            // no loss, no safe state that no fault explains
+Gate evictedNodesStayOut(
+    const Evidence &evidence);                 // they neither register nor move, nor does a plant that needs them start
+Gate noFalseAlarms(const Evidence &evidence);  // no loss, no safe state that no fault explains
 
 // The plant as a whole (PlantGates.cpp)
 Gate cyclesAddUp(const Evidence &evidence);       // computed + skipped == elapsed time / period

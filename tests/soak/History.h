@@ -42,7 +42,9 @@ struct Record
         Attempts,       // to do what is forbidden, so far. numbers: see AttemptNumber
         Usage,          // of a process. numbers: see UsageNumber
         Stall,          // the machine did not let a thread run that was ready. numbers: begin [ns]; time: end
-        Gone  // a process of the plant that was killed is gone: the kernel takes its time where it waits for a disk
+        Gone,     // a process of the plant that was killed is gone: the kernel takes its time where it waits for a disk
+        Evicted,  // a node: the master has said so
+        Admitted  // a node: the operator is about to let it in again
     };
     enum MasterState { Off, Initializing, Ready, RealTime, WaitingForLateSlaves, SafeStop, Fault, UnknownState };
     enum StepNumber {

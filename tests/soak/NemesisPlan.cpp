@@ -40,6 +40,7 @@ int amountOf(FaultKind kind)
     case FaultKind::DisorderOnRoads:
     case FaultKind::SlowListener:
     case FaultKind::EchoOnRoads:
+    case FaultKind::EvictNode:
         return 700;
     default:
         return 1;

@@ -38,9 +38,10 @@ enum class FaultKind : quint8 {
     StepWallClock,    ///< of a node, an hour back
     StepMasterClock,
     SlowListener,  ///< a tool that asks for much, and reads a little at a time
-    EchoOnRoads    ///< of all nodes: now and then a copy of a frame arrives seconds later
+    EchoOnRoads,   ///< of all nodes: now and then a copy of a frame arrives seconds later
+    EvictNode      ///< kept out by the operator, who tries to start without it, and lets it in again
 };
-constexpr int FaultKinds = int(FaultKind::EchoOnRoads) + 1;
+constexpr int FaultKinds = int(FaultKind::EvictNode) + 1;
 constexpr std::array<const char *, FaultKinds> FaultNames{"kill a node",
                                                           "stop a node",
                                                           "kill the master",
@@ -65,7 +66,8 @@ constexpr std::array<const char *, FaultKinds> FaultNames{"kill a node",
                                                           "step a clock",
                                                           "step the clock of the master",
                                                           "slow listener",
-                                                          "echo on all roads"};
+                                                          "echo on all roads",
+                                                          "evict a node"};
 
 constexpr bool isLinkFault(FaultKind kind)
 {
@@ -76,7 +78,7 @@ constexpr bool hasNode(FaultKind kind)
 {
     return kind == FaultKind::KillNode || kind == FaultKind::StopNode || isLinkFault(kind)
         || kind == FaultKind::PowerNode || kind == FaultKind::CutRoad || kind == FaultKind::CutRoadToNode
-        || kind == FaultKind::DelayOnRoad || kind == FaultKind::StepWallClock;
+        || kind == FaultKind::DelayOnRoad || kind == FaultKind::StepWallClock || kind == FaultKind::EvictNode;
 }
 constexpr bool isOfMaster(FaultKind kind)
 {
@@ -118,6 +120,7 @@ struct Profile
     int priority = 0;           // of the cycle threads, SCHED_FIFO; 0: they are ordinary
     double restless = 1.0;      // share of the nodes that have faults
     int attemptsPerSecond = 0;  // of strangers to get in; the plant is secured then
+    bool hasManifest = false;   // which needs all nodes
     bool hasProcesses = true;   // whose resources are judged; a simulated plant has none
     std::array<int, FaultKinds> weights{};
 

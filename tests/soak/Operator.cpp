@@ -153,13 +153,42 @@ bool Operator::goOn()
                         .arg(state.nodes.size());
     if (!areAllThere(state))
         return false;
+    resetOrStart(state);
+    return areAllRunning(state);
+}
+
+void Operator::resetOrStart(const messages::State &state)
+{
     if (messages::isLatched(state.state))
         ask(messages::Reset{state.latch});
     if (state.state == MasterState::Off || state.state == MasterState::Ready) {
         m_history.append(Record::Command, -1);
         start(state);
     }
-    return areAllRunning(state);
+}
+
+void Operator::tryToStart()
+{
+    messages::State state;
+    for (int steps = 2; steps > 0 && ask(messages::GetState(), &state); --steps)
+        resetOrStart(state);
+}
+
+bool Operator::evict(int node)
+{
+    expectAnother(node);
+    if (ask(messages::Evict{nodeName(node)})) {
+        m_history.append(Record::Evicted, node);
+        return true;
+    }
+    m_formerId = 0;
+    return false;
+}
+
+void Operator::admit(int node)
+{
+    m_history.append(Record::Admitted, node);
+    ask(messages::Admit{nodeName(node)});  // a master that was started again keeps nobody out
 }
 
 bool Operator::bringToRealTime(int patience)

@@ -29,6 +29,12 @@ public:
     /// patience [ms]
     bool waitForNodes(int count, int patience);
     bool stop();
+    /// Keeps a node out, and then expects another registration of it. \return whether it is out
+    bool evict(int node);
+    /// Lets it in again, if the master still keeps it out.
+    void admit(int node);
+    /// Does what leads to motion, whoever is missing.
+    void tryToStart();
     /// "127.0.0.1:40312" of the nodes that have datagrams.
     QStringList datagramAddresses();
     QString errorString() const { return m_errorString; }
@@ -50,6 +56,8 @@ private:
     /// Waits for an event of the master, but not much longer than somebody who looks now and then.
     void waitForNews();
     bool areAllThere(const qplc::messages::State &state) const;
+    /// Resets where the master is latched, and starts where it can be started.
+    void resetOrStart(const qplc::messages::State &state);
     /// Arms where the master wants it, and starts.
     void start(const qplc::messages::State &state);
     static int idOf(const qplc::messages::State &state, int node);

@@ -135,6 +135,7 @@ qint64 longestRecoveryOf(const DoneFault &fault)
     case FaultKind::PowerMaster:
     case FaultKind::CutRoad:
     case FaultKind::CutRoadToNode:
+    case FaultKind::EvictNode:
         return LongestRecovery + LongestSilence;
     default:
         return fault.isAlone ? LongestRecovery : LongestRecovery + LongestSilence;

@@ -194,6 +194,7 @@ std::vector<Gate> judge(const Evidence &evidence, const Profile &profile)
             ofTime(nodesAloneBecomeSafe(evidence)),
             nothingMovesByItself(evidence),
             safeStopsAreTold(evidence),
+            evictedNodesStayOut(evidence),
             ofTime(noFalseAlarms(evidence)),
             ofTime(cyclesAddUp(evidence)),
             ofTime(faultsAreSeen(evidence)),

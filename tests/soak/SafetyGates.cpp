@@ -2,6 +2,7 @@
 #include "Gates.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace soak {
 
@@ -272,6 +273,62 @@ Gate safeStopsAreTold(const Evidence &evidence)
                               .arg(history.name));
         }
     }
+    return gate;
+}
+
+namespace {
+
+/// A time in which a node was evicted.
+struct EvictedSpan
+{
+    int node;
+    qint64 begin, end;
+};
+
+/// A master that is started again keeps nobody out.
+std::vector<EvictedSpan> evictedSpans(const Evidence &evidence)
+{
+    std::vector<EvictedSpan> spans;
+    for (const Record &record : evidence.runner.records) {
+        if (record.kind == Record::Evicted)
+            spans.push_back({record.subject, record.time, std::numeric_limits<qint64>::max()});
+        else if (record.kind == Record::Admitted && !spans.empty() && spans.back().node == record.subject)
+            spans.back().end = std::min(spans.back().end, record.time);
+        else if (record.kind == Record::Started && record.subject == Record::Nobody && !spans.empty())
+            spans.back().end = std::min(spans.back().end, record.time);
+    }
+    return spans;
+}
+
+void lookAtEvicted(const Evidence &evidence, const EvictedSpan &span, Gate *gate)
+{
+    const QString name = nodeName(span.node);
+    const History *master = evidence.masterAt(span.begin);
+    const qint64 alone = span.begin + (evidence.shape.hold + 2) * evidence.period;  // it knows by then
+    ++gate->looked;
+    for (const History &history : evidence.nodes) {
+        if (history.node == span.node && !recordsOf(history, Record::Step, span.node, alone, span.end).empty())
+            gate->fail(QStringLiteral("%1 computes although %2 is evicted").arg(history.name, name));
+    }
+    if (!master)
+        return;
+    if (!recordsOf(*master, Record::Registered, span.node, span.begin, span.end).empty())
+        gate->fail(QStringLiteral("%1 registers %2, which is evicted").arg(master->name, name));
+    for (const Record *state : recordsOf(*master, Record::State, -1, span.begin, span.end)) {
+        if (state->numbers[0] == Record::RealTime)
+            gate->fail(QStringLiteral("%1 starts without %2, which is needed").arg(master->name, name));
+    }
+}
+
+}  // namespace
+
+Gate evictedNodesStayOut(const Evidence &evidence)
+{
+    Gate gate("evicted nodes stay out");
+    const std::vector<EvictedSpan> spans = evictedSpans(evidence);
+    gate.isAsked = !spans.empty();
+    for (const EvictedSpan &span : spans)
+        lookAtEvicted(evidence, span, &gate);
     return gate;
 }
 

@@ -152,6 +152,17 @@ void SoakRun::stopFor(int node, int milliseconds)
     m_plant.setStopped(node, false);
 }
 
+/// Evicts a node for a while, and tries to start without it.
+int SoakRun::keepOut(const Fault &fault)
+{
+    const bool isOut = m_operator.evict(fault.node);
+    m_operator.tryToStart();
+    Operator::wait(fault.amount);
+    m_operator.tryToStart();
+    m_operator.admit(fault.node);
+    return isOut ? fault.amount : 0;
+}
+
 /// Does it, until its cause is gone. \return how much of it was really done
 int SoakRun::inject(const Fault &fault)
 {
@@ -177,6 +188,8 @@ int SoakRun::inject(const Fault &fault)
         Operator::wait(10 * int(m_profile.shape.hold + 2) * int(m_profile.periodUs) / 10'000);
         m_plant.startMaster(&m_errorString);
         return 1;
+    case FaultKind::EvictNode:
+        return keepOut(fault);
     case FaultKind::StopMaster:
         stopFor(Plant::TheMaster, fault.amount);
         return fault.amount;

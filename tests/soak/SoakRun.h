@@ -27,6 +27,7 @@ private:
     void rest(int seconds);
     int inject(const Fault &fault);
     void stopFor(int node, int milliseconds);
+    int keepOut(const Fault &fault);
     bool setError(const QString &text);
 
     const Profile &m_profile;

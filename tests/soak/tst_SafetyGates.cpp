@@ -39,6 +39,11 @@ private Q_SLOTS:
     void anAlarmInAStallIsExcused();
     void lossIsJudgedAtTheNodeThatDetectedItFirst();
     void unreportedSafeStopIsFound();
+    void anEvictedNodeThatStaysOutPasses();
+    void anEvictedNodeThatRegistersIsFound();
+    void anEvictedNodeThatMovesIsFound();
+    void aStartWithoutAnEvictedNodeIsFound();
+    void aNewMasterKeepsNobodyOut();
 };
 
 namespace {
@@ -77,6 +82,17 @@ HandMade silentWriter(int held)
             step.numbers[Record::Drive] = soak::bitsOf(isHeld ? 0.5 : soak::SafeDrive);
         }
     }
+    return plant;
+}
+
+/// Node 1 is out from cycle 50 to cycle 80.
+HandMade eviction()
+{
+    HandMade plant;
+    plant.addFault(FaultKind::EvictNode, 1, HandMade::at(50), HandMade::at(80));
+    HandMade::add(plant.runner(), Record::Evicted, 1, HandMade::at(50));
+    HandMade::add(plant.runner(), Record::Admitted, 1, HandMade::at(80));
+    HandMade::removeCycles(plant.node(1), 51, 99);
     return plant;
 }
 
@@ -329,6 +345,43 @@ void tst_SafetyGates::unreportedSafeStopIsFound()
             plant.setState(Record::SafeStop, HandMade::at(152));
         QCOMPARE(plant.judge(&soak::safeStopsAreTold).passed(), isTold);
     }
+}
+
+void tst_SafetyGates::anEvictedNodeThatStaysOutPasses()
+{
+    QVERIFY(!HandMade().judge(&soak::evictedNodesStayOut).isAsked);
+    const Gate gate = eviction().judge(&soak::evictedNodesStayOut);
+    QVERIFY2(gate.isAsked && gate.passed() && gate.looked == 1, textOf(gate));
+}
+
+void tst_SafetyGates::anEvictedNodeThatRegistersIsFound()
+{
+    HandMade plant = eviction();
+    HandMade::add(plant.master(), Record::Registered, 1, HandMade::at(60));
+    QCOMPARE(plant.judge(&soak::evictedNodesStayOut).failed, 1);
+}
+
+void tst_SafetyGates::anEvictedNodeThatMovesIsFound()
+{
+    HandMade plant = eviction();
+    plant.addStep(1, 60);
+    QCOMPARE(plant.judge(&soak::evictedNodesStayOut).failed, 1);
+}
+
+void tst_SafetyGates::aStartWithoutAnEvictedNodeIsFound()
+{
+    HandMade plant = eviction();
+    plant.setState(Record::RealTime, HandMade::at(60));
+    QCOMPARE(plant.judge(&soak::evictedNodesStayOut).failed, 1);
+}
+
+void tst_SafetyGates::aNewMasterKeepsNobodyOut()
+{
+    HandMade plant = eviction();
+    HandMade::add(plant.runner(), Record::Started, -1, HandMade::at(55), {0, 2});
+    HandMade::add(plant.master(), Record::Registered, 1, HandMade::at(60));
+    const Gate gate = plant.judge(&soak::evictedNodesStayOut);
+    QVERIFY2(gate.passed(), textOf(gate));
 }
 
 QTEST_APPLESS_MAIN(tst_SafetyGates)

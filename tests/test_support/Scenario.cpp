@@ -46,7 +46,7 @@ bool lasts(FaultKind kind)
 /// Whether its cause may end while the next fault happens.
 bool mayOverlap(FaultKind kind)
 {
-    return kind >= FaultKind::PowerNode && kind != FaultKind::SlowListener;
+    return kind >= FaultKind::PowerNode && kind != FaultKind::SlowListener && kind != FaultKind::EvictNode;
 }
 
 }  // namespace
@@ -65,6 +65,9 @@ const std::vector<Scenario> &Scenario::all()
                                {F::KillNode, 1}};
     static const Weights restarts{{F::KillMaster, 3}, {F::PowerMaster, 2}, {F::KillNode, 2},
                                   {F::PowerNode, 1},  {F::StopMaster, 1},  {F::EchoOnRoads, 4}};
+    static const Weights admissions{
+        {F::EvictNode, 5},  {F::KillNode, 2}, {F::PowerNode, 2},    {F::KillMaster, 1},     {F::PowerMaster, 1},
+        {F::StopMaster, 1}, {F::CutRoad, 1},  {F::ConnectFlood, 2}, {F::GarbageControl, 2}, {F::GarbageDatagrams, 2}};
     static const auto everything = [] {
         Weights weights = soakWeights();
         for (const Weights *more : {&programs, &roads, &tools})
@@ -77,6 +80,12 @@ const std::vector<Scenario> &Scenario::all()
         scenario("roads", "cuts, half-open connections, delays, losses, duplicates, disorder", roads),
         scenario("tools", "readers that are slow or stop, strangers, floods", tools),
         scenario("restarts", "masters and nodes come back while frames of their former lives are on the way", restarts),
+        [] {
+            Scenario made = scenario(
+                "admissions", "a plant with a manifest: evictions, strangers, starts without a node", admissions, 0.5);
+            made.profile.hasManifest = true;
+            return made;
+        }(),
         scenario("all", "those of soak, programs, roads and tools, one after the other", everything),
         scenario(
             "storm", "all of programs and roads, while the plant has not recovered from the last",

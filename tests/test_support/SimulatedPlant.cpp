@@ -2,6 +2,7 @@
 #include "SimulatedPlant.h"
 
 #include "Operator.h"
+#include "QPlcManifest.h"
 #include "protocol/ControlFrame.h"
 #include "test_support/FrameWire.h"
 #include "transport/ControlNetwork.h"
@@ -74,6 +75,19 @@ SimulatedPlant::SimulatedPlant(qplc::Simulator &simulator, const Profile &profil
 
 SimulatedPlant::~SimulatedPlant() = default;
 
+/// All nodes, and what each of them is.
+QPlcManifest SimulatedPlant::manifest() const
+{
+    QPlcManifest manifest;
+    for (int node = 0; node < m_profile.shape.nodes; ++node) {
+        QPlcManifest::Node needed;
+        needed.name = nodeName(node);
+        needed.need = isCritical(node) ? QPlcManifest::Critical : QPlcManifest::Required;
+        manifest.nodes.append(needed);
+    }
+    return manifest;
+}
+
 HistoryMemory &SimulatedPlant::newHistory(const Program &program, const QString &name, int node)
 {
     const QString fullName = QStringLiteral("%1-life%2").arg(name).arg(program.life);
@@ -117,6 +131,8 @@ bool SimulatedPlant::startMaster(QString *error)
         auto program = std::make_shared<SoakMaster>(options, history);
         m_masterProgram = program.get();
         history.append(Record::Born, Record::Nobody);
+        if (m_profile.hasManifest)
+            program->setManifest(manifest());
         listens = program->start(std::chrono::microseconds(m_profile.periodUs), master());
         *error = program->errorString();
         return program;

@@ -62,6 +62,7 @@ private:
     };
     using Connections = std::vector<std::unique_ptr<QTcpSocket>>;
 
+    QPlcManifest manifest() const;
     HistoryMemory &newHistory(const Program &program, const QString &name, int node);
     void switchOff(const Fault &fault);
     void cut(const Fault &fault);
