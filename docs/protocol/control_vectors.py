@@ -132,6 +132,12 @@ def example_messages():
         (70, "Evict", dict(name="Emergency stop")),
         (71, "Admit", dict(name="Emergency stop")),
         (4, "Rejected", dict(error="Evicted", text="'Winch' was evicted by 'anna'; an operator can let it in again: qtplc admit 'Winch'")),
+        (2, "Register", dict(name="Camera", uuid=uuid, policy="ErrorZeroOrderHold", listener=False, cyclic="auto", udpPort=40124,
+                             inputs=[dict(name="tetherSpeed", type="Real32", unit="m/s")], outputs=[])),
+        (3, "Registered", dict(node=10, inputsHash=hex64(fnv1a64(b"tetherSpeed:Real32@0\n")),
+                               outputsHash=hex64(fnv1a64(b"")), state="Off", token="00000000075bcd18",
+                               probe=dict(question="0123456789abcdef", answer="fedcba9876543210"))),
+        (5, "AttachCyclicChannel", dict(node=10, token="00000000075bcd18", cyclic="udp")),
     ]
 
 

@@ -45,7 +45,7 @@
 /// QPlcHardwareNode node("Winch");
 /// if (!node.configureFromFile("winch.ini"))
 ///     qFatal("%s", qPrintable(QPlcParseError::toString(node.configurationErrors())));
-/// node.connectToMaster(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost));
+/// node.connectToMaster(QPlcUnderlyingProtocol::automatic(QHostAddress::LocalHost));
 /// \endcode
 ///
 /// A signal may go to several channels. A number in its place is a constant while the node

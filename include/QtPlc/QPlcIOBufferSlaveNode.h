@@ -16,7 +16,7 @@
 /// inputs.insert("tetherLength");
 /// QPlcIOBufferSlaveNode node("Recorder");
 /// node.setInputSignalIndices(inputs);
-/// node.connectToMaster(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost));
+/// node.connectToMaster(QPlcUnderlyingProtocol::automatic(QHostAddress::LocalHost));
 ///
 /// const QList<QPlcSignalList> cycles = node.takeInputSignals();  // now and then
 /// for (const QPlcSignalList &cycle : cycles)

@@ -14,7 +14,7 @@
 /// outputs.insert("tetherSpeed");
 /// QPlcIOSlaveNode node("Operator");
 /// node.setOutputSignalIndices(outputs);
-/// node.connectToMaster(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost));
+/// node.connectToMaster(QPlcUnderlyingProtocol::automatic(QHostAddress::LocalHost));
 ///
 /// QPlcSignalList values;
 /// values.insert("tetherSpeed", 2.5);

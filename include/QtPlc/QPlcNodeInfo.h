@@ -48,6 +48,9 @@ struct QPlcNodeInfo
     /// Watchdog that the node has set itself and that leads to its safe state; 0: none of its own.
     std::chrono::nanoseconds watchdog{0};
     QString identity;  ///< identity that the node has proven; empty: none
+    /// True if the node uses this transport because datagrams do not get through to it, or not
+    /// from it (QPlcUnderlyingProtocol::Automatic).
+    bool fallback = false;
 };
 
 Q_DECLARE_METATYPE(QPlcNodeInfo)

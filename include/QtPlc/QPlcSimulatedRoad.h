@@ -32,5 +32,8 @@ struct QPlcSimulatedRoad
     /// Share of the frames that others may overtake, 0 to 1.
     double reordering = 0.0;
     std::chrono::nanoseconds lateness{0};  ///< largest delay of those frames
-    bool isCut = false;                    ///< nothing arrives, and no end is told
+    /// Frames over datagrams do not arrive, those over streams and control messages do, as behind
+    /// some firewalls.
+    bool dropsDatagrams = false;
+    bool isCut = false;  ///< nothing arrives, and no end is told
 };

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 namespace qplc {
 
@@ -14,6 +15,12 @@ namespace {
 // Of those that a kernel gives away.
 constexpr quint16 FirstPort = 40000;
 constexpr std::uint64_t Ports = 8;
+
+SimulatedRoad withoutReordering(SimulatedRoad road)
+{
+    road.reordering = 0;
+    return road;
+}
 
 }  // namespace
 
@@ -50,13 +57,29 @@ void FrameWire::send(FrameEnd &from, quint64 to, const char *bytes, std::size_t 
     const FramePort &port = *found->second;
     const SimulatedRoad &road = m_simulator.network().road(from.host(), port.host());
     SeededRandom &fate = m_simulator.fate();
-    if (road.isCut || (road.loss > 0 && fate.fraction() < road.loss))
+    if (from.isReliable() || (port.end && port.end->isReliable())) {
+        if (!road.isCut)
+            carry(from, port, arrival(from, port, withoutReordering(road)), bytes, size);
+        return;
+    }
+    if (road.isCut || road.dropsDatagrams || (road.loss > 0 && fate.fraction() < road.loss))
         return;
     carry(from, port, arrival(from, port, road), bytes, size);
     if (road.duplication > 0 && fate.fraction() < road.duplication)
         carry(from, port, arrival(from, port, road), bytes, size);
     if (road.echo > 0 && fate.fraction() < road.echo)
         carry(from, port, m_simulator.now() + std::int64_t(fate.below(std::uint64_t(road.echoTime))), bytes, size);
+}
+
+void FrameWire::divert(quint64 from, quint64 to, Reader reader)
+{
+    const auto found = m_ports.find(to);
+    if (found == m_ports.end())
+        return;
+    if (reader)
+        found->second->readers[from] = std::move(reader);
+    else
+        found->second->readers.erase(from);
 }
 
 std::int64_t FrameWire::arrival(FrameEnd &from, const FramePort &to, const SimulatedRoad &road)
@@ -103,10 +126,15 @@ FramePort::FramePort(SimulatedHost &host, FrameWire &wire)
 
 void FramePort::happen(std::uint32_t, std::uint64_t number)
 {
-    if (end)
+    const auto reader = readers.find(m_wire.frame(number).from);
+    const bool isDiverted = reader != readers.end();
+    if (end && !isDiverted) {
         end->arrived(number);
-    else
-        m_wire.release(number);
+        return;
+    }
+    if (end)
+        reader->second(*end, m_wire.frame(number));
+    m_wire.release(number);
 }
 
 FrameEnd::FrameEnd(SimulatedHost &host, quint16 port)

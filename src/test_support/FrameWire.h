@@ -7,6 +7,8 @@
 
 #include <cstddef>
 #include <deque>
+#include <functional>
+#include <map>
 #include <memory>
 #include <unordered_map>
 #include <vector>
@@ -24,7 +26,8 @@ struct SimulatedFrame
     std::vector<char> bytes;
 };
 
-/// Carries cyclic frames between the hosts of a simulator, each on its own, as UDP does.
+/// Carries cyclic frames between the hosts of a simulator, each on its own, as UDP does; or in
+/// order and without loss, if one end is reliable.
 class FrameWire
 {
 public:
@@ -38,6 +41,10 @@ public:
     void removePorts(const SimulatedHost &host);
 
     void send(FrameEnd &from, quint64 to, const char *bytes, std::size_t size);
+    /// From now on what comes from \a from to the open port \a to is for \a reader alone; null: for
+    /// the end of the port again.
+    using Reader = std::function<void(FrameEnd &end, SimulatedFrame &frame)>;
+    void divert(quint64 from, quint64 to, Reader reader);
     /// All ports that are open, in the order of their keys.
     std::vector<const FrameEnd *> ends() const;
     SimulatedFrame &frame(std::size_t number) { return *m_frames[number]; }
@@ -66,7 +73,8 @@ public:
     void happen(std::uint32_t what, std::uint64_t data) override;
     bool isOfProgram(std::uint32_t) const override { return false; }
 
-    FrameEnd *end = nullptr;  // null: closed
+    FrameEnd *end = nullptr;                       // null: closed
+    std::map<quint64, FrameWire::Reader> readers;  // by the sender
 
 private:
     FrameWire &m_wire;
@@ -87,6 +95,9 @@ public:
 
     quint64 key() const noexcept { return m_key; }
     SimulatedHost &host() const noexcept { return m_host; }
+    /// What it sends and receives travels on a stream.
+    void becomeReliable() noexcept { m_isReliable = true; }
+    bool isReliable() const noexcept { return m_isReliable; }
     bool isEmpty() const noexcept { return m_unread.empty(); }
     /// Readable while a frame is there.
     int descriptor() const noexcept { return m_descriptor; }
@@ -113,6 +124,7 @@ private:
     std::size_t m_taken = None;
     Fiber *m_waiting = nullptr;
     std::uint64_t m_dropped = 0;
+    bool m_isReliable = false;
 };
 
 }  // namespace qplc

@@ -31,6 +31,7 @@ qplc::SimulatedRoad inside(const QPlcSimulatedRoad &road)
     made.duplication = road.duplication;
     made.reordering = road.reordering;
     made.lateness = road.lateness.count();
+    made.dropsDatagrams = road.dropsDatagrams;
     made.isCut = road.isCut;
     return made;
 }

@@ -20,6 +20,7 @@ struct SimulatedRoad
     std::int64_t lateness = 0;      // [ns]
     double echo = 0;                // of frames, 0 ... 1, of which a copy arrives up to \a echoTime later
     std::int64_t echoTime = 0;      // [ns]
+    bool dropsDatagrams = false;    // as a firewall: frames arrive on streams only
     bool isCut = false;             // nothing arrives, and nobody hears of it
 };
 

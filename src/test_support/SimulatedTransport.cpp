@@ -4,6 +4,8 @@
 #include "Fiber.h"
 #include "FrameWire.h"
 #include "protocol/messages/Vocabulary.h"
+#include "transport/ChoiceKind.h"
+#include "transport/CyclicHub.h"
 #include "transport/TransportRegistry.h"
 
 #include <algorithm>
@@ -24,13 +26,41 @@ SimulatedHost &ownHost()
 class Peer final : public HubPeer
 {
 public:
-    explicit Peer(quint64 there)
+    Peer(quint64 there, bool isStream)
         : key(there)
+        , m_isStream(isStream)
     {
     }
-    bool losesFrames() const override { return true; }
+    bool losesFrames() const override { return !m_isStream; }
 
     const quint64 key;  // of its FrameEnd
+
+private:
+    const bool m_isStream;
+};
+
+/// Answers before anything reaches the Hub.
+class Answers final : public ProbeAnswers
+{
+public:
+    Answers(quint64 node, quint64 master, const ProbeNumbers &numbers)
+        : ProbeAnswers(numbers)
+        , m_wire(ownHost().simulator().frameWire())
+        , m_node(node)
+        , m_master(master)
+    {
+        m_wire.divert(node, master, [this](FrameEnd &end, SimulatedFrame &question) {
+            std::vector<char> bytes = question.bytes;
+            if (answer(bytes.data(), bytes.size()))
+                end.send(m_node, bytes.data(), bytes.size());
+        });
+    }
+    ~Answers() override { m_wire.divert(m_node, m_master, {}); }
+
+private:
+    FrameWire &m_wire;
+    const quint64 m_node;
+    const quint64 m_master;
 };
 
 class Hub final : public HubTransport
@@ -93,6 +123,7 @@ public:
         return false;
     }
     std::uint64_t unread() const override { return m_end ? m_end->unread() : 0; }
+    quint64 key() const { return m_end->key(); }
 
 private:
     SimulatedHost &m_host = ownHost();
@@ -111,6 +142,7 @@ public:
     {
     }
     int descriptor() const noexcept override { return m_end.descriptor(); }
+    void becomeReliable() { m_end.becomeReliable(); }
     Status receive(const char **frame, std::size_t *size) noexcept override
     {
         m_end.wait(Fiber::Never);
@@ -138,18 +170,29 @@ private:
     const quint64 m_master;
 };
 
+quint64 keyOfNode(const Newcomer &node)
+{
+    return SocketAddress(node.address, quint16(node.request.value(portField).toInt())).key();
+}
+
 }  // namespace
 
 void SimulatedTransport::install()
 {
     QString error;
-    if (!TransportRegistry::instance().named(QStringLiteral("sim")))
-        TransportRegistry::instance().add(std::make_unique<SimulatedTransport>(), &error);
+    TransportRegistry &registry = TransportRegistry::instance();
+    const QString datagrams = QStringLiteral("sim");
+    const QString stream = QStringLiteral("sim-stream");
+    if (registry.named(datagrams))
+        return;
+    registry.add(std::make_unique<SimulatedTransport>(false), &error);
+    registry.add(std::make_unique<SimulatedTransport>(true), &error);
+    registry.add(std::make_unique<ChoiceKind>(QStringLiteral("sim-auto"), datagrams, stream), &error);
 }
 
 std::unique_ptr<HubTransport> SimulatedTransport::makeHubTransport() const
 {
-    return std::make_unique<Hub>();
+    return m_isStream ? nullptr : std::make_unique<Hub>();  // one for both
 }
 
 bool SimulatedTransport::admits(const CyclicHub &, const Newcomer &node, ChannelError *error) const
@@ -165,8 +208,13 @@ bool SimulatedTransport::admits(const CyclicHub &, const Newcomer &node, Channel
 std::unique_ptr<HubPeer> SimulatedTransport::makePeer(const CyclicHub &, const Newcomer &node, QJsonObject *,
                                                       ChannelError *) const
 {
-    const auto port = quint16(node.request.value(portField).toInt());
-    return std::make_unique<Peer>(SocketAddress(node.address, port).key());
+    return std::make_unique<Peer>(keyOfNode(node), m_isStream);
+}
+
+std::unique_ptr<ProbeAnswers> SimulatedTransport::answerProbe(const CyclicHub &hub, const Newcomer &node,
+                                                              const ProbeNumbers &numbers) const
+{
+    return std::make_unique<Answers>(keyOfNode(node), hub.find<Hub>()->key(), numbers);
 }
 
 bool SimulatedTransport::beginLink(const ControlEnds &ends, QJsonObject *request, std::unique_ptr<CyclicLink> *link,
@@ -176,6 +224,15 @@ bool SimulatedTransport::beginLink(const ControlEnds &ends, QJsonObject *request
     const quint16 port = host.simulator().frameWire().freePort(host);
     request->insert(portField, int(port));
     *link = std::make_unique<Link>(port, ends.master.key());
+    return true;
+}
+
+/// The link that was begun for "sim-auto" serves both.
+bool SimulatedTransport::finishLink(const ControlEnds &, const QJsonObject &, std::unique_ptr<CyclicLink> *link,
+                                    QString *) const
+{
+    if (m_isStream)
+        static_cast<Link *>(link->get())->becomeReliable();
     return true;
 }
 

@@ -76,7 +76,7 @@ QStringList namesOfCommands()
 /// without a writer
 QStringList signalNames(const QString &address, bool onlyFree)
 {
-    const QPlcUnderlyingProtocol master = QPlcUnderlyingProtocol::fromString(address, QPlcUnderlyingProtocol::Tcp);
+    const QPlcUnderlyingProtocol master = QPlcUnderlyingProtocol::fromString(address);
     BlockingClient client(patience);
     if (!master.isValid() || !client.connectToMaster(master))
         return {};

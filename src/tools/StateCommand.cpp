@@ -34,7 +34,7 @@ QString numberOf(const QPlcNodeInfo &node)
 
 const NodeColumn nodeColumns[] = {
     {"node", Left, NodeColumn::Always, [](const QPlcNodeInfo &node) { return node.name; }},
-    {"transport", Left, NodeColumn::Always, [](const QPlcNodeInfo &node) { return node.transport; }},
+    {"transport", Left, NodeColumn::Always, &qplc::transportText},
     {"address", Left, NodeColumn::InDetail, [](const QPlcNodeInfo &node) { return node.address; }},
     {"number", Right, NodeColumn::InDetail, &numberOf<&QPlcNodeInfo::id>},
     {"state", Left, NodeColumn::IsState, [](const QPlcNodeInfo &node) { return qplc::stateText(node.state); }},

@@ -91,7 +91,7 @@ int run(QPlcCoreApplication &application)
     const QString address
         = application.isSet(QStringLiteral("master")) ? application.value(QStringLiteral("master")) : defaultMaster;
     const QPlcUnderlyingProtocol master
-        = QPlcUnderlyingProtocol::fromString(address, QPlcUnderlyingProtocol::Tcp, &error);
+        = QPlcUnderlyingProtocol::fromString(address, QPlcUnderlyingProtocol::Automatic, &error);
     if (!master.isValid())
         return application.usageError(QStringLiteral("--master: %1").arg(error));
     QPlcSecurity security;

@@ -44,6 +44,8 @@ QString QPlcUnderlyingProtocol::kindName() const
 QString QPlcUnderlyingProtocol::toString() const
 {
     const TransportKind *transport = TransportRegistry::instance().at(m_kind);
-    return transport ? transport->name() + QStringLiteral("://") + transport->placeText(m_address, m_port)
-                     : QStringLiteral("invalid");
+    if (!transport)
+        return QStringLiteral("invalid");
+    const QString scheme = m_kind == Automatic ? QString() : transport->name() + QStringLiteral("://");
+    return scheme + transport->placeText(m_address, m_port);
 }

@@ -89,6 +89,12 @@ std::unique_ptr<HubPeer> TransportKind::makePeer(const CyclicHub &, const Newcom
     return nullptr;
 }
 
+std::unique_ptr<ProbeAnswers> TransportKind::answerProbe(const CyclicHub &, const Newcomer &,
+                                                         const ProbeNumbers &) const
+{
+    return nullptr;
+}
+
 std::unique_ptr<HubPeer> TransportKind::makeStreamPeer(int, const FrameCutter &, std::size_t) const
 {
     return nullptr;

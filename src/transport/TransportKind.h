@@ -2,6 +2,7 @@
 #pragma once
 
 #include "CyclicLink.h"
+#include "DatagramProbe.h"
 #include "FrameCutter.h"
 #include "FrameVolume.h"
 #include "HubTransport.h"
@@ -75,6 +76,12 @@ public:
     /// Whether the inputs of many nodes travel in one frame.
     virtual bool hasGroup() const { return false; }
 
+    /// Of a kind that stands for two others, the one that a node uses if a DatagramProbe gets
+    /// through. Null: it stands for itself.
+    virtual const TransportKind *first() const { return nullptr; }
+    /// The one that it uses otherwise.
+    virtual const TransportKind *fallback() const { return nullptr; }
+
     /// Whether its frames travel on the machine; else between hosts of a simulator
     /// (Host::current()).
     virtual bool isOfMachine() const { return true; }
@@ -106,6 +113,9 @@ public:
     /// \return null, with the reason in \a error, when there is none
     virtual std::unique_ptr<HubPeer> makePeer(const CyclicHub &hub, const Newcomer &node, QJsonObject *answer,
                                               ChannelError *error) const;
+    /// Answers the questions of a node that has not attached yet. Null: it cannot.
+    virtual std::unique_ptr<ProbeAnswers> answerProbe(const CyclicHub &hub, const Newcomer &node,
+                                                      const ProbeNumbers &numbers) const;
     /// The peer behind the connected stream \a descriptor, which it owns. \pre hasStreams()
     virtual std::unique_ptr<HubPeer> makeStreamPeer(int descriptor, const FrameCutter &cutter,
                                                     std::size_t largestFrame) const;

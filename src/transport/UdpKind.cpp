@@ -30,8 +30,18 @@ bool UdpKind::admits(const CyclicHub &, const Newcomer &node, ChannelError *erro
 std::unique_ptr<HubPeer> UdpKind::makePeer(const CyclicHub &hub, const Newcomer &node, QJsonObject *,
                                            ChannelError *) const
 {
-    const auto port = quint16(messages::fieldsOf<Request>(node.request).udpPort);
-    return hub.find<UdpTransport>()->peer(SocketAddress(node.address, port), node.volume.outputs);
+    return hub.find<UdpTransport>()->peer(addressOf(node), node.volume.outputs);
+}
+
+std::unique_ptr<ProbeAnswers> UdpKind::answerProbe(const CyclicHub &hub, const Newcomer &node,
+                                                   const ProbeNumbers &numbers) const
+{
+    return hub.find<UdpTransport>()->answerProbe(addressOf(node), numbers);
+}
+
+SocketAddress UdpKind::addressOf(const Newcomer &node)
+{
+    return {node.address, quint16(messages::fieldsOf<Request>(node.request).udpPort)};
 }
 
 bool UdpKind::beginLink(const ControlEnds &ends, QJsonObject *request, std::unique_ptr<CyclicLink> *link,

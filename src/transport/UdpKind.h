@@ -15,10 +15,14 @@ public:
     bool admits(const CyclicHub &hub, const Newcomer &node, ChannelError *error) const override;
     std::unique_ptr<HubPeer> makePeer(const CyclicHub &hub, const Newcomer &node, QJsonObject *answer,
                                       ChannelError *error) const override;
+    std::unique_ptr<ProbeAnswers> answerProbe(const CyclicHub &hub, const Newcomer &node,
+                                              const ProbeNumbers &numbers) const override;
     bool beginLink(const ControlEnds &ends, QJsonObject *request, std::unique_ptr<CyclicLink> *link,
                    QString *error) const override;
 
 protected:
+    static SocketAddress addressOf(const Newcomer &node);
+
     /// What a node says in Register.
     struct Request
     {

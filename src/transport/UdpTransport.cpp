@@ -3,6 +3,7 @@
 
 #include "DatagramFilter.h"
 
+#include <QtCore/QSocketNotifier>
 #include <QtCore/qendian.h>
 #include <QtNetwork/QUdpSocket>
 
@@ -34,6 +35,23 @@ std::uint64_t dropsOf(int socket)
     std::array<std::uint32_t, SK_MEMINFO_VARS> memory{};
     socklen_t size = sizeof memory;
     return ::getsockopt(socket, SOL_SOCKET, SO_MEMINFO, memory.data(), &size) == 0 ? memory[SK_MEMINFO_DROPS] : 0;
+}
+
+/// Not bound yet; of IPv6, one that also speaks IPv4. -1: there is none.
+int newSocket(int family)
+{
+    const int off = 0;
+    const int made = ::socket(family, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+    if (family == AF_INET6)
+        ::setsockopt(made, IPPROTO_IPV6, IPV6_V6ONLY, &off, sizeof off);
+    return made;
+}
+
+/// Allows other sockets of this user on the same port.
+bool sharePort(int socket)
+{
+    const int on = 1;
+    return ::setsockopt(socket, SOL_SOCKET, SO_REUSEPORT, &on, sizeof on) == 0;
 }
 
 }  // namespace
@@ -95,6 +113,49 @@ private:
     const Port::Guest m_guest;
 };
 
+/// A third socket on the port, for a node that is no peer yet. It is connected, so the kernel gives
+/// it the datagrams of that address, and of no other one.
+class UdpTransport::ProbePort final : public ProbeAnswers
+{
+public:
+    ProbePort(const SocketAddress &own, const SocketAddress &node, const ProbeNumbers &numbers)
+        : ProbeAnswers(numbers)
+        , m_socket(newSocket(own.family()))
+    {
+        const SocketAddress to = own.family() == AF_INET6 ? node.mappedToIpv6() : node;
+        m_isOpen = sharePort(m_socket) && ::bind(m_socket, own.data(), own.length) == 0
+            && ::connect(m_socket, to.data(), to.length) == 0;
+        if (!m_isOpen)
+            return;
+        m_arrival = std::make_unique<QSocketNotifier>(m_socket, QSocketNotifier::Read);
+        QObject::connect(m_arrival.get(), &QSocketNotifier::activated, m_arrival.get(), [this] { read(); });
+    }
+    ~ProbePort() override
+    {
+        m_arrival.reset();
+        if (m_socket >= 0)
+            ::close(m_socket);
+    }
+    bool isOpen() const { return m_isOpen; }
+
+private:
+    void read()
+    {
+        std::array<char, LargestDatagram> datagram;
+        const ssize_t size = ::recv(m_socket, datagram.data(), datagram.size(), MSG_DONTWAIT);
+        if (size > 0 && answer(datagram.data(), std::size_t(size)))
+            ::send(m_socket, datagram.data(), std::size_t(size), MSG_DONTWAIT | MSG_NOSIGNAL);
+        m_arrival->setEnabled(++m_read < MostRead);
+    }
+
+    static constexpr int MostRead = 1000;  // datagrams, with those that somebody sends in the name of the node
+
+    const int m_socket;
+    bool m_isOpen = false;
+    int m_read = 0;
+    std::unique_ptr<QSocketNotifier> m_arrival;
+};
+
 struct UdpTransport::Messages
 {
     std::array<mmsghdr, MaximumPeers> outgoing{};
@@ -130,17 +191,23 @@ std::unique_ptr<HubPeer> UdpTransport::peer(const SocketAddress &address, const 
     return std::make_unique<Peer>(m_port, Port::Guest{address, answers.frames});
 }
 
+std::unique_ptr<ProbeAnswers> UdpTransport::answerProbe(const SocketAddress &address, const ProbeNumbers &numbers) const
+{
+    SocketAddress own;
+    own.length = sizeof own.storage;
+    if (::getsockname(m_socket, own.data(), &own.length) != 0)
+        return nullptr;
+    auto port = std::make_unique<ProbePort>(own, address, numbers);
+    return port->isOpen() ? std::move(port) : nullptr;
+}
+
 // ---- the port ----
 
 bool UdpTransport::Port::open(const SocketAddress &address)
 {
     const std::lock_guard<std::mutex> lock(m_mutex);
-    const int off = 0;
-    for (int *socket : {&m_ofPeers, &m_ofStrangers}) {
-        *socket = ::socket(address.family(), SOCK_DGRAM | SOCK_CLOEXEC, 0);
-        if (address.family() == AF_INET6)
-            ::setsockopt(*socket, IPPROTO_IPV6, IPV6_V6ONLY, &off, sizeof off);
-    }
+    for (int *socket : {&m_ofPeers, &m_ofStrangers})
+        *socket = newSocket(address.family());
     const timeval longestReceive{0, suseconds_t(CoarseWait / 1000)};
     ::setsockopt(m_ofPeers, SOL_SOCKET, SO_RCVTIMEO, &longestReceive, sizeof longestReceive);
     if (m_ofPeers < 0 || ::bind(m_ofPeers, address.data(), address.length) != 0 || !join(address))
@@ -155,11 +222,9 @@ bool UdpTransport::Port::join(const SocketAddress &address)
 {
     SocketAddress bound = address;
     ::getsockname(m_ofPeers, bound.data(), &bound.length);
-    const int on = 1;
     sock_filter dropAll{BPF_RET | BPF_K, 0, 0, 0};
     const sock_fprog program{1, &dropAll};
-    return ::setsockopt(m_ofPeers, SOL_SOCKET, SO_REUSEPORT, &on, sizeof on) == 0
-        && ::setsockopt(m_ofStrangers, SOL_SOCKET, SO_REUSEPORT, &on, sizeof on) == 0
+    return sharePort(m_ofPeers) && sharePort(m_ofStrangers)
         && ::setsockopt(m_ofStrangers, SOL_SOCKET, SO_ATTACH_FILTER, &program, sizeof program) == 0
         && ::bind(m_ofStrangers, bound.data(), bound.length) == 0;
 }

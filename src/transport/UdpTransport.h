@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "DatagramProbe.h"
 #include "FrameVolume.h"
 #include "HubTransport.h"
 
@@ -20,6 +21,9 @@ public:
     /// A node that is reached at \a address, and sends \a answers in a cycle: from now on until it
     /// is deleted, its datagrams are not those of a stranger. Not by the cycle thread.
     std::unique_ptr<HubPeer> peer(const SocketAddress &address, const FrameVolume &answers = {});
+    /// Answers the questions that come from \a address, from the port of the master. Null: it is
+    /// not possible.
+    std::unique_ptr<ProbeAnswers> answerProbe(const SocketAddress &address, const ProbeNumbers &numbers) const;
 
     /// Binds the sockets. Those that are bound to :: also exchange datagrams with IPv4 addresses.
     bool open(const SocketAddress &address, QString *error) override;
@@ -49,6 +53,7 @@ public:
 private:
     class Peer;
     class Port;
+    class ProbePort;
     struct Messages;
     static constexpr std::size_t Batch = 32;
     static constexpr std::size_t LargestDatagram = 2048;

@@ -175,6 +175,7 @@ def sessions():
         "start and stop": winch + start + message(0, "GetState") + message(0, "Stop"),
         "answers": winch + record(ANSWER, 0, values) + record(ANSWER, 0, struct.pack("<BIId", 2, 1, 0, float("nan"))) + record(ANSWER, 0, values),
         "tcp": hello(0, "Winch") + register(0, "Winch", "tcp") + record(ATTACH),
+        "auto": hello(0, "Winch") + register(0, "Winch", "auto") + record(ATTACH) + message(0, "AttachCyclicChannel", node=1, token="0" * 16, cyclic="udp"),
         "local": hello(0, "Winch") + register(0, "Winch", "local") + start,
         "multicast": hello(0, "Winch") + register(0, "Winch", "udp-multicast") + start,
         "listener": hello(0, "View") + register(0, "View", listener=True, outputs=[]) + start,

@@ -85,12 +85,12 @@ class Network:
 
 
 class Plant:
-    def __init__(self, folder, network):
-        self.folder, self.network, self.programs = folder, network, []
+    def __init__(self, folder, network, scheme="udp://", programs=None):
+        self.folder, self.network, self.programs = folder, network, [] if programs is None else programs
         self.start(0, "awe_master", "--listen", MASTER, "--port", "50000", "--insecure-network", "--profile", "simulation")
         self.wait(lambda: self.ask("state").returncode == 0, "the master listens")
         for node in ("awe_model", "awe_autopilot"):
-            self.start(1, node, "--master", f"udp://{MASTER}:50000")
+            self.start(1, node, "--master", f"{scheme}{MASTER}:50000")
         self.wait(lambda: {"Model", "Autopilot"} <= set(self.nodes()), "both nodes are there")
         started = self.ask("start")
         assert started.returncode == 0, started.stderr

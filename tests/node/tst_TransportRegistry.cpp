@@ -76,9 +76,10 @@ void tst_TransportRegistry::registryNumbersMatchTheTransportKinds()
     QCOMPARE(registry.numberOf("udp"), int(QPlcUnderlyingProtocol::Udp));
     QCOMPARE(registry.numberOf("udp-multicast"), int(QPlcUnderlyingProtocol::UdpMulticast));
     QCOMPARE(registry.numberOf("local"), int(QPlcUnderlyingProtocol::Local));
-    QCOMPARE(registry.numberOf("pair"), int(QPlcUnderlyingProtocol::Local) + 1);
+    QCOMPARE(registry.numberOf("auto"), int(QPlcUnderlyingProtocol::Automatic));
+    QCOMPARE(registry.numberOf("pair"), int(QPlcUnderlyingProtocol::Automatic) + 1);
     QCOMPARE(registry.numberOf("invalid"), int(QPlcUnderlyingProtocol::Invalid));
-    QVERIFY(!registry.at(0) && !registry.at(6) && !registry.named("invalid"));
+    QVERIFY(!registry.at(0) && !registry.at(7) && !registry.named("invalid"));
 }
 
 void tst_TransportRegistry::addressesAcceptAddedTransports()
@@ -152,8 +153,9 @@ void tst_TransportRegistry::unknownAddressErrorListsKnownTransports()
 {
     QString error;
     QVERIFY(!QPlcUnderlyingProtocol::fromString("pigeon://127.0.0.1", QPlcUnderlyingProtocol::Tcp, &error).isValid());
-    QCOMPARE(error,
-             QString("unknown transport 'pigeon://'; use tcp://, udp://, udp-multicast://, local:// or pair://"));
+    QCOMPARE(
+        error,
+        QString("unknown transport 'pigeon://'; use tcp://, udp://, udp-multicast://, local://, auto:// or pair://"));
 }
 
 void tst_TransportRegistry::unknownChannelErrorListsKnownTransports()
@@ -169,7 +171,7 @@ void tst_TransportRegistry::unknownChannelErrorListsKnownTransports()
     const QPlcMessage answer = node.next();
     QCOMPARE(answer.kind(), QPlcMessage::Rejected);
     QCOMPARE(answer.text("text"),
-             QString("unknown cyclic channel 'pigeon'; use tcp, udp, udp-multicast, local or pair"));
+             QString("unknown cyclic channel 'pigeon'; use tcp, udp, udp-multicast, local, auto or pair"));
 }
 
 void tst_TransportRegistry::usedOrInvalidTransportNameIsRefused_data()
@@ -178,10 +180,10 @@ void tst_TransportRegistry::usedOrInvalidTransportNameIsRefused_data()
     QTest::addColumn<QString>("expected");
     QTest::newRow("of the library") << "udp"
                                     << "transport 'udp' exists already; use another name than tcp, udp, udp-multicast, "
-                                       "local or pair";
+                                       "local, auto or pair";
     QTest::newRow("of one that has joined") << "pair"
                                             << "transport 'pair' exists already; use another name than tcp, udp, "
-                                               "udp-multicast, local or pair";
+                                               "udp-multicast, local, auto or pair";
     QTest::newRow("empty") << ""
                            << "'' is not a valid name of a transport; use small letters, digits and '-'";
     QTest::newRow("none for addresses")

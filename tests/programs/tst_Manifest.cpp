@@ -155,8 +155,8 @@ void tst_Manifest::manifestOfTheRunningPlantStartsItAgain()
     QVERIFY(m_autopilot);
     const Outcome written = m_plant->qtplc("manifest");
     QCOMPARE(written.exitCode, 0);
-    QVERIFY2(written.output.contains("[Model]\nneed = critical\ntransport = tcp\nwatchdog = 300 ms\n")
-                 && written.output.contains("[Autopilot]\nneed = required\ntransport = tcp\n"),
+    QVERIFY2(written.output.contains("[Model]\nneed = critical\ntransport = udp\nwatchdog = 300 ms\n")
+                 && written.output.contains("[Autopilot]\nneed = required\ntransport = udp\n"),
              qPrintable(written.output));
     QCOMPARE(jsonOf(m_plant->qtplc("manifest --json").output).object().value("nodes").toArray().size(),
              3);  // one is in the process of the master

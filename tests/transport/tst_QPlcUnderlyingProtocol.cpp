@@ -15,6 +15,7 @@ private Q_SLOTS:
     void invalidAddressesAreRefusedWithAReason_data();
     void invalidAddressesAreRefusedWithAReason();
     void protocolReportsItsKind();
+    void addressWithoutATransportIsAutomatic();
 };
 
 void tst_QPlcUnderlyingProtocol::addressesAreRead_data()
@@ -114,6 +115,16 @@ void tst_QPlcUnderlyingProtocol::protocolReportsItsKind()
     QVERIFY(P::tcp(QHostAddress::LocalHost, 5) == P::tcp(QHostAddress::LocalHost, 5));
     QVERIFY(P::tcp(QHostAddress::LocalHost, 5) != P::udp(QHostAddress::LocalHost, 5));
     QVERIFY(P::tcp(QHostAddress::LocalHost, 5) != P::tcp(QHostAddress::LocalHost, 6));
+}
+
+void tst_QPlcUnderlyingProtocol::addressWithoutATransportIsAutomatic()
+{
+    const P automatic = P::automatic(QHostAddress::LocalHost, 5);
+    QCOMPARE(automatic.kindName(), QString("auto"));
+    QCOMPARE(P::fromString("localhost:5"), automatic);
+    QCOMPARE(P::fromString("auto://localhost:5", P::Tcp), automatic);
+    QCOMPARE(automatic.toString(), QString("127.0.0.1:5"));
+    QCOMPARE(P::fromString(automatic.toString()), automatic);
 }
 
 QTEST_GUILESS_MAIN(tst_QPlcUnderlyingProtocol)

@@ -258,7 +258,7 @@ QString NodeTableModel::text(const Row &row, int column) const
     case Health:
         return healthText(healthOf(row));
     case Transport:
-        return row.node.info.transport;
+        return transportText(row.node.info);
     case Address:
         return row.node.info.address;
     case Policy:

@@ -63,7 +63,7 @@ void AddressResolver::parse(const QString &address)
 {
     QString error;
     const QPlcUnderlyingProtocol master
-        = QPlcUnderlyingProtocol::fromString(address, QPlcUnderlyingProtocol::Tcp, &error);
+        = QPlcUnderlyingProtocol::fromString(address, QPlcUnderlyingProtocol::Automatic, &error);
     if (master.isValid())
         Q_EMIT resolved(master);
     else

@@ -138,7 +138,7 @@ QString ConnectStrip::errorOf(const QString &address)
         return error;
     if (plain.startsWith(QLatin1String("qtplc://")))
         plain.remove(0, 8);
-    QPlcUnderlyingProtocol::fromString(plain, QPlcUnderlyingProtocol::Tcp, &error);
+    QPlcUnderlyingProtocol::fromString(plain, QPlcUnderlyingProtocol::Automatic, &error);
     return error;
 }
 

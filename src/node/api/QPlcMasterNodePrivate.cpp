@@ -133,8 +133,8 @@ QPlcMasterNodePrivate::Parts::Parts(QPlcMasterNodePrivate &master)
     , phase(cycle, registry, rosters, ownSignals, master.phaseSettings, master.phaseProfile, master.journal)
     , server(
           registry, cycle.image(), master.hub, master.session, [&master] { return helloOf(master); },
-          [this, &master](qplc::NodeDeclaration *node, const Connection &from) {
-              const qplc::Refusal refusal = master.needed.judge(node, from.cyclicKind, from.peer.provenIdentity());
+          [this, &master](qplc::NodeDeclaration *node, const Connection &from, const QString &transport) {
+              const qplc::Refusal refusal = master.needed.judge(node, transport, from.peer.provenIdentity());
               return refusal.error.isEmpty() && isPhaseUnderWay() ? master.phaseProfile.objectionTo(*node) : refusal;
           },
           master.evictions, nullptr)
@@ -324,6 +324,9 @@ void QPlcMasterNodePrivate::nodeAttached(Connection *connection)
     parts->settings.leaveToWriters();
     journal.tell(JournalEvent::Info, JournalEvent::Node, name,
                  QStringLiteral("node %1 registered over %2").arg(name, connection->cyclicKind));
+    if (!connection->fallbackReason.isEmpty())
+        journal.tell(JournalEvent::Warning, JournalEvent::Node, name,
+                     QStringLiteral("node %1: %2").arg(name, connection->fallbackReason));
     if (!connection->slot->faultPlan.isEmpty())
         journal.tell(JournalEvent::Warning, JournalEvent::Node, name,
                      QStringLiteral("node %1 injects faults on purpose: %2").arg(name, connection->slot->faultPlan));

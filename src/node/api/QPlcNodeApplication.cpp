@@ -17,11 +17,13 @@ QCommandLineOption option(const char *name, const QString &description, const ch
 QPlcNodeApplication::QPlcNodeApplication(int &argc, char **argv)
     : QPlcCoreApplication(argc, argv)
 {
-    addOption(option("master",
-                     QStringLiteral("Where the master is: [tcp://|udp://|udp-multicast://]HOST[:PORT], or "
-                                    "local://PORT for shared memory on one computer. Without a transport: TCP. "
-                                    "Without this option: 127.0.0.1:50000."),
-                     "ADDRESS", QStringLiteral("127.0.0.1:%1").arg(QPlcUnderlyingProtocol::DefaultPort)));
+    addOption(
+        option("master",
+               QStringLiteral("Where the master is: [tcp://|udp://|udp-multicast://]HOST[:PORT], or "
+                              "local://PORT for shared memory on one computer. Without a transport: UDP, or TCP if UDP "
+                              "does not get through. "
+                              "Without this option: 127.0.0.1:50000."),
+               "ADDRESS", QStringLiteral("127.0.0.1:%1").arg(QPlcUnderlyingProtocol::DefaultPort)));
     addOption(option("signals", QStringLiteral("Signal table of this node. Without one the master sends its table."),
                      "FILE"));
     addOption(option("name", QStringLiteral("Name under which the node registers."), "NAME"));
@@ -115,7 +117,7 @@ int QPlcNodeApplication::run(QPlcSlaveNode &node)
 {
     QString text;
     const QPlcUnderlyingProtocol master
-        = QPlcUnderlyingProtocol::fromString(value(QStringLiteral("master")), QPlcUnderlyingProtocol::Tcp, &text);
+        = QPlcUnderlyingProtocol::fromString(value(QStringLiteral("master")), QPlcUnderlyingProtocol::Automatic, &text);
     if (!master.isValid())
         return usageError(QStringLiteral("--master: %1").arg(text));
     if (!configure(node))

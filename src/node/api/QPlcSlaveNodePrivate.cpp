@@ -98,11 +98,10 @@ void QPlcSlaveNodePrivate::connectToMaster(const QPlcUnderlyingProtocol &newMast
     master = newMaster;
     m_wasRegistered = false;
     m_backOff.reset();
-    m_transport = qplc::TransportRegistry::instance().named(master.kindName());
-    if (!m_transport) {
-        setError(QPlcSlaveNode::OptionError,
-                 QStringLiteral("node '%1': no master given; use QPlcUnderlyingProtocol::tcp(), udp() or local()")
-                     .arg(name));
+    if (!master.isValid()) {
+        setError(
+            QPlcSlaveNode::OptionError,
+            QStringLiteral("node '%1': no master given; use QPlcUnderlyingProtocol::automatic() or local()").arg(name));
         return;
     }
     apply(SlaveEvent::Connect);
@@ -110,6 +109,7 @@ void QPlcSlaveNodePrivate::connectToMaster(const QPlcUnderlyingProtocol &newMast
 
 void QPlcSlaveNodePrivate::openConnection()
 {
+    m_transport = qplc::TransportRegistry::instance().named(master.kindName());
     if (m_wasRegistered || reconnectPolicy == QPlcSlaveNode::ReconnectAlways)
         m_patience.start(m_backOff.patience());
     control.connectToMaster(master);
@@ -151,6 +151,7 @@ void QPlcSlaveNodePrivate::closeConnection(QPlcSlaveNode::SafeStateReason reason
         m_cyclicSocket = nullptr;
     }
     m_patience.stop();
+    m_probe.reset();
     m_link.reset();
     m_reportNotifier.reset();
     m_outputsAwaited.reset();
@@ -252,7 +253,7 @@ bool QPlcSlaveNodePrivate::isExpected(const Message &message) const
     case Message::Registered:
         return control.isGreeted() && !cycle;
     case Message::CyclicChannelAttached:
-        return cycle && !m_transport->hasStreams();
+        return cycle && !m_probe && !m_transport->hasStreams();
     default:
         return true;
     }

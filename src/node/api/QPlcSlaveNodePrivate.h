@@ -111,6 +111,8 @@ private:
     bool hasSealedFrames() const;
     qplc::ControlEnds controlEnds() const;
     bool beginLink(qplc::messages::Register *request);
+    void probe(const qplc::messages::Registered &registered);
+    void openChannel(const qplc::messages::Registered &registered, const qplc::TransportKind &kind);
     bool finishLink(const qplc::messages::Registered &registered);
     void giveLink(std::unique_ptr<qplc::CyclicLink> link);
     void connectCyclicChannel(const qplc::messages::AttachCyclicChannel &wish);
@@ -141,8 +143,9 @@ private:
 
     QPlcMasterSocket *m_cyclicSocket = nullptr;
     std::optional<QPlcMessage> m_outputsAwaited;       // request of a master that has its cyclic connection already
-    const qplc::TransportKind *m_transport = nullptr;  // that of the address of the master
+    const qplc::TransportKind *m_transport = nullptr;  // that of the address of the master, or the one chosen by it
     std::unique_ptr<qplc::CyclicLink> m_link;          // until the cycle takes it
+    std::unique_ptr<qplc::DatagramProbe> m_probe;      // of m_link, while the node waits for an answer
     std::unique_ptr<QSocketNotifier> m_reportNotifier;
     QSocketNotifier *m_cycleNotifier = nullptr;  // child of the node: it goes with it into another thread
     QTimer m_retryTimer;                         // children of the node: they go with it into another thread

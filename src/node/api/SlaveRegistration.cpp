@@ -187,10 +187,53 @@ void QPlcSlaveNodePrivate::proceedAfterRegistered(const messages::Registered &re
     cycle = std::make_unique<qplc::SlaveCycle>(runtime, identity, lcCyclic().isDebugEnabled());
     m_reportNotifier = std::make_unique<QSocketNotifier>(cycle->reports().descriptor(), QSocketNotifier::Read);
     QObject::connect(m_reportNotifier.get(), &QSocketNotifier::activated, q, [this] { takeReports(); });
-    if (m_transport->hasStreams())
-        connectCyclicChannel({registered.node, registered.token});
-    else if (finishLink(registered))
+    if (registered.probe && m_transport->first())
+        probe(registered);
+    else
+        openChannel(registered, m_transport->first() ? *m_transport->fallback() : *m_transport);
+}
+
+/// Looks whether frames would get through in both directions, with datagrams as long as the longest
+/// one.
+void QPlcSlaveNodePrivate::probe(const messages::Registered &registered)
+{
+    const qplc::CycleVolume volume = controlEnds().volume;
+    const auto longest
+        = [](const qplc::FrameVolume &frames) { return frames.frames > 1 ? qplc::MaximumCyclicFrame : frames.bytes; };
+    const auto done
+        = [this, registered](bool getsThrough) {
+              const qplc::TransportKind &choice = *m_transport;
+              m_probe.reset();
+              if (!getsThrough)
+                  qCWarning(lcSlave).noquote()
+                      << QStringLiteral(
+                             "node '%1': %2 does not get through (no answer within %3 ms to %4 datagrams): frames "
+                             "use %5")
+                             .arg(name, choice.first()->name().toUpper())
+                             .arg(qplc::DatagramProbe::Questions * qplc::DatagramProbe::Interval)
+                             .arg(qplc::DatagramProbe::Questions)
+                             .arg(choice.fallback()->name().toUpper());
+              openChannel(registered, getsThrough ? *choice.first() : *choice.fallback());
+          };
+    m_probe = std::make_unique<qplc::DatagramProbe>(
+        *m_link, qplc::ProbeNumbers{registered.probe->question, registered.probe->answer},
+        std::max(longest(volume.inputs), longest(volume.outputs)), done);
+}
+
+/// Begins the cyclic channel over \a kind: the transport of Register, or one that it stands for.
+void QPlcSlaveNodePrivate::openChannel(const messages::Registered &registered, const qplc::TransportKind &kind)
+{
+    const bool isChosen = m_transport != &kind;
+    m_transport = &kind;
+    const messages::AttachCyclicChannel wish{registered.node, registered.token, isChosen ? kind.name() : QString()};
+    if (kind.hasStreams()) {
+        m_link.reset();
+        connectCyclicChannel(wish);
+    } else if (finishLink(registered)) {
         giveLink(std::move(m_link));
+        if (isChosen)
+            send(wish);
+    }
 }
 
 bool QPlcSlaveNodePrivate::finishLink(const messages::Registered &registered)
@@ -240,7 +283,9 @@ void QPlcSlaveNodePrivate::connectCyclicChannel(const messages::AttachCyclicChan
 
 void QPlcSlaveNodePrivate::tellRegistered()
 {
-    qCInfo(lcSlave).noquote() << "node" << name << "registered at" << master.toString();
+    const bool isChosen = m_transport->name() != master.kindName();
+    qCInfo(lcSlave).noquote().nospace() << "node " << name << " registered at " << master.toString()
+                                        << (isChosen ? ", frames use " + m_transport->name() : QString());
     error = QPlcSlaveNode::NoError;
     errorString.clear();
     m_wasRegistered = true;

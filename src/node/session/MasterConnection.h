@@ -8,6 +8,7 @@
 #include "protocol/messages/ListAnswer.h"
 #include "protocol/messages/MessageTable.h"
 #include "transport/ConnectionGate.h"
+#include "transport/TransportKind.h"
 
 #include <QtCore/QObject>
 
@@ -25,7 +26,7 @@ struct MasterConnection
     enum Stage : quint8 {
         Silent,  // has not greeted
         Greeted,
-        Attaching,  // registered; its cyclic TCP connection is not there yet
+        Attaching,  // registered; its cyclic channel is not there yet
         Attached    // a node that can be initialized: its session says how far that has come
     };
 
@@ -39,6 +40,10 @@ struct MasterConnection
     const TransportKind *transport = nullptr;            // of this name; null: there is none
     TokenBucket messages{1000, 4000};                    // that nobody has asked it for
     quint64 token = 0;                                   // names this node on its cyclic TCP connection
+    std::unique_ptr<Newcomer> newcomer{};                // while it is Attaching
+    std::unique_ptr<ProbeAnswers> probe{};               // while its transport is open, and datagrams are allowed
+    Refusal firstRefusal{}, fallbackRefusal{};           // why it may not use one of two transports
+    QString fallbackReason;                              // why it uses the second of them; empty: it does not
     std::shared_ptr<NodeSlot> slot;                      // null: no node
     std::shared_ptr<NodeSession> session;                // null: no node that is attached
     qint64 stageSince = 0;                               // [ms] for time-outs

@@ -98,6 +98,35 @@ Refusal sizeRefusal(const MasterConnection &connection)
     return {};
 }
 
+/// What a node that has registered over \a kind may choose by \a name. Null: not this one.
+const TransportKind *chosenKind(const TransportKind &kind, const QString &name)
+{
+    for (const TransportKind *each : {&kind, kind.first(), kind.fallback()}) {
+        if (each && !each->first() && (name.isEmpty() ? each == &kind : each->name() == name))
+            return each;
+    }
+    return nullptr;
+}
+
+/// Tells in which direction to look for the cause.
+QString reasonForFallback(const MasterConnection &node)
+{
+    return QStringLiteral("%1 does not get through (datagrams of the node that reached the master: %2)")
+        .arg(node.transport->first()->name().toUpper())
+        .arg(node.probe ? node.probe->questions() : 0);
+}
+
+/// Why a node may not use what it has chosen; no error: it may.
+Refusal refusalOfChoice(const MasterConnection &node, const TransportKind &kind)
+{
+    if (&kind != node.transport->fallback())
+        return node.firstRefusal;
+    Refusal refusal = node.fallbackRefusal;
+    if (!refusal.error.isEmpty())
+        refusal.text += QStringLiteral("; ") + reasonForFallback(node);
+    return refusal;
+}
+
 /// Who gets the last connections.
 ConnectionGate::Guest guestOf(const MasterConnection &connection, const messages::ClientHello &greeting)
 {
@@ -191,7 +220,7 @@ void MasterServer::admit(MasterConnection *connection, const messages::Register 
         if (refusal.error.isEmpty())
             refusal = m_evictions.refusalOf(declaration.name, connection->peer);
         if (refusal.error.isEmpty())
-            refusal = m_objection(&declaration, *connection);
+            refusal = transportRefusal(connection, &declaration);
         if (refusal.error.isEmpty())
             refusal = channelRefusal(*connection, newcomer(*connection, declaration, registration));
         if (refusal.error.isEmpty()) {
@@ -223,22 +252,52 @@ void MasterServer::admit(MasterConnection *connection, const messages::Register 
     registered.token = connection->token;
     if (keys)
         registered.seal = sealOf(*keys);
-    if (!connection->transport->hasStreams()) {
-        ChannelError fault;
-        connection->slot->peer = connection->transport->makePeer(
-            m_hub, newcomer(*connection, declaration, registration), &registered.transport, &fault);
-        if (!connection->slot->peer) {
-            reject(connection, fault.word, fault.text);
-            return;
-        }
-    }
-    connection->send(registered);
-    if (connection->transport->hasStreams()) {
-        dropUnattached(connection);
+    connection->newcomer = std::make_unique<Newcomer>(newcomer(*connection, declaration, registration));
+    if (!prepareChannel(connection, &registered))
         return;
+    connection->send(registered);
+    if (connection->slot->peer) {
+        connection->send(messages::CyclicChannelAttached());
+        nodeAttached(connection);
+    } else {
+        dropUnattached(connection);
     }
-    connection->send(messages::CyclicChannelAttached());
-    nodeAttached(connection);
+}
+
+/// Whether the master takes the node over its transport. One of two is enough.
+Refusal MasterServer::transportRefusal(MasterConnection *connection, NodeDeclaration *declaration) const
+{
+    const TransportKind *kind = connection->transport;
+    if (!kind || !kind->first())
+        return m_objection(declaration, *connection, connection->cyclicKind);
+    connection->firstRefusal = m_objection(declaration, *connection, kind->first()->name());
+    connection->fallbackRefusal = m_objection(declaration, *connection, kind->fallback()->name());
+    return connection->firstRefusal.error.isEmpty() ? Refusal() : connection->fallbackRefusal;
+}
+
+/// Makes the peer, unless the node has to attach first. \return false when it is rejected
+bool MasterServer::prepareChannel(MasterConnection *connection, messages::Registered *registered)
+{
+    const TransportKind &kind = *connection->transport;
+    if (!kind.first())
+        return kind.hasStreams() || makePeer(connection, registered);
+    if (!connection->firstRefusal.error.isEmpty())
+        return true;  // without a probe, the node uses the fallback
+    const ProbeNumbers numbers{Host::current().random(), Host::current().random()};
+    connection->probe = kind.first()->answerProbe(m_hub, *connection->newcomer, numbers);
+    if (connection->probe)
+        registered->probe = messages::Probe{numbers.question, numbers.answer};
+    return true;
+}
+
+/// \return false when the node is rejected
+bool MasterServer::makePeer(MasterConnection *node, messages::Registered *registered)
+{
+    ChannelError fault;
+    node->slot->peer = node->transport->makePeer(m_hub, *node->newcomer, &registered->transport, &fault);
+    if (!node->slot->peer)
+        reject(node, fault.word, fault.text);
+    return node->slot->peer != nullptr;
 }
 
 Newcomer MasterServer::newcomer(const MasterConnection &connection, const NodeDeclaration &declaration,
@@ -252,7 +311,7 @@ Newcomer MasterServer::newcomer(const MasterConnection &connection, const NodeDe
 /// Why there can be no cyclic channel as the node wants it; no error: there can.
 Refusal MasterServer::channelRefusal(const MasterConnection &connection, const Newcomer &newcomer) const
 {
-    if (!connection.transport)
+    if (!connection.transport || !connection.transport->isAtHand())
         return {messages::errorWord::malformedMessage,
                 QStringLiteral("unknown cyclic channel '%1'; use %2")
                     .arg(connection.cyclicKind, TransportRegistry::instance().namesText())};
@@ -292,19 +351,50 @@ void MasterServer::open(MasterConnection *connection, const messages::AttachCycl
             && other->token == wish.token;
     };
     const auto found = std::find_if(m_connections.begin(), m_connections.end(), isNode);
-    if (connection->stage != MasterConnection::Silent || found == m_connections.end()) {
+    MasterConnection *node = found == m_connections.end() ? nullptr : found->get();
+    const TransportKind *kind = node ? chosenKind(*node->transport, wish.cyclic) : nullptr;
+    const bool isItsConnection
+        = kind && (kind->hasStreams() ? connection->stage == MasterConnection::Silent : connection == node);
+    if (!isItsConnection) {
         reject(connection, messages::errorWord::wrongState,
                QStringLiteral("no node %1 with this token waits for its cyclic connection").arg(wish.node));
         return;
     }
-    MasterConnection *node = found->get();
+    if (const Refusal refusal = refusalOfChoice(*node, *kind); !refusal.error.isEmpty()) {
+        if (connection != node) {  // whichever of the two ends is seen first, the node knows why
+            connection->send(messages::Rejected{refusal.error, refusal.text});
+            drop(connection, refusal.text);
+        }
+        reject(node, refusal.error, refusal.text);
+        return;
+    }
+    if (!kind->hasStreams()) {
+        messages::Registered sentBefore;
+        useTransport(node, *kind);
+        if (!makePeer(node, &sentBefore))
+            return;
+        node->send(messages::CyclicChannelAttached());
+        nodeAttached(node);
+        return;
+    }
     connection->send(messages::CyclicChannelAttached());
     const int descriptor = connection->socket->takeDescriptor();
     forget(connection);
     if (descriptor < 0)
         return;
-    node->slot->peer = node->transport->makeStreamPeer(descriptor, node->slot->outputCutter(), MaximumCyclicFrame);
+    useTransport(node, *kind);
+    node->slot->peer = kind->makeStreamPeer(descriptor, node->slot->outputCutter(), MaximumCyclicFrame);
     nodeAttached(node);
+}
+
+/// From now on the node has the transport that it has chosen.
+void MasterServer::useTransport(MasterConnection *node, const TransportKind &kind) const
+{
+    if (node->transport->fallback() == &kind && node->firstRefusal.error.isEmpty())
+        node->fallbackReason = QStringLiteral("%1: frames use %2").arg(reasonForFallback(*node), kind.name().toUpper());
+    node->probe.reset();
+    node->transport = node->slot->transport = &kind;
+    node->cyclicKind = kind.name();
 }
 
 void MasterServer::nodeAttached(MasterConnection *connection)
@@ -313,6 +403,7 @@ void MasterServer::nodeAttached(MasterConnection *connection)
     connection->slot->peer->isListener = connection->slot->listener;
     m_hub.exposeToFaults(*connection->slot->peer, ~fnv1a64(connection->name.toUtf8()));  // not those of the node itself
     connection->stage = MasterConnection::Attached;
+    connection->newcomer.reset();
     m_door.trust(connection->ticket);
     Q_EMIT attached(connection);
 }

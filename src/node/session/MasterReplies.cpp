@@ -62,6 +62,7 @@ QPlcNodeInfo infoOf(const NodeSession &node)
     info.resent = slot.statistics.resent;
     info.faultPlan = slot.faultPlan;
     info.transport = node.transportName();
+    info.fallback = node.usesFallback();
     info.address = node.address();
     info.watchdog = slot.watchdog;
     info.identity = node.identity();

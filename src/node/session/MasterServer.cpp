@@ -42,8 +42,7 @@ bool isUrgent(Message::Kind kind)
 }  // namespace
 
 MasterServer::MasterServer(NodeRegistry &registry, const ProcessImage &image, CyclicHub &hub, quint64 session,
-                           std::function<messages::MasterHello()> hello,
-                           std::function<Refusal(NodeDeclaration *, const MasterConnection &)> objection,
+                           std::function<messages::MasterHello()> hello, Objection objection,
                            const Evictions &evictions, QObject *parent)
     : QObject(parent)
     , m_registry(registry)

@@ -26,15 +26,17 @@ class MasterServer : public QObject
 {
     Q_OBJECT
 public:
+    /// Why a node may not register over a transport; no error: it may.
+    using Objection = std::function<Refusal(NodeDeclaration *, const MasterConnection &, const QString &transport)>;
+
     /// \param master what greetings need to know of the master: its Hello without what depends on
     ///         the client
-    /// \param objection why the master does not take a node now that the registry would take; no
-    ///         error: it takes it, and may have changed what the node says of itself
+    /// \param objection why the master does not take a node now that the registry would take; it
+    ///         may change what the node says of itself
     /// \param evictions  outlive this object
     MasterServer(NodeRegistry &registry, const ProcessImage &image, CyclicHub &hub, quint64 session,
-                 std::function<messages::MasterHello()> hello,
-                 std::function<Refusal(NodeDeclaration *, const MasterConnection &)> objection,
-                 const Evictions &evictions, QObject *parent);
+                 std::function<messages::MasterHello()> hello, Objection objection, const Evictions &evictions,
+                 QObject *parent);
     ~MasterServer() override;
 
     /// Takes effect with listen().
@@ -104,6 +106,10 @@ private:
     void open(MasterConnection *connection, messages::Register registration);
     void open(MasterConnection *connection, const messages::AttachCyclicChannel &wish);
     void admit(MasterConnection *connection, const messages::Register &registration);
+    Refusal transportRefusal(MasterConnection *connection, NodeDeclaration *declaration) const;
+    bool prepareChannel(MasterConnection *connection, messages::Registered *registered);
+    void useTransport(MasterConnection *node, const TransportKind &kind) const;
+    bool makePeer(MasterConnection *node, messages::Registered *registered);
     void replace(const MasterConnection *newcomer, const QString &name);
     void nodeAttached(MasterConnection *connection);
     void reject(MasterConnection *connection, const QString &error, const QString &reason);
@@ -123,7 +129,7 @@ private:
     CyclicHub &m_hub;
     const quint64 m_session;
     std::function<messages::MasterHello()> m_hello;
-    std::function<Refusal(NodeDeclaration *, const MasterConnection &)> m_objection;
+    Objection m_objection;
     const messages::HelloText m_greeting;
     const quint32 m_longestMessage;  // [byte] that a client may send
     const Evictions &m_evictions;

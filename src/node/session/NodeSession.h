@@ -104,6 +104,8 @@ public:
     /// The cycle has seen its code fail. \return how
     virtual QString codeFailed() = 0;
     virtual QString transportName() const = 0;
+    /// Whether it uses this transport because another one does not get through.
+    virtual bool usesFallback() const { return false; }
     /// Empty: in this process.
     virtual QString address() const = 0;
     /// That it has proven; empty: none.

@@ -36,8 +36,10 @@ QStringList needNames()
 QStringList transportNames()
 {
     QStringList names;
-    for (const auto &kind : TransportRegistry::instance().kinds())
-        names << kind->name();
+    for (const auto &kind : TransportRegistry::instance().kinds()) {
+        if (!kind->first())
+            names << kind->name();
+    }
     return names << NodeSession::inProcess();
 }
 

@@ -87,6 +87,11 @@ QString RemoteNode::transportName() const
     return m_connection ? m_connection->cyclicKind : QString();
 }
 
+bool RemoteNode::usesFallback() const
+{
+    return m_connection && !m_connection->fallbackReason.isEmpty();
+}
+
 QString RemoteNode::address() const
 {
     return m_connection ? m_connection->socket->peerName() : QString();

@@ -28,6 +28,7 @@ public:
     QPlcSlaveNode::State state() const override;
     QString codeFailed() override { return QStringLiteral("its code failed"); }
     QString transportName() const override;
+    bool usesFallback() const override;
     QString address() const override;
     QString identity() const override;
 

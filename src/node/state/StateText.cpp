@@ -26,4 +26,9 @@ QString stateText(messages::ClockKind clock)
     return stateText(QString::fromLatin1(messages::nameOf(clock)));
 }
 
+QString transportText(const QPlcNodeInfo &node)
+{
+    return node.fallback ? QStringLiteral("%1 (fallback)").arg(node.transport) : node.transport;
+}
+
 }  // namespace qplc

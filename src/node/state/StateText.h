@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "QPlcNodeInfo.h"
 #include "protocol/messages/Vocabulary.h"
 
 namespace qplc {
@@ -12,5 +13,7 @@ QString stateText(const QString &name);
 /// "Unknown" for a state of a newer master.
 QString stateText(messages::MasterState state);
 QString stateText(messages::ClockKind clock);
+/// "udp", or "tcp (fallback)" for a node to or from which datagrams do not get through.
+QString transportText(const QPlcNodeInfo &node);
 
 }  // namespace qplc

@@ -71,6 +71,17 @@ struct Seal
     friend bool operator==(const Seal &a, const Seal &b) { return a.inputs == b.inputs && a.outputs == b.outputs; }
 };
 
+/// Numbers for the datagrams with which a node looks whether UDP gets through.
+struct Probe
+{
+    Hex64 question;
+    Hex64 answer;
+
+    static constexpr auto fields = std::make_tuple(field("question", &Probe::question, Presence::Required),
+                                                   field("answer", &Probe::answer, Presence::Required));
+    friend bool operator==(const Probe &a, const Probe &b) { return a.question == b.question && a.answer == b.answer; }
+};
+
 struct Registered
 {
     static constexpr QPlcMessage::Kind kind = QPlcMessage::Registered;
@@ -80,25 +91,29 @@ struct Registered
     MasterState state = MasterState::Unknown;
     Hex64 token;  // of the cyclic connection
     std::optional<Seal> seal;
+    std::optional<Probe> probe;
     QJsonObject transport;  // with the fields that the transport adds
 
-    static constexpr auto fields
-        = std::make_tuple(field("node", &Registered::node, Presence::Required, Range{1, 65535}),
-                          field("inputsHash", &Registered::inputsHash, Presence::Required),
-                          field("outputsHash", &Registered::outputsHash, Presence::Required),
-                          field("state", &Registered::state), field("token", &Registered::token),
-                          field("seal", &Registered::seal, Presence::Checked), rest(&Registered::transport));
+    static constexpr auto fields = std::make_tuple(
+        field("node", &Registered::node, Presence::Required, Range{1, 65535}),
+        field("inputsHash", &Registered::inputsHash, Presence::Required),
+        field("outputsHash", &Registered::outputsHash, Presence::Required), field("state", &Registered::state),
+        field("token", &Registered::token), field("seal", &Registered::seal, Presence::Checked),
+        field("probe", &Registered::probe, Presence::Checked), rest(&Registered::transport));
 };
 
-/// The first message of a cyclic TCP connection.
+/// The first message of a cyclic TCP connection. On the control connection: the node has chosen a
+/// transport that needs none.
 struct AttachCyclicChannel
 {
     static constexpr QPlcMessage::Kind kind = QPlcMessage::AttachCyclicChannel;
     quint16 node = 0;
     Hex64 token;
+    QString cyclic;  // the transport that the node has chosen; empty: that of its Register
 
     static constexpr auto fields = std::make_tuple(field("node", &AttachCyclicChannel::node, Presence::Required),
-                                                   field("token", &AttachCyclicChannel::token, Presence::Required));
+                                                   field("token", &AttachCyclicChannel::token, Presence::Required),
+                                                   field("cyclic", &AttachCyclicChannel::cyclic, Presence::WhenSet));
 };
 
 struct CyclicChannelAttached

@@ -24,7 +24,8 @@ struct Description<QPlcNodeInfo>
         field("transport", &N::transport), field("address", &N::address), field("lateAnswers", &N::lateAnswers),
         field("duplicates", &N::duplicates), field("rejected", &N::rejected), field("forged", &N::forged),
         field("resent", &N::resent), field("faults", &N::faultPlan, Presence::WhenSet),
-        field("watchdog", &N::watchdog, Presence::WhenSet), field("identity", &N::identity, Presence::WhenSet));
+        field("watchdog", &N::watchdog, Presence::WhenSet), field("identity", &N::identity, Presence::WhenSet),
+        field("fallback", &N::fallback, Presence::WhenSet));
 };
 
 /// A Stop that ended the phase that ran last.

@@ -114,7 +114,7 @@ void tst_ProgramOptions::badOptionsAreRefusedWithOneSentence_data()
         row(node, "--master 127.0.0.1:0", "'0' is not a valid port");
         row(node, "--master 127.0.0.1:65536", "'65536' is not a valid port");
         row(node, "--master 127.0.0.1:port", "'port' is not a valid port");
-        row(node, "--master 127.0.0.1:1", "cannot reach a master at tcp://127.0.0.1:1");
+        row(node, "--master 127.0.0.1:1", "cannot reach a master at 127.0.0.1:1");
         row(node, "--master udp://127.0.0.1:1", "cannot reach a master at udp://127.0.0.1:1");
         row(node, "--watchdog -1", "--watchdog -1: use a number of 0 ...");
         row(node, "--watchdog soon", "--watchdog soon");
