@@ -482,6 +482,14 @@ void tst_AccessRights::keysFilesHaveClearErrors_data()
     QTest::newRow("garbage") << QByteArray("\x16\x03\x01\xff") << "k.ini:1:";
     QTest::newRow("key twice") << "[a]\nkey = " + key + "\nkey = " + key + "\n"
                                << "k.ini:3:1: 'key' twice";
+    QTest::newRow("key as a role") << "[a]\nkey = " + key + "\nrole = " + key + "\n"
+                                   << "k.ini:3:8: 'a' has the role a text of 64 characters";
+    QTest::newRow("key as a name") << "[a]\n" + key + " = key\n"
+                                   << "k.ini:2:1: unknown entry a text of 64 characters";
+    QTest::newRow("key in an identity") << "[a " + key + "]\n"
+                                        << "k.ini:1:2: a text of 66 characters is not a valid identity";
+    QTest::newRow("two lines as a role") << "[a]\nkey = " + key + "\nrole = \"x\\ny\"\n"
+                                         << "k.ini:3:8: 'a' has the role 'x?y'";
     QTest::newRow("key behind a typing error") << "[a]\nkey " + key + "\n"
                                                << "k.ini:2:";
 }

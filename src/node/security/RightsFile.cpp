@@ -4,6 +4,7 @@
 #include "Keyring.h"
 #include "SecretFile.h"
 #include "signals/IniParser.h"
+#include "signals/MessageText.h"
 
 #include <QtCore/QHash>
 
@@ -16,6 +17,12 @@ QString placeOf(const QString &fileName, int line, int column)
     return QStringLiteral("%1:%2:%3").arg(fileName).arg(line).arg(column);
 }
 
+/// A word of such a file for a message. A long one may be a key, or most of one, in a wrong place.
+QString shown(const QString &word)
+{
+    return word.size() > Keyring::KeySize ? QStringLiteral("a text of %1 characters").arg(word.size()) : quoted(word);
+}
+
 /// What is wrong with a line of such a file; empty: nothing.
 /// \param lines  of the identities so far
 QString complaint(const IniItem &item, const QStringList &keys, const QVector<RightsSection> &sections,
@@ -25,8 +32,8 @@ QString complaint(const IniItem &item, const QStringList &keys, const QVector<Ri
         return QStringLiteral("this line cannot be read; use [identity] or name = value, in UTF-8");  // it may be a key
     if (item.kind == IniItem::Section) {
         if (!Keyring::isIdentity(item.name))
-            return QStringLiteral("'%1' is not a valid identity; use 1 ... %2 letters, digits, '.', '-', '_'")
-                .arg(item.name)
+            return QStringLiteral("%1 is not a valid identity; use 1 ... %2 letters, digits, '.', '-', '_'")
+                .arg(shown(item.name))
                 .arg(Keyring::LongestIdentity);
         if (const auto line = lines.constFind(item.name); line != lines.constEnd())
             return QStringLiteral("'%1' has a section in line %2 already").arg(item.name).arg(*line);
@@ -35,7 +42,7 @@ QString complaint(const IniItem &item, const QStringList &keys, const QVector<Ri
     if (sections.isEmpty())
         return QStringLiteral("an entry before the first [identity]");
     if (!keys.contains(item.name))
-        return QStringLiteral("unknown entry '%1'; use %2").arg(item.name, keys.join(QStringLiteral(", ")));
+        return QStringLiteral("unknown entry %1; use %2").arg(shown(item.name), keys.join(QStringLiteral(", ")));
     if (sections.constLast().values.contains(item.name))
         return QStringLiteral("'%1' twice").arg(item.name);
     return {};
@@ -78,8 +85,8 @@ bool RightsSection::readRole(Role *role, QString *error) const
         *role = *known;
         return true;
     }
-    *error = QStringLiteral("%1: '%2' has the role '%3'; use role = Observer, Operator, Node or Engineer")
-                 .arg(place(name), identity, value(name));
+    *error = QStringLiteral("%1: '%2' has the role %3; use role = Observer, Operator, Node or Engineer")
+                 .arg(place(name), identity, shown(value(name)));
     return false;
 }
 
