@@ -249,7 +249,11 @@ bool IniParser::readFile(const QString &fileName, const QString &what, qint64 la
     } else if (!file.open(QIODevice::ReadOnly)) {
         error = QStringLiteral("cannot open: %1; give the path of %2").arg(file.errorString(), what);
     } else {
-        *text = file.read(largest + 1);
+        constexpr qint64 portion = 64 << 10;  // [byte] QFile makes room for all that it is asked for
+        text->clear();
+        for (QByteArray read = file.read(portion); !read.isEmpty() && text->size() <= largest;
+             read = file.read(portion))
+            *text += read;
         if (file.error() != QFileDevice::NoError)
             error = QStringLiteral("cannot read: %1").arg(file.errorString());
         else if (text->size() > largest)

@@ -2,6 +2,7 @@
 #include "QPlcSignalTable.h"
 
 #include "Fnv1a.h"
+#include "MemoryNeed.h"
 #include "MessageText.h"
 #include "SignalRules.h"
 #include "TableReader.h"
@@ -68,9 +69,10 @@ QPlcSignalTable QPlcSignalTable::fromMaster(const QByteArray &text, QVector<QPlc
 QPlcSignalTable QPlcSignalTable::fromIniFile(const QString &fileName, QVector<QPlcParseError> *errors)
 {
     QByteArray text;
-    if (qplc::IniParser::readFile(fileName, QStringLiteral("a signal table"), largestFile, &text, errors))
-        return fromIni(text, errors, fileName);
-    return QPlcSignalTable();
+    if (!qplc::IniParser::readFile(fileName, QStringLiteral("a signal table"), largestFile, &text, errors))
+        return QPlcSignalTable();
+    const qplc::MemoryNeed need("the signal table", quint64(text.size()), "use a table with fewer signals");
+    return fromIni(text, errors, fileName);
 }
 
 QByteArray QPlcSignalTable::toIni() const

@@ -3,6 +3,7 @@
 
 #include "QPlcMasterNode.h"
 #include "realtime/LogWriter.h"
+#include "signals/MemoryNeed.h"
 #include "signals/MessageText.h"
 #include "transport/FaultPlan.h"
 
@@ -112,6 +113,7 @@ struct QPlcApplicationOptions::Private
 QPlcApplicationOptions::QPlcApplicationOptions()
     : d(std::make_unique<Private>())
 {
+    qplc::MemoryNeed::tellAtTheEnd();
     QTextCodec::setCodecForLocale(QTextCodec::codecForName("UTF-8"));
     std::setlocale(LC_NUMERIC, "C");
     if (!qEnvironmentVariableIsSet("QT_MESSAGE_PATTERN"))

@@ -11,10 +11,12 @@
 #include "protocol/messages/Vocabulary.h"
 #include "realtime/Host.h"
 #include "realtime/TimeSource.h"
+#include "signals/MemoryNeed.h"
 
 #include <QtCore/QCoreApplication>
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 using Action = qplc::MasterAction;
@@ -79,6 +81,14 @@ qplc::ProfileFacts factsOf(const QPlcMasterNodePrivate &master)
     if (found != nodes.end())
         facts.hardwareNode = (*found)->name;
     return facts;
+}
+
+/// Of the values of all signals: in the process image, and in a copy of it for those who ask.
+quint64 bytesOfValues(const QPlcSignalTable &table)
+{
+    return std::accumulate(table.begin(), table.end(), quint64(0), [](quint64 sum, const QPlcSignalDefinition &signal) {
+        return sum + 2 * quint64(signal.type.size());
+    });
 }
 
 /// Of a node that has set no watchdog, in the next phase; 0: watchdogs only report.
@@ -227,6 +237,7 @@ bool QPlcMasterNodePrivate::prepare()
                 "the master has no signals; read a table with QPlcSignalIndexTable::initializeFromIniFile() %1")
                 .arg(QPlcSignalIndexTable::lastErrorString())
                 .trimmed());
+    const qplc::MemoryNeed need("the values of the signals", bytesOfValues(table), "use a table with fewer signals");
     parts = std::make_unique<Parts>(*this);
     connectParts();
     return true;
