@@ -124,7 +124,7 @@ int completeWord(const CommandCall &call)
     const QString word = words.isEmpty() ? QString() : words.constLast();
     const Line line = readLine(words.mid(0, words.size() - 1));
     const QString master
-        = line.master.isEmpty() ? call.master.toString().section(QStringLiteral("://"), 1) : line.master;
+        = line.master.isEmpty() ? call.master.toString().section(QStringLiteral("://"), -1) : line.master;
     const QStringList all = candidates(line, word, master);
     for (const QString &candidate : all) {
         if (candidate.startsWith(word))

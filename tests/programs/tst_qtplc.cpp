@@ -238,10 +238,10 @@ void tst_qtplc::stateNamesTheNodes()
     for (const char *line : {"state     Off\n", "cycle     0 (0.000 s)\n", "period    10 ms\n", "clock     Real time\n",
                              "counters  all zero\n", "session   ", "digest    "})
         QVERIFY2(outcome.output.contains(QLatin1String(line)), qPrintable(outcome.output));
-    const QRegularExpression model(QStringLiteral("\nModel +tcp +Registered +ErrorZeroOrderHold +3 +18\n"));
+    const QRegularExpression model(QStringLiteral("\nModel +udp +Registered +ErrorZeroOrderHold +3 +18\n"));
     QVERIFY2(model.match(outcome.output).hasMatch(), qPrintable(outcome.output));
     QVERIFY2(qtplc(QStringLiteral("state --verbose"))
-                 .output.contains(QRegularExpression(QStringLiteral("\nAutopilot +tcp +127\\.0\\.0\\.1:\\d+ +"))),
+                 .output.contains(QRegularExpression(QStringLiteral("\nAutopilot +udp +127\\.0\\.0\\.1:\\d+ +"))),
              "address");
     QVERIFY(!outcome.output.contains(QLatin1Char('\033')));  // a pipe is no terminal
 }
