@@ -12,7 +12,8 @@ import unittest
 PROGRAM = sys.argv.pop(1)
 KEYS = {f"rtt_{key}_us" for key in ("p50", "p99", "p999", "max")} | {
     "peer", "variant", "slaves", "in", "out", "period_us", "policy", "cycles", "all_cycles", "seconds", "cycles_per_s", "errors", "overruns", "cpu_master_us",
-    "cpu_slave_us", "cpu_total_us", "ctx_master", "ctx_slave", "bytes_per_cycle", "packets_per_cycle", "threads_master", "threads_slave", "rss_slave_kb"}
+    "cpu_slave_us", "cpu_total_us", "ctx_master", "ctx_slave", "bytes_per_cycle", "packets_per_cycle", "threads_master", "threads_slave", "rss_slave_kb",
+    "registration_s", "start_s"}
 PACED_KEYS = KEYS | {f"late_{key}_us" for key in ("p50", "p99", "p999", "max")} | {"drift_us"}
 
 

@@ -6,9 +6,15 @@
 
 namespace {
 
+// A type that no other library sees.
+struct ProgramSecurity
+{
+    QPlcSecurity security;
+};
+
 QPlcSecurity &currentSecurity()
 {
-    return qplc::ProgramScope::current().the<QPlcSecurity>();
+    return qplc::ProgramScope::current().the<ProgramSecurity>().security;
 }
 
 }  // namespace
