@@ -5,6 +5,7 @@
 #include <array>
 #include <cerrno>
 #include <cinttypes>
+#include <cstdarg>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -66,10 +67,12 @@ struct MemoryText
             add("; end other programs, or raise the limit of its service (MemoryMax=)");
         add("%s%s\n", innermostNeed ? ", or " : "", innermostNeed ? innermostNeed->m_remedy : "");
     }
-    template<typename... Values>
-    void add(const char *format, Values... values) noexcept
+    [[gnu::format(printf, 2, 3)]] void add(const char *format, ...) noexcept
     {
-        const int added = std::snprintf(text.data() + size, text.size() - std::size_t(size), format, values...);
+        va_list values;
+        va_start(values, format);
+        const int added = std::vsnprintf(text.data() + size, text.size() - std::size_t(size), format, values);
+        va_end(values);
         size = std::min(size + std::max(added, 0), int(text.size()) - 1);
     }
 

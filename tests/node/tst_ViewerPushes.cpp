@@ -38,7 +38,7 @@ struct Master
                         hub,
                         5,
                         [] { return messages::MasterHello(); },
-                        [](NodeDeclaration *, const MasterConnection &) { return Refusal(); },
+                        [](NodeDeclaration *, const MasterConnection &, const QString &) { return Refusal(); },
                         evictions,
                         nullptr};
     EventLog events;
