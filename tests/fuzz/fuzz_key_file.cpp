@@ -43,13 +43,16 @@ void readRights(const QByteArray &text)
     QString error;
     const bool isRead = rights.parse(text, fileName, &error);
     fuzz::check(isRead == error.isEmpty(), "a refusal has a reason");
+    qplc::messages::SetSignals values;
+    values.values.insert(QStringLiteral("tetherLength"), QStringLiteral("1"));
+    const QPlcMessage wish = qplc::messages::toMessage(values);
     for (const QString &identity : isRead ? rights.identities() : QStringList()) {
         qplc::Peer peer;
         peer.isSecured = true;
         peer.identity = identity;
         rights.apply(&peer);
-        const bool mayWrite = qplc::mayWrite(peer, QStringLiteral("tetherLength"));
-        fuzz::check(!peer.mayWriteAll || mayWrite || peer.role == qplc::Role::Observer,
+        const bool maySend = qplc::whoMaySend(wish.kind()).contains(peer.role);
+        fuzz::check(qplc::refusalOf(peer, wish).isEmpty() || !maySend || !peer.mayWriteAll,
                     "who may write everything may write a signal");
     }
 }
