@@ -42,11 +42,11 @@ bool SimulatedSocket::setSocketDescriptor(qintptr descriptor, SocketState, OpenM
     std::shared_ptr<ControlEnd> end = m_host.simulator().controlWire().takeAccepted(int(descriptor));
     if (!end)
         return false;
-    open(end);
+    attach(end);
     return true;
 }
 
-void SimulatedSocket::open(const std::shared_ptr<ControlEnd> &end)
+void SimulatedSocket::attach(const std::shared_ptr<ControlEnd> &end)
 {
     m_end = end;
     setOpenMode(ReadWrite);
@@ -60,7 +60,7 @@ void SimulatedSocket::open(const std::shared_ptr<ControlEnd> &end)
 
 void SimulatedSocket::becomeConnected()
 {
-    open(m_end);
+    attach(m_end);
     Q_EMIT stateChanged(ConnectedState);
     Q_EMIT connected();
 }

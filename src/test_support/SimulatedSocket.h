@@ -46,7 +46,7 @@ protected:
     qint64 writeData(const char *bytes, qint64 size) override;
 
 private:
-    void open(const std::shared_ptr<ControlEnd> &end);
+    void attach(const std::shared_ptr<ControlEnd> &end);
     void leave();
     void endConnection();
 

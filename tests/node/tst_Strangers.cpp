@@ -215,7 +215,7 @@ void tst_Strangers::aNodeThatDoesNotAttachKeepsItsNameForAWhileOnly()
 {
     ScriptedNode node("Counter");
     node.control.setSecurity(m_isSecured ? m_files.counter() : QPlcSecurity());
-    node.cyclic = "tcp";
+    node.cyclic = "sim-auto";
     QVERIFY(node.connectTo(m_master->serverPort()));
     node.send(QPlcMessage::Hello, node.helloFields());
     QCOMPARE(node.next().kind(), QPlcMessage::Hello);

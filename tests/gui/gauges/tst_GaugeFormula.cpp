@@ -174,7 +174,7 @@ void tst_GaugeFormula::aFormulaNeedsAWindow()
     gauge.applySettings({{"signal", "= 2*count"}});
     gauge.show();
     QCOMPARE(gauge.inputSignalIndices().size(), 0);
-    QVERIFY(gauge.accessibleName().contains(QStringLiteral("in a window only")));
+    QVERIFY(gauge.accessibleName().contains(QStringLiteral("Formulas need a Control Center window")));
 }
 
 void tst_GaugeFormula::newFormulaResetsTheExtremes()
