@@ -16,7 +16,7 @@ int main(int argc, char **argv)
     const quint64 seeds = application.arguments().value(1).toULongLong();
     const soak::Scenario *scenarios[]
         = {soak::Scenario::named(QStringLiteral("all")), soak::Scenario::named(QStringLiteral("storm")),
-           soak::Scenario::named(QStringLiteral("restarts"))};
+           soak::Scenario::named(QStringLiteral("restarts")), soak::Scenario::named(QStringLiteral("admissions"))};
     for (quint64 seed = 1; seed <= seeds; ++seed) {
         for (const soak::Scenario *scenario : scenarios) {
             const soak::SimulatedRun result = run(*scenario, seconds, seed, planOf(*scenario, seconds, seed));

@@ -38,6 +38,15 @@ DEFECTS = {
         "src/node/session/MasterServer.cpp",
         [("    const QString error = socket->errorString();\n    drop(",
           "    const QString error = socket->errorString();\n    if (!error.isEmpty())\n        return;\n    drop(")]),
+    "evicted_returns": Defect(
+        "an evicted node loses its connection, and may come back at once",
+        "src/node/session/MasterRegistration.cpp",
+        [("    if (!evicted.error.isEmpty()) {\n", "    if (evicted.error == messages::errorWord::denied) {\n"),
+         ("        if (refusal.error.isEmpty())\n            refusal = m_evictions.refusalOf(declaration.name, connection->peer);\n", "")]),
+    "required_forgotten": Defect(
+        "a plant starts without a required node of its manifest",
+        "src/node/session/NeededNodes.cpp",
+        [("        if (node.need != QPlcManifest::Optional)\n", "        if (node.need == QPlcManifest::Critical)\n")]),
 }
 
 

@@ -44,7 +44,8 @@ struct Record
         Stall,          // the machine did not let a thread run that was ready. numbers: begin [ns]; time: end
         Gone,     // a process of the plant that was killed is gone: the kernel takes its time where it waits for a disk
         Evicted,  // a node: the master has said so
-        Admitted  // a node: the operator is about to let it in again
+        Admitted,  // a node: the operator is about to let it in again
+        Tried      // the operator told a plant to begin that lacks a node. numbers: see TryNumber
     };
     enum MasterState { Off, Initializing, Ready, RealTime, WaitingForLateSlaves, SafeStop, Fault, UnknownState };
     enum StepNumber {
@@ -78,6 +79,7 @@ struct Record
     enum NodeNumber { NodePhase, Answers, NodeLate, AnswersLost, Duplicated, Reordered, Rejected, Resent };
     /// Wanted: the phase ended. Ordered: the master stops safely.
     enum SafeNumber { SafeDriveBits, IsWanted, IsOrdered };
+    enum TryNumber { IsRefused, IsNamed };
     enum UsageNumber { Descriptors, Threads, ResidentKb, UsageLife, IsCompared };
     static constexpr quint64 NoQuality = 255;  // of a plant without qualities
     static constexpr quint16 Nobody = 0xffff;

@@ -41,6 +41,8 @@ int amountOf(FaultKind kind)
     case FaultKind::SlowListener:
     case FaultKind::EchoOnRoads:
     case FaultKind::EvictNode:
+    case FaultKind::MissingNode:
+    case FaultKind::Siege:
         return 700;
     default:
         return 1;

@@ -39,9 +39,11 @@ enum class FaultKind : quint8 {
     StepMasterClock,
     SlowListener,  ///< a tool that asks for much, and reads a little at a time
     EchoOnRoads,   ///< of all nodes: now and then a copy of a frame arrives seconds later
-    EvictNode      ///< kept out by the operator, who tries to start without it, and lets it in again
+    EvictNode,     ///< kept out by the operator, who tries to start without it, and lets it in again
+    MissingNode,   ///< is killed, and comes back later; meanwhile the operator tries to start without it
+    Siege          ///< strangers connect and send datagrams beyond their budgets while a node starts again
 };
-constexpr int FaultKinds = int(FaultKind::EvictNode) + 1;
+constexpr int FaultKinds = int(FaultKind::Siege) + 1;
 constexpr std::array<const char *, FaultKinds> FaultNames{"kill a node",
                                                           "stop a node",
                                                           "kill the master",
@@ -67,7 +69,9 @@ constexpr std::array<const char *, FaultKinds> FaultNames{"kill a node",
                                                           "step the clock of the master",
                                                           "slow listener",
                                                           "echo on all roads",
-                                                          "evict a node"};
+                                                          "evict a node",
+                                                          "start without a node",
+                                                          "siege"};
 
 constexpr bool isLinkFault(FaultKind kind)
 {
@@ -78,7 +82,7 @@ constexpr bool hasNode(FaultKind kind)
 {
     return kind == FaultKind::KillNode || kind == FaultKind::StopNode || isLinkFault(kind)
         || kind == FaultKind::PowerNode || kind == FaultKind::CutRoad || kind == FaultKind::CutRoadToNode
-        || kind == FaultKind::DelayOnRoad || kind == FaultKind::StepWallClock || kind == FaultKind::EvictNode;
+        || kind == FaultKind::DelayOnRoad || kind == FaultKind::StepWallClock || kind >= FaultKind::EvictNode;
 }
 constexpr bool isOfMaster(FaultKind kind)
 {

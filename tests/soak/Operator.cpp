@@ -17,6 +17,7 @@ namespace soak {
 namespace {
 
 constexpr int LongestWithoutNews = 100;  // [ms]
+constexpr int LongestStop = 1000;        // [ms]
 
 int registeredIn(const messages::State &state)
 {
@@ -172,6 +173,26 @@ void Operator::tryToStart()
     messages::State state;
     for (int steps = 2; steps > 0 && ask(messages::GetState(), &state); --steps)
         resetOrStart(state);
+}
+
+void Operator::tryToStartWithout(int node)
+{
+    const qint64 end = now() + LongestStop;
+    messages::State state;
+    while (now() < end && (!ask(messages::GetState(), &state) || state.state != MasterState::Off)) {
+        if (messages::isLatched(state.state))
+            ask(messages::Reset{state.latch});
+        else
+            ask(messages::Stop());
+        wait(10);
+    }
+    const auto tryTo = [&](const auto &wish) {
+        const bool isRefused = !ask(wish);
+        const bool isNamed = m_errorString.contains(QStringLiteral("'%1'").arg(nodeName(node)));
+        m_history.append(Record::Tried, node, {isRefused, isNamed});
+    };
+    tryTo(messages::InitializeAllStates());
+    tryTo(messages::StartRealTime());
 }
 
 bool Operator::evict(int node)

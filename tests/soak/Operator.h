@@ -33,6 +33,8 @@ public:
     bool evict(int node);
     /// Lets it in again, if the master still keeps it out.
     void admit(int node);
+    /// Tells a plant that lacks a node to initialize and to start, and writes down the answers.
+    void tryToStartWithout(int node);
     /// Does what leads to motion, whoever is missing.
     void tryToStart();
     /// "127.0.0.1:40312" of the nodes that have datagrams.

@@ -201,6 +201,8 @@ std::vector<Gate> judge(const Evidence &evidence, const Profile &profile)
             ofTime(plantRecovers(evidence)),
             ofTime(faultsAreCounted(evidence)),
             ofTime(linkFaultsAreCounted(evidence)),
+            startsNeedAllNodes(evidence),
+            friendsGetIn(evidence),
             attemptsAreRefused(evidence),
             commandsAreDenied(evidence),
             ofProcesses(nothingLeaks(evidence), profile),

@@ -152,11 +152,14 @@ void SoakRun::stopFor(int node, int milliseconds)
     m_plant.setStopped(node, false);
 }
 
-/// Evicts a node for a while, and tries to start without it.
+/// Evicts a node for a while, and tries to start without it. An evicted node waits for seconds
+/// before it connects again; half of them are started again, and connect at once.
 int SoakRun::keepOut(const Fault &fault)
 {
     const bool isOut = m_operator.evict(fault.node);
     m_operator.tryToStart();
+    if (fault.seed % 2 == 0)
+        m_plant.startNode(fault.node, {});
     Operator::wait(fault.amount);
     m_operator.tryToStart();
     m_operator.admit(fault.node);

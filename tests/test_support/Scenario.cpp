@@ -40,13 +40,14 @@ Weights soakWeights()
 /// Whether its amount is a time.
 bool lasts(FaultKind kind)
 {
-    return kind == FaultKind::StopNode || kind == FaultKind::StopMaster || kind >= FaultKind::PowerNode;
+    return kind == FaultKind::StopNode || kind == FaultKind::StopMaster
+        || (kind >= FaultKind::PowerNode && kind != FaultKind::Siege);
 }
 
 /// Whether its cause may end while the next fault happens.
 bool mayOverlap(FaultKind kind)
 {
-    return kind >= FaultKind::PowerNode && kind != FaultKind::SlowListener && kind != FaultKind::EvictNode;
+    return kind >= FaultKind::PowerNode && kind != FaultKind::SlowListener && kind < FaultKind::EvictNode;
 }
 
 }  // namespace
@@ -65,9 +66,10 @@ const std::vector<Scenario> &Scenario::all()
                                {F::KillNode, 1}};
     static const Weights restarts{{F::KillMaster, 3}, {F::PowerMaster, 2}, {F::KillNode, 2},
                                   {F::PowerNode, 1},  {F::StopMaster, 1},  {F::EchoOnRoads, 4}};
-    static const Weights admissions{
-        {F::EvictNode, 5},  {F::KillNode, 2}, {F::PowerNode, 2},    {F::KillMaster, 1},     {F::PowerMaster, 1},
-        {F::StopMaster, 1}, {F::CutRoad, 1},  {F::ConnectFlood, 2}, {F::GarbageControl, 2}, {F::GarbageDatagrams, 2}};
+    static const Weights admissions{{F::EvictNode, 5},    {F::MissingNode, 4},    {F::Siege, 2},
+                                    {F::KillNode, 2},     {F::PowerNode, 2},      {F::KillMaster, 1},
+                                    {F::PowerMaster, 1},  {F::StopMaster, 1},     {F::CutRoad, 1},
+                                    {F::ConnectFlood, 2}, {F::GarbageControl, 2}, {F::GarbageDatagrams, 2}};
     static const auto everything = [] {
         Weights weights = soakWeights();
         for (const Weights *more : {&programs, &roads, &tools})

@@ -184,7 +184,7 @@ QStringList SimulatedPlant::end()
 
 // ---- faults ----
 
-int SimulatedPlant::inject(const Fault &fault, Operator &)
+int SimulatedPlant::inject(const Fault &fault, Operator &person)
 {
     switch (fault.kind) {
     case FaultKind::GarbageDatagrams:
@@ -198,6 +198,10 @@ int SimulatedPlant::inject(const Fault &fault, Operator &)
         return listenSlowly(fault);
     case FaultKind::ConnectFlood:
         return flood(fault);
+    case FaultKind::MissingNode:
+        return leaveOut(fault, person);
+    case FaultKind::Siege:
+        return besiege(fault, person);
     case FaultKind::PowerNode:
     case FaultKind::PowerMaster:
         switchOff(fault);
@@ -315,16 +319,23 @@ int SimulatedPlant::sendDatagrams(const Fault &fault, bool toNodes)
     return sent;
 }
 
-/// Connections of the stranger to the master, as many as can be made.
-SimulatedPlant::Connections SimulatedPlant::connect(int count)
+/// Begins connections to the master.
+SimulatedPlant::Connections SimulatedPlant::connectFrom(SimulatedHost &host, int count)
 {
     Connections connections;
-    m_strangerHost.call([&] {
+    host.call([&] {
         for (int i = 0; i < count; ++i) {
             connections.emplace_back(qplc::ControlNetwork::current().makeSocket(nullptr));
             connections.back()->connectToHost(m_master.host->address(), MasterPort);
         }
     });
+    return connections;
+}
+
+/// Connections of the stranger to the master, as many as can be made.
+SimulatedPlant::Connections SimulatedPlant::connect(int count)
+{
+    Connections connections = connectFrom(m_strangerHost, count);
     Operator::wait(2);
     const auto isOpen
         = [](const std::unique_ptr<QTcpSocket> &socket) { return socket->state() == QAbstractSocket::ConnectedState; };
@@ -381,6 +392,50 @@ int SimulatedPlant::flood(const Fault &fault)
     const Connections connections = connect(fault.amount);
     Operator::wait(100);
     return int(connections.size());
+}
+
+/// Strangers of several addresses: each opens 1000 connections a second that stay and send nothing,
+/// and sends 3000 datagrams.
+int SimulatedPlant::besiege(const Fault &fault, Operator &person)
+{
+    constexpr int strangers = 4;
+    constexpr int look = 10;  // [ms]
+    StrangerWords words(fault.seed);
+    Hosts hosts;
+    std::vector<Connections> connections;
+    for (int i = 0; i < strangers; ++i)
+        hosts.push_back(std::make_unique<SimulatedHost>(m_simulator, QStringLiteral("Besieger%1").arg(i),
+                                                        placeOf(m_profile.shape.nodes + 3 + i)));
+    person.expectAnother(fault.node);
+    for (int time = 0; time < fault.amount; time += look) {
+        for (const auto &host : hosts) {
+            connections.push_back(connectFrom(*host, 10));
+            qplc::FrameEnd end(*host, m_simulator.frameWire().freePort(*host));
+            for (const qplc::FrameEnd *place : m_simulator.frameWire().ends()) {
+                if (&place->host() != m_master.host.get())
+                    continue;
+                for (int i = 0; i < 30; ++i) {
+                    const QByteArray bytes = words.randomBytes(int(words.number() % 100));
+                    end.send(place->key(), bytes.constData(), std::size_t(bytes.size()));
+                }
+            }
+        }
+        if (time == 10 * look)
+            startNode(fault.node, {});
+        Operator::wait(look);
+    }
+    return fault.amount;
+}
+
+int SimulatedPlant::leaveOut(const Fault &fault, Operator &person)
+{
+    person.expectAnother(fault.node);
+    m_nodes[std::size_t(fault.node)].host->kill();
+    m_runnerHistory.append(Record::Gone, fault.node);
+    Operator::wait(fault.amount / 2);
+    person.tryToStartWithout(fault.node);
+    startNode(fault.node, {});
+    return fault.amount;
 }
 
 }  // namespace soak

@@ -61,6 +61,7 @@ private:
         quint32 life = 0;
     };
     using Connections = std::vector<std::unique_ptr<QTcpSocket>>;
+    using Hosts = std::vector<std::unique_ptr<qplc::SimulatedHost>>;
 
     QPlcManifest manifest() const;
     HistoryMemory &newHistory(const Program &program, const QString &name, int node);
@@ -72,10 +73,13 @@ private:
     void last(const Fault &fault, const std::function<void()> &undo);
     int sendDatagrams(const Fault &fault, bool toNodes);
     Connections connect(int count);
+    Connections connectFrom(qplc::SimulatedHost &host, int count);
     int sendGarbage(const Fault &fault);
     int askWithoutReading(const Fault &fault);
     int listenSlowly(const Fault &fault);
     int flood(const Fault &fault);
+    int leaveOut(const Fault &fault, Operator &person);
+    int besiege(const Fault &fault, Operator &person);
 
     qplc::Simulator &m_simulator;
     const Profile &m_profile;
