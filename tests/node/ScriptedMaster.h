@@ -36,8 +36,7 @@ public:
         : table(signalTable)
     {
         QString error;
-        const bool listens = m_listener.listen(QHostAddress::LocalHost, 0);
-        if (!listens || !m_hub.open({m_listener.address(), m_listener.port()}, &error))
+        if (!listen(&error))
             qFatal("%s", qPrintable(m_listener.errorString() + error));
         connect(&m_listener, &qplc::ControlListener::arrived, this, &ScriptedMaster::accept);
         connect(&m_look, &QTimer::timeout, this, &ScriptedMaster::readHub);
@@ -179,6 +178,16 @@ public:
     }
 
 private:
+    /// On a port that is free for both: a free one of TCP may be taken on UDP.
+    bool listen(QString *error)
+    {
+        for (int attempts = 16; attempts > 0 && m_listener.listen(QHostAddress::LocalHost, 0); --attempts) {
+            if (m_hub.open({m_listener.address(), m_listener.port()}, error))
+                return true;
+            m_listener.close();
+        }
+        return false;
+    }
     qplc::PayloadLayout layoutOf(const QJsonArray &array) const
     {
         QVector<QPlcSignalIndex> indices;
