@@ -5,18 +5,10 @@
 usage: fallback.py FOLDER_OF_PROGRAMS        exit code 77: skipped, with the reason (not root, or no namespaces here)
 """
 import sys
-from pathlib import Path
 
-from netns import LOSS, SKIPPED, Network, Plant, must, reason_to_skip, show
+from netns import LOSS, Plant, drop_rules, run, show
 
 SIDES = ("to the master", "to the nodes")
-
-
-def drop_udp(network, side, is_dropped):
-    """Drop all datagrams that arrive at one side over the wire."""
-    drop = 'iifname != "lo" meta l4proto udp drop\n' if is_dropped else ""
-    rules = f"table inet blocked\ndelete table inet blocked\ntable inet blocked {{\nchain arrive {{\ntype filter hook input priority 0;\n{drop}}}\n}}\n"
-    must("ip", "netns", "exec", network.names[side], "nft", "-f", "-", text=rules)
 
 
 def transports(plant):
@@ -41,30 +33,17 @@ def check_udp(plant, network):
     assert counted["rejected"] == 0
 
 
-def main():
-    reason = reason_to_skip()
-    if reason:
-        print(f"SKIPPED: {reason}")
-        return SKIPPED
-    network = Network()
-    programs = []
-    try:
-        for blocked in (0, 1, None):
-            for side in (0, 1):
-                drop_udp(network, side, side == blocked)
-            plant = Plant(Path(sys.argv[1]), network, scheme="", programs=programs)
-            if blocked is None:
-                check_udp(plant, network)
-            else:
-                check_fallback(plant, blocked)
-            plant.close()
-            programs.clear()
-    finally:
-        for program in programs:
-            program.kill()
-        network.close()
-    return 0
+def check(folder, network):
+    for blocked in (0, 1, None):
+        for side in (0, 1):
+            network.filter(side, drop_rules("firewall", "meta l4proto udp" if side == blocked else ""))
+        plant = Plant(folder, network, scheme="")
+        if blocked is None:
+            check_udp(plant, network)
+        else:
+            check_fallback(plant, blocked)
+        plant.close()
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run(check))

@@ -6,9 +6,8 @@ usage: half_open.py FOLDER_OF_PROGRAMS        exit code 77: skipped, with the re
 """
 import sys
 import time
-from pathlib import Path
 
-from netns import MASTER, SKIPPED, Network, Plant, must, reason_to_skip
+from netns import MASTER, Plant, must, run
 
 PORT = 50000
 ESTABLISHED = "01"
@@ -28,7 +27,8 @@ def noticed(plant, network):
     return not NODES & set(plant.nodes()) and connections(network, 1) == 0
 
 
-def check(plant, network):
+def check(folder, network):
+    plant = Plant(folder, network)
     assert plant.ask("stop").returncode == 0
     time.sleep(2)
     assert NODES <= set(plant.nodes()), "silence alone has cost a node its place"
@@ -47,25 +47,8 @@ def check(plant, network):
     started = plant.ask("start")
     assert started.returncode == 0, started.stderr
     print("both nodes fly again", flush=True)
-
-
-def main():
-    reason = reason_to_skip()
-    if reason:
-        print(f"SKIPPED: {reason}")
-        return SKIPPED
-    network = Network()
-    plant = None
-    try:
-        plant = Plant(Path(sys.argv[1]), network)
-        check(plant, network)
-        plant.close()
-    finally:
-        for program in plant.programs if plant else []:
-            program.kill()
-        network.close()
-    return 0
+    plant.close()
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run(check))

@@ -49,10 +49,14 @@ def reason_to_skip():
         command("ip", "netns", "delete", name)
 
 
+def drop_rules(table, packets):
+    """Drop such packets that arrive over the wire: one that is dropped on its way out would be an error of the sender, and who asks the master beside it wants an answer. None: drop nothing."""
+    drop = f'iifname != "lo" {packets} drop\n' if packets else ""
+    return f"table inet {table}\ndelete table inet {table}\ntable inet {table} {{\nchain arrive {{\ntype filter hook input priority 0;\n{drop}}}\n}}\n"
+
+
 def loss_rules(share):
-    """Lose packets that arrive over the wire: one that is dropped on its way out would be an error of the sender, and who asks the master beside it wants an answer."""
-    drop = f'iifname != "lo" numgen random mod 1000 < {round(1000 * share)} drop\n' if share > 0 else ""
-    return f"table inet bad\ndelete table inet bad\ntable inet bad {{\nchain arrive {{\ntype filter hook input priority 0;\n{drop}}}\n}}\n"
+    return drop_rules("loss", f"numgen random mod 1000 < {round(1000 * share)}" if share > 0 else "")
 
 
 class Network:
@@ -60,7 +64,7 @@ class Network:
 
     def __init__(self):
         self.names = [f"qtplc-{os.getpid()}-{side}" for side in ("master", "nodes")]
-        self.tuns = []
+        self.tuns, self.programs = [], []
         for name, address in zip(self.names, (MASTER, NODES)):
             must("ip", "netns", "add", name)
             interface = f"qp{os.getpid() % 100000}{len(self.tuns)}"
@@ -72,11 +76,16 @@ class Network:
         self.wire = Wire(*self.tuns, seed=7)
         self.wire.start()
 
+    def filter(self, side, rules):
+        must("ip", "netns", "exec", self.names[side], "nft", "-f", "-", text=rules)
+
     def lose(self, share):
-        for name in self.names:
-            must("ip", "netns", "exec", name, "nft", "-f", "-", text=loss_rules(share))
+        for side in (0, 1):
+            self.filter(side, loss_rules(share))
 
     def close(self):
+        for program in self.programs:
+            program.kill()
         self.wire.stop()
         for tun in self.tuns:
             os.close(tun)
@@ -85,8 +94,8 @@ class Network:
 
 
 class Plant:
-    def __init__(self, folder, network, scheme="udp://", programs=None):
-        self.folder, self.network, self.programs = folder, network, [] if programs is None else programs
+    def __init__(self, folder, network, scheme="udp://"):
+        self.folder, self.network, self.programs = folder, network, network.programs
         self.start(0, "awe_master", "--listen", MASTER, "--port", "50000", "--insecure-network", "--profile", "simulation")
         self.wait(lambda: self.ask("state").returncode == 0, "the master listens")
         for node in ("awe_model", "awe_autopilot"):
@@ -139,6 +148,7 @@ class Plant:
         for program in reversed(self.programs):
             program.terminate()
         codes = [program.wait(timeout=PATIENCE) for program in reversed(self.programs)]
+        self.programs.clear()
         assert codes == [0] * len(codes), f"ended with {codes}"
 
 
@@ -151,7 +161,22 @@ def show(name, counted):
           f"{counted['duplicates']:.0f} came twice or late, {counted['rejected']:.0f} rejected", flush=True)
 
 
-def check(plant, network):
+def run(check):
+    """Calls check(folder, network) in a network of its own, and ends what it leaves behind. \\return exit code"""
+    reason = reason_to_skip()
+    if reason:
+        print(f"SKIPPED: {reason}")
+        return SKIPPED
+    network = Network()
+    try:
+        check(Path(sys.argv[1]), network)
+    finally:
+        network.close()
+    return 0
+
+
+def check(folder, network):
+    plant = Plant(folder, network)
     wire = network.wire
     clean = plant.fly(2)
     show("as the wire is", clean)
@@ -183,26 +208,9 @@ def check(plant, network):
     wire.mend()
     plant.wait(lambda: late_share(plant.fly(0.5)) < 0.5, "answers come again after a cut of 0.6 s")
     print("cut for 0.6 s                    answers come again", flush=True)
-
-
-def main():
-    reason = reason_to_skip()
-    if reason:
-        print(f"SKIPPED: {reason}")
-        return SKIPPED
-    network = Network()
-    plant = None
-    try:
-        plant = Plant(Path(sys.argv[1]), network)
-        check(plant, network)
-        network.wire.mend()
-        plant.close()
-    finally:
-        for program in plant.programs if plant else []:
-            program.kill()
-        network.close()
-    return 0
+    wire.mend()
+    plant.close()
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run(check))
