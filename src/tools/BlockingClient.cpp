@@ -20,7 +20,7 @@ BlockingClient::BlockingClient(std::chrono::milliseconds timeout)
 
 bool BlockingClient::connectToMaster(const QPlcUnderlyingProtocol &master)
 {
-    m_address = master.toString().section(QStringLiteral("://"), -1);
+    m_address = placeText(master);
     QEventLoop loop;
     connect(&m_control, &ControlClient::greeted, &loop, &QEventLoop::quit);
     connect(this, &BlockingClient::lost, &loop, &QEventLoop::quit);

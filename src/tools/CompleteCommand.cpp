@@ -123,8 +123,7 @@ int completeWord(const CommandCall &call)
     const QStringList words = call.arguments.mid(1);  // the first one is the name of the program
     const QString word = words.isEmpty() ? QString() : words.constLast();
     const Line line = readLine(words.mid(0, words.size() - 1));
-    const QString master
-        = line.master.isEmpty() ? call.master.toString().section(QStringLiteral("://"), -1) : line.master;
+    const QString master = line.master.isEmpty() ? placeText(call.master) : line.master;
     const QStringList all = candidates(line, word, master);
     for (const QString &candidate : all) {
         if (candidate.startsWith(word))

@@ -203,6 +203,11 @@ void printJson(const QJsonDocument &document)
     printLine(QString::fromUtf8(document.toJson(QJsonDocument::Compact)));
 }
 
+QString placeText(const QPlcUnderlyingProtocol &master)
+{
+    return master.toString().section(QStringLiteral("://"), -1);
+}
+
 TerminalSize terminalSize()
 {
     winsize size{};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "QPlcUnderlyingProtocol.h"
 #include "protocol/messages/Vocabulary.h"
 
 #include <QtCore/QJsonDocument>
@@ -51,6 +52,8 @@ void printWrapped(const QString &head, int headWidth, const QString &text);
 void printText(const QString &text);
 /// Prints a document, or an object, as one line of JSON.
 void printJson(const QJsonDocument &document);
+/// "192.168.1.5:50000": the address of \a master, whichever way its frames go.
+QString placeText(const QPlcUnderlyingProtocol &master);
 /// Columns and lines of the terminal; what COLUMNS and LINES say, or 80 x 24, where the output is
 /// none.
 struct TerminalSize

@@ -148,7 +148,7 @@ int watchOnTerminal(const CommandCall &call, const QPlcSignalTable &table, const
     const bool hasJoined = listener.join();
     if (*endIsWanted || !hasJoined)
         return *endIsWanted ? QPlcCoreApplication::Success : QPlcCoreApplication::Failure;
-    Watch watch(listener, call.master.toString().section(QStringLiteral("://"), -1), rate.rate);
+    Watch watch(listener, placeText(call.master), rate.rate);
     return QCoreApplication::exec();
 }
 
