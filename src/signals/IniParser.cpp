@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "IniParser.h"
 
+#include "BoundedRead.h"
 #include "MessageText.h"
 #include "Utf8.h"
 
@@ -249,11 +250,7 @@ bool IniParser::readFile(const QString &fileName, const QString &what, qint64 la
     } else if (!file.open(QIODevice::ReadOnly)) {
         error = QStringLiteral("cannot open: %1; give the path of %2").arg(file.errorString(), what);
     } else {
-        constexpr qint64 portion = 64 << 10;  // [byte] QFile makes room for all that it is asked for
-        text->clear();
-        for (QByteArray read = file.read(portion); !read.isEmpty() && text->size() <= largest;
-             read = file.read(portion))
-            *text += read;
+        *text = readBounded(&file, largest);
         if (file.error() != QFileDevice::NoError)
             error = QStringLiteral("cannot read: %1").arg(file.errorString());
         else if (text->size() > largest)

@@ -3,6 +3,7 @@
 
 #include "LayoutReader.h"
 #include "gui/WindowText.h"
+#include "signals/BoundedRead.h"
 #include "signals/JsonNames.h"
 
 #include <QtCore/QFile>
@@ -163,7 +164,7 @@ std::optional<Layout> readLayoutFile(const QString &fileName, QPlcParseError *er
         inFile.message
             = WindowText::tr("the layout cannot be read (%1): check name and rights").arg(file.errorString());
     } else {
-        const QByteArray text = file.read(LargestFile + 1);
+        const QByteArray text = readBounded(&file, LargestFile);
         if (text.size() > LargestFile)
             inFile.message = WindowText::tr("a layout has at most 16 MiB: choose another file");
         else

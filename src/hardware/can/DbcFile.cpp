@@ -3,6 +3,7 @@
 
 #include "DbcParser.h"
 #include "DbcReader.h"
+#include "signals/BoundedRead.h"
 
 #include <QtCore/QFile>
 #include <QtCore/QTextCodec>
@@ -72,7 +73,7 @@ DbcFile DbcFile::fromFile(const QString &fileName, QVector<QPlcParseError> *erro
                            QStringLiteral("cannot read the DBC file: %1; correct the key dbc").arg(file.errorString()));
         return {};
     }
-    return fromText(file.read(MaximumSize + 1), fileName, errors);
+    return fromText(readBounded(&file, MaximumSize), fileName, errors);
 }
 
 bool DbcFile::readSignal(const QString &text, DbcSignal *signal, QString *error)
