@@ -1,23 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PayloadLayout.h"
 
+#include "TypeNames.h"
+
 namespace qplc {
 
 PayloadLayout::PayloadLayout(const QPlcSignalTable &table, const QVector<QPlcSignalIndex> &signalIndices,
                              Qualities qualities)
 {
     m_fields.reserve(std::size_t(signalIndices.size()));
-    QPlcSignalType type;
-    QByteArray typeName;  // of type: many signals in a row have the same one
+    TypeNames names;
     for (const QPlcSignalIndex index : signalIndices) {
         const QPlcSignalDefinition &signal = table.at(index);
         m_fields.push_back({index, m_size, signal.type});
-        if (signal.type != type) {
-            type = signal.type;
-            typeName = type.name().toUtf8();
-        }
         m_hash = fnv1a64(signal.name.toUtf8(), m_hash);
-        m_hash = fnv1a64(':' + typeName + '@' + QByteArray::number(m_size) + '\n', m_hash);
+        m_hash = fnv1a64(':' + names.of(signal.type).toUtf8() + '@' + QByteArray::number(m_size) + '\n', m_hash);
         m_size += quint32(signal.type.size());
     }
     m_valueSize = m_size;

@@ -71,7 +71,7 @@ REMOVALS = [
             "if (declaration.name == masterName() && std::any_of(m_nodes.begin(), m_nodes.end(), sameName))",
             "tst_Refusals", "aNameInUseIsRefusedUnlessItIsTheSameNode"),
     Removal("node with another signal table: type", "src/node/cycle/NodeRegistry.cpp",
-            "if (typeName != signal.type)", "if (signal.type.isEmpty())",
+            "if (names.of(definition.type) != signal.type)", "if (signal.type.isEmpty())",
             "tst_Refusals", "aWrongRegistrationIsRejected"),
     Removal("node with another signal table: unit", "src/node/cycle/NodeRegistry.cpp",
             "if (definition.unit != signal.unit)", "if (signal.name.isEmpty())",

@@ -5,6 +5,7 @@
 #include "node/Logging.h"
 #include "protocol/messages/Vocabulary.h"
 #include "signals/MessageText.h"
+#include "signals/TypeNames.h"
 
 #include <QtCore/QMetaEnum>
 
@@ -22,10 +23,11 @@ QMetaEnum policies()
 std::vector<messages::DeclaredSignal> describe(const QPlcSignalTable &table, const PayloadLayout &layout)
 {
     std::vector<messages::DeclaredSignal> declared;
+    TypeNames names;
     for (const PayloadLayout::Field &field : layout.fields()) {
         const QPlcSignalDefinition &signal = table.at(field.signal);
         declared.push_back(
-            {signal.name, field.type.name(), signal.unit, false, messages::Hex64(table.safetyHash(field.signal))});
+            {signal.name, names.of(field.type), signal.unit, false, messages::Hex64(table.safetyHash(field.signal))});
     }
     return declared;
 }
@@ -101,8 +103,7 @@ bool NodeRegistry::resolve(const QString &node, const std::vector<messages::Decl
                            QVector<QPlcSignalIndex> *indices, Refusal *refusal) const
 {
     std::vector<bool> seen(std::size_t(m_table.size()));
-    QPlcSignalType type;
-    QString typeName;  // of type: many signals in a row have the same one
+    TypeNames names;
     for (const messages::DeclaredSignal &signal : declared) {
         const QPlcSignalIndex index = m_table.indexOf(signal.name);
         if (index == QPlcInvalidSignalIndex) {
@@ -111,15 +112,11 @@ bool NodeRegistry::resolve(const QString &node, const std::vector<messages::Decl
             return false;
         }
         const QPlcSignalDefinition &definition = m_table.at(index);
-        if (definition.type != type) {
-            type = definition.type;
-            typeName = type.name();
-        }
-        if (typeName != signal.type) {
+        if (names.of(definition.type) != signal.type) {
             *refusal = {messages::errorWord::typeMismatch,
                         QStringLiteral(
                             "signal '%1' is %2 in the table of the master, %3 in that of node '%4'; use the same table")
-                            .arg(signal.name, typeName, signal.type, node)};
+                            .arg(signal.name, names.of(definition.type), signal.type, node)};
             return false;
         }
         if (definition.unit != signal.unit) {
