@@ -12,10 +12,9 @@ namespace qplc {
 
 namespace {
 
-JournalEvent eventOf(JournalEvent::Severity severity, const QString &identity, const QString &address,
-                     const QString &text)
+/// \a event, which somebody at \a address has caused.
+JournalEvent causedFrom(const QString &address, JournalEvent event)
 {
-    JournalEvent event{severity, JournalEvent::Security, identity, text};
     event.address = address;
     return event;
 }
@@ -70,7 +69,7 @@ void Journal::tell(JournalEvent::Severity severity, JournalEvent::Kind kind, con
 
 void Journal::accepted(const QString &identity, const QString &address, const QString &text)
 {
-    append(eventOf(JournalEvent::Info, identity, address, text));
+    append(causedFrom(address, {JournalEvent::Info, JournalEvent::Security, identity, text}));
 }
 
 void Journal::raise(const QString &alarm, JournalEvent::Severity severity, JournalEvent::Kind kind,
@@ -155,11 +154,11 @@ void Journal::answeredLate(const QString &node, std::uint64_t cycle)
 void Journal::valueSet(const QString &who, const QString &address, const QString &signal, const QString &former,
                        const QString &value)
 {
-    JournalEvent event{JournalEvent::Info, JournalEvent::Set, NodeRegistry::masterName(),
-                       QStringLiteral(" -> %1").arg(value)};
-    event.address = address;
     tellLimited(QStringLiteral("set %1 %2").arg(signal, who),
-                QStringLiteral("'%1' has set %2: %3").arg(who, signal, former), event);
+                QStringLiteral("'%1' has set %2: %3").arg(who, signal, former),
+                causedFrom(address,
+                           {JournalEvent::Info, JournalEvent::Set, NodeRegistry::masterName(),
+                            QStringLiteral(" -> %1").arg(value)}));
 }
 
 void Journal::becameSafe(const QStringList &values)
@@ -186,21 +185,21 @@ void Journal::valueCameBack(const QString &signal, const QString &value)
 void Journal::denied(const QString &identity, const QString &address, const QString &text)
 {
     tellLimited(QStringLiteral("denied ") + identity, QString(),
-                eventOf(JournalEvent::Warning, identity, address, text));
+                causedFrom(address, {JournalEvent::Warning, JournalEvent::Security, identity, text}));
 }
 
 void Journal::commanded(const QString &identity, const QString &address, const QString &what, const QString &from)
 {
     tellLimited(QStringLiteral("commanded %1 %2").arg(identity, what),
                 QStringLiteral("identity '%1' commands %2").arg(identity, what),
-                eventOf(JournalEvent::Info, identity, address, from));
+                causedFrom(address, {JournalEvent::Info, JournalEvent::Security, identity, from}));
 }
 
 void Journal::refused(const QString &name, const QString &address, const QString &reason)
 {
-    JournalEvent event{JournalEvent::Warning, JournalEvent::Node, name,
-                       QStringLiteral("refused %1 %2").arg(address, reason)};
-    event.address = address;
+    const JournalEvent event = causedFrom(
+        address,
+        {JournalEvent::Warning, JournalEvent::Node, name, QStringLiteral("refused %1 %2").arg(address, reason)});
     if (m_refusals.take(monotonicNow()))
         append(event);
     else
@@ -210,8 +209,9 @@ void Journal::refused(const QString &name, const QString &address, const QString
 void Journal::strangerRefused(const QString &address, const QString &reason)
 {
     tellLimited(QStringLiteral("strangers"), QString(),
-                eventOf(JournalEvent::Warning, NodeRegistry::masterName(), address,
-                        QStringLiteral("refused %1: %2").arg(address, reason)));
+                causedFrom(address,
+                           {JournalEvent::Warning, JournalEvent::Security, NodeRegistry::masterName(),
+                            QStringLiteral("refused %1: %2").arg(address, reason)}));
 }
 
 // ---- what may happen often ----
