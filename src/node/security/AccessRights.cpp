@@ -38,9 +38,10 @@ public:
     {
         if (m_areAll || peer.role == Role::Observer)
             return;
+        static const QRegularExpression signOfPattern(QStringLiteral("[*?[]"));
         for (const QString &text : peer.writes) {
             m_names.insert(text);
-            if (text.contains(QRegularExpression(QStringLiteral("[*?[]"))))
+            if (text.contains(signOfPattern))
                 m_patterns.emplace_back(QRegularExpression::wildcardToRegularExpression(text));
         }
     }
