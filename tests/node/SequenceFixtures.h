@@ -138,10 +138,6 @@ public:
         heard(event);
         return true;
     }
-    bool setError(QPlcMasterNode::Error, const QString &, const QString &, qplc::JournalEvent::Kind) override
-    {
-        return false;
-    }
     void announce(const qplc::messages::StatesInitialized &news) override
     {
         m_log << (news.ok ? QStringLiteral("all: initialized") : QStringLiteral("all: ") + news.text);

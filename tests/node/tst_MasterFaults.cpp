@@ -12,7 +12,7 @@ using Answers = NodeSession::Answers;
 
 namespace {
 
-/// A master whose state the test sets, and that writes down errors and events.
+/// A master whose state the test sets, and that writes down events.
 class FaultControl final : public qplc::MasterControl
 {
 public:
@@ -25,14 +25,6 @@ public:
         log << QStringLiteral("%1: %2").arg(QLatin1String(qplc::nameOf(event)), reason);
         return true;
     }
-    bool setError(QPlcMasterNode::Error error, const QString &text, const QString &source,
-                  qplc::JournalEvent::Kind kind) override
-    {
-        log << QStringLiteral("%1 %2 of %3: %4")
-                   .arg(error == QPlcMasterNode::NodeError ? "node error" : "real-time error", qplc::kindName(kind),
-                        source, text);
-        return false;
-    }
     void announce(const qplc::messages::StatesInitialized &) override {}
     QStringList takeLog() { return std::exchange(log, {}); }
 };
@@ -40,7 +32,18 @@ public:
 struct FaultBench : PhaseBench
 {
     FaultControl control;
-    MasterFaults faults{control, nodes, phase};
+    qplc::MasterError error{journal, [this](QPlcMasterNode::Error value) { write(value); }};
+    MasterFaults faults{control, error, nodes, phase};
+
+private:
+    /// The error and its event, the newest one.
+    void write(QPlcMasterNode::Error value)
+    {
+        const qplc::JournalEvent event = journal.events().after(journal.events().newest() - 1, 1).front();
+        control.log << QStringLiteral("%1 %2 of %3: %4")
+                           .arg(value == QPlcMasterNode::NodeError ? "node error" : "real-time error",
+                                qplc::kindName(event.kind), event.source, event.text);
+    }
 };
 
 CycleEvent happened(CycleEvent::Kind kind, const std::shared_ptr<ScriptedSession> &node = {})

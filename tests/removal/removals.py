@@ -45,7 +45,7 @@ REMOVALS = [
             "    if (d->bytes > 0 && d->bytes + line.size() > mostBytes) {", "    if (d->bytes < 0) {",
             "tst_LogWriter", "readerThatStandsStillStopsNobody"),
     Removal("signal table missing or unreadable", "src/node/api/QPlcMasterNodePrivate.cpp",
-            "    if (table.isEmpty())\n        return setError(", "    if (table.isEmpty() && parts)\n        return setError(",
+            "    if (table.isEmpty())\n        return error.set(", "    if (table.isEmpty() && parts)\n        return error.set(",
             "tst_ThesisPrograms", "masterWithoutItsTableEndsWithAMessage"),
     Removal("table with errors of any kind", "src/signals/QPlcSignalTable.cpp",
             "    if (!found.isEmpty())\n        return table;", "    if (found.size() > 1000)\n        return table;",

@@ -104,7 +104,7 @@ public:
         if (d.arm())
             m_connection->send(messages::Armed{d.arming.token(), std::chrono::nanoseconds(qplc::Arming::ValidFor)});
         else
-            m_connection->fail(qplc::messages::errorWord::wrongState, d.errorString);
+            m_connection->fail(qplc::messages::errorWord::wrongState, d.error.text());
     }
 
     // ---- who may come ----
@@ -209,9 +209,9 @@ private:
     void finish(bool isAccepted) const
     {
         if (!isAccepted)
-            m_connection->fail(qplc::messages::errorWord::wrongState, d.errorString);
+            m_connection->fail(qplc::messages::errorWord::wrongState, d.error.text());
         else if (d.parts->step.isUnderWay())
-            d.m_requester = m_connection->socket;
+            d.asker.wait(m_connection->socket);
         else
             m_connection->done();
     }

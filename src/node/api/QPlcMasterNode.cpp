@@ -20,13 +20,13 @@ constexpr std::chrono::hours longestTime{24};
 /// \param fault  why a signal could not be claimed; empty: it was
 bool isClaimed(QPlcMasterNodePrivate &master, const QString &fault)
 {
-    return fault.isEmpty() ? master.succeed() : master.setError(QPlcMasterNode::SignalError, fault);
+    return fault.isEmpty() ? master.error.clear() : master.error.set(QPlcMasterNode::SignalError, fault);
 }
 
 bool refusePeriod(QPlcMasterNodePrivate &master, double seconds)
 {
-    return master.setError(QPlcMasterNode::IntervalError,
-                           QStringLiteral("a period of %1 s is out of range; use 0.00001 ... 10 s").arg(seconds));
+    return master.error.set(QPlcMasterNode::IntervalError,
+                            QStringLiteral("a period of %1 s is out of range; use 0.00001 ... 10 s").arg(seconds));
 }
 
 /// Whether \a time may be a limit; if not, tells what may.
@@ -35,12 +35,12 @@ bool isLimit(QPlcMasterNodePrivate &master, std::chrono::nanoseconds time, std::
              const QString &limit)
 {
     if (time >= shortest && time <= longestTime)
-        return master.succeed();
-    return master.setError(QPlcMasterNode::IntervalError,
-                           QStringLiteral("%1 of %2 s is out of range; use %3 ... 86400 s")
-                               .arg(limit)
-                               .arg(double(time.count()) * 1e-9)
-                               .arg(double(shortest.count()) * 1e-9));
+        return master.error.clear();
+    return master.error.set(QPlcMasterNode::IntervalError,
+                            QStringLiteral("%1 of %2 s is out of range; use %3 ... 86400 s")
+                                .arg(limit)
+                                .arg(double(time.count()) * 1e-9)
+                                .arg(double(shortest.count()) * 1e-9));
 }
 
 /// Whether \a number may be a limit; if not, tells what may.
@@ -48,8 +48,8 @@ bool isLimit(QPlcMasterNodePrivate &master, std::chrono::nanoseconds time, std::
 bool isLimit(QPlcMasterNodePrivate &master, int number, int smallest, int largest, const QString &limit)
 {
     if (number >= smallest && number <= largest)
-        return master.succeed();
-    return master.setError(
+        return master.error.clear();
+    return master.error.set(
         QPlcMasterNode::IntervalError,
         QStringLiteral("%1 is out of range; use %2 ... %3").arg(limit.arg(number)).arg(smallest).arg(largest));
 }
@@ -74,10 +74,10 @@ QPlcMasterNode::~QPlcMasterNode()
 bool QPlcMasterNode::setSignalTable(const QPlcSignalTable &table)
 {
     if (d->parts)
-        return d->setError(StateError,
-                           QStringLiteral("the signal table can only be set before signals, nodes and servers"));
+        return d->error.set(StateError,
+                            QStringLiteral("the signal table can only be set before signals, nodes and servers"));
     d->table = table;
-    return d->succeed();
+    return d->error.clear();
 }
 
 QPlcSignalTable QPlcMasterNode::signalTable() const
@@ -105,7 +105,7 @@ bool QPlcMasterNode::activateStatisticSignal(QPlcStatisticFigure figure, const Q
 {
     const QString fault = qplc::OwnSignals::faultOf(figure, signalName, nodeName);
     if (!fault.isEmpty())
-        return d->setError(SignalError, fault);
+        return d->error.set(SignalError, fault);
     return d->prepare() && isClaimed(*d, d->parts->ownSignals.add(figure, signalName, nodeName));
 }
 
@@ -114,7 +114,7 @@ bool QPlcMasterNode::setInterval(std::chrono::nanoseconds period)
     if (period < qplc::ShortestPeriod || period > qplc::LongestPeriod)
         return refusePeriod(*d, double(period.count()) * 1e-9);
     d->phaseSettings.interval = period;
-    return d->succeed();
+    return d->error.clear();
 }
 
 bool QPlcMasterNode::setInterval(double seconds)
@@ -131,12 +131,12 @@ std::chrono::nanoseconds QPlcMasterNode::interval() const
 bool QPlcMasterNode::setClock(QPlcClock clock)
 {
     if (!clock.isValid())
-        return d->setError(
+        return d->error.set(
             IntervalError,
             QStringLiteral("a clock of %1 times real time is out of range; use 0.001 ... 1000, or lockstep")
                 .arg(clock.scale()));
     d->phaseSettings.clock = clock;
-    return d->succeed();
+    return d->error.clear();
 }
 
 QPlcClock QPlcMasterNode::clock() const
@@ -152,12 +152,12 @@ void QPlcMasterNode::setRealTimeOptions(const QPlcRealTimeOptions &options)
 bool QPlcMasterNode::setOverrunPolicy(QPlcOverrunPolicy policy)
 {
     if (!policy.isValid())
-        return d->setError(IntervalError,
-                           QStringLiteral("catching up %1 cycles is out of range; use 1 ... %2")
-                               .arg(policy.catchUpCycles())
-                               .arg(QPlcOverrunPolicy::MaximumCatchUp));
+        return d->error.set(IntervalError,
+                            QStringLiteral("catching up %1 cycles is out of range; use 1 ... %2")
+                                .arg(policy.catchUpCycles())
+                                .arg(QPlcOverrunPolicy::MaximumCatchUp));
     d->phaseSettings.overrunPolicy = policy;
-    return d->succeed();
+    return d->error.clear();
 }
 
 QPlcOverrunPolicy QPlcMasterNode::overrunPolicy() const
@@ -208,12 +208,12 @@ QString QPlcMasterNode::eventFile() const
 bool QPlcMasterNode::setManifest(const QPlcManifest &manifest)
 {
     if (serverPort() != 0 || (d->parts && !d->parts->registry.nodes().empty()))
-        return d->setError(StateError, QStringLiteral("the manifest can only be set before servers and nodes"));
+        return d->error.set(StateError, QStringLiteral("the manifest can only be set before servers and nodes"));
     if (manifest.isEmpty())
-        return d->setError(NodeError,
-                           QStringLiteral("the manifest names no node; read one with QPlcManifest::fromIniFile()"));
+        return d->error.set(NodeError,
+                            QStringLiteral("the manifest names no node; read one with QPlcManifest::fromIniFile()"));
     d->needed.setManifest(manifest);
-    return d->succeed();
+    return d->error.clear();
 }
 
 QPlcManifest QPlcMasterNode::manifest() const
@@ -229,15 +229,15 @@ QString QPlcMasterNode::missingNodes() const
 bool QPlcMasterNode::evict(const QString &name)
 {
     qplc::Refusal refusal;
-    return d->succeed() && d->prepare()
-        && (d->parts->evictions.evict(name, nullptr, &refusal) || d->setError(NodeError, refusal.text));
+    return d->error.clear() && d->prepare()
+        && (d->parts->evictions.evict(name, nullptr, &refusal) || d->error.set(NodeError, refusal.text));
 }
 
 bool QPlcMasterNode::admit(const QString &name)
 {
     qplc::Refusal refusal;
-    return d->succeed() && d->prepare()
-        && (d->parts->evictions.admit(name, nullptr, &refusal) || d->setError(NodeError, refusal.text));
+    return d->error.clear() && d->prepare()
+        && (d->parts->evictions.admit(name, nullptr, &refusal) || d->error.set(NodeError, refusal.text));
 }
 
 QStringList QPlcMasterNode::evictedNames() const
@@ -322,11 +322,11 @@ bool QPlcMasterNode::setFaultPlan(const QString &plan)
 {
     QString text;
     if (!plan.isEmpty() && !qplc::FaultPlan::fromText(plan, &text))
-        return d->setError(StateError, QStringLiteral("fault plan: %1").arg(text));
+        return d->error.set(StateError, QStringLiteral("fault plan: %1").arg(text));
     if (serverPort() != 0)
-        return d->setError(StateError, QStringLiteral("a fault plan is set before the server starts: stop it first"));
+        return d->error.set(StateError, QStringLiteral("a fault plan is set before the server starts: stop it first"));
     d->serverSettings.faultPlan = plan;
-    return d->succeed();
+    return d->error.clear();
 }
 
 QString QPlcMasterNode::faultPlan() const
@@ -408,12 +408,12 @@ bool QPlcMasterNode::isArmed() const
 
 QPlcMasterNode::Error QPlcMasterNode::error() const
 {
-    return d->error;
+    return d->error.value();
 }
 
 QString QPlcMasterNode::errorString() const
 {
-    return d->errorString;
+    return d->error.text();
 }
 
 QPlcMasterStatistics QPlcMasterNode::statistics() const
@@ -465,8 +465,9 @@ bool QPlcMasterNode::setSignalValue(const QString &signalName, const QPlcValue &
         return false;
     qplc::Refusal refusal;
     if (d->parts->settings.setSignal(signalName, value, &refusal))
-        return d->succeed();
-    return d->setError(refusal.error == qplc::messages::errorWord::wrongState ? StateError : SignalError, refusal.text);
+        return d->error.clear();
+    return d->error.set(refusal.error == qplc::messages::errorWord::wrongState ? StateError : SignalError,
+                        refusal.text);
 }
 
 bool QPlcMasterNode::initializeAllStates()

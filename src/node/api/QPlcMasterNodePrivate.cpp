@@ -32,21 +32,6 @@ quint64 newSession()
     return qplc::Host::current().random() | 1;  // never 0
 }
 
-/// What an error is about, unless who tells it knows better.
-JournalEvent::Kind kindOf(QPlcMasterNode::Error error)
-{
-    switch (error) {
-    case QPlcMasterNode::SignalError:
-        return JournalEvent::Set;
-    case QPlcMasterNode::NodeError:
-        return JournalEvent::Node;
-    case QPlcMasterNode::InitializationError:
-        return JournalEvent::Fault;
-    default:
-        return JournalEvent::State;
-    }
-}
-
 qplc::messages::MasterHello helloOf(const QPlcMasterNodePrivate &master)
 {
     qplc::messages::MasterHello message;
@@ -91,6 +76,19 @@ quint64 bytesOfValues(const QPlcSignalTable &table)
     });
 }
 
+/// Why the present state refuses \a event.
+/// \param text  of the table of states: %1: the reason of the state, %2: what stands in the way
+QString refusalText(const QPlcMasterNodePrivate &master, Event event, const char *text)
+{
+    QString sentence = QString::fromLatin1(text);
+    sentence.replace(QStringLiteral("%1"), master.stateReason);
+    sentence.replace(QStringLiteral("%2"),
+                     event == Event::ResetTooEarly ? master.parts->faults.remainingCause() : master.missingText());
+    return QStringLiteral("%1 is not possible in state %2: %3")
+        .arg(QLatin1String(qplc::requestName(event)), qplc::stateText(QLatin1String(qplc::nameOf(master.state()))),
+             sentence);
+}
+
 /// Of a node that has set no watchdog, in the next phase; 0: watchdogs only report.
 std::chrono::nanoseconds usualWatchdog(const QPlcMasterNodePrivate &master)
 {
@@ -120,6 +118,7 @@ std::optional<qplc::EventFile::Place> usualEventFile(const QPlcMasterNodePrivate
 
 QPlcMasterNodePrivate::QPlcMasterNodePrivate(QPlcMasterNode *master)
     : q(master)
+    , error(journal, [this](QPlcMasterNode::Error value) { Q_EMIT q->errorOccurred(value); })
     , phaseProfile(journal, [this] { return factsOf(*this); })
     , session(newSession())
     , uuid(qplc::newUuid())
@@ -148,7 +147,7 @@ QPlcMasterNodePrivate::Parts::Parts(QPlcMasterNodePrivate &master)
               return refusal.error.isEmpty() && isPhaseUnderWay() ? master.phaseProfile.objectionTo(*node) : refusal;
           },
           master.evictions, nullptr)
-    , faults(master, master.nodes, phase)
+    , faults(master, master.error, master.nodes, phase)
     , reports(master, cycle, registry, master.nodes, phase, faults, master.phaseSettings, master.journal)
     , audit(server, master.journal, phase)
     , evictions(master.evictions, server, master.nodes, master.needed, master.journal, phase)
@@ -172,7 +171,7 @@ void QPlcMasterNodePrivate::connectParts()
     QObject::connect(&server, &MasterServer::lost, q,
                      [this](Connection *gone, const QString &reason) { nodeLost(gone, reason); });
     QObject::connect(&server, &MasterServer::received, q,
-                     [this](Connection *asker, const QPlcMessage &message) { receive(asker, message); });
+                     [this](Connection *sender, const QPlcMessage &message) { receive(sender, message); });
     QObject::connect(&server, &MasterServer::refused, q,
                      [this](const QString &name, const QString &, const QString &reason) {
                          needed.tellFate(name, QStringLiteral("was refused: %1").arg(reason));
@@ -189,37 +188,11 @@ void QPlcMasterNodePrivate::connectParts()
             return;
         }
         apply(Event::StatesInitialized);
-        answerRequester(true, {});
+        asker.done();
     });
     const qplc::StartSequence &starting = parts->starting;
     QObject::connect(&starting, &qplc::StartSequence::realTimeHasStarted, q, &QPlcMasterNode::realTimeHasStarted);
-    QObject::connect(&starting, &qplc::StartSequence::done, q, [this] { answerRequester(true, {}); });
-}
-
-bool QPlcMasterNodePrivate::setError(QPlcMasterNode::Error newError, const QString &text)
-{
-    return setError(newError, text, NodeRegistry::masterName(), kindOf(newError));
-}
-
-bool QPlcMasterNodePrivate::setError(QPlcMasterNode::Error newError, const QString &text, const QString &source,
-                                     JournalEvent::Kind kind)
-{
-    error = newError;
-    errorString = text;
-    const auto severity = newError == QPlcMasterNode::StateError ? JournalEvent::Warning : JournalEvent::Error;
-    if (kind == JournalEvent::Fault)
-        journal.raise(QStringLiteral("fault of ") + source, severity, kind, source, text);
-    else
-        journal.tell(severity, kind, source, text);
-    Q_EMIT q->errorOccurred(newError);
-    return false;
-}
-
-bool QPlcMasterNodePrivate::succeed()
-{
-    error = QPlcMasterNode::NoError;
-    errorString.clear();
-    return true;
+    QObject::connect(&starting, &qplc::StartSequence::done, q, [this] { asker.done(); });
 }
 
 // ---- set-up ----
@@ -231,7 +204,7 @@ bool QPlcMasterNodePrivate::prepare()
     if (table.isEmpty())
         table = QPlcSignalIndexTable::current();
     if (table.isEmpty())
-        return setError(
+        return error.set(
             QPlcMasterNode::SignalError,
             QStringLiteral(
                 "the master has no signals; read a table with QPlcSignalIndexTable::initializeFromIniFile() %1")
@@ -250,8 +223,8 @@ bool QPlcMasterNodePrivate::startServer(const QPlcUnderlyingProtocol &protocol)
     const QPlcSecurity &security = serverSettings.security;
     const QString fault = security.isNone() ? needed.identityFault() : security.errorString(QPlcSecurity::MasterSide);
     if (!fault.isEmpty()) {
-        setError(QPlcMasterNode::ServerError, fault);
-        apply(Event::ServerFailed, errorString);
+        error.set(QPlcMasterNode::ServerError, fault);
+        apply(Event::ServerFailed, error.text());
         return false;
     }
     serverSettings.port = protocol.port();
@@ -270,7 +243,7 @@ bool QPlcMasterNodePrivate::startServer(const QPlcUnderlyingProtocol &protocol)
     const QString &name = serverSettings.localName;
     if (!server.listen(address, protocol.port(), name, serverSettings.multicastGroup)) {
         apply(Event::ServerFailed, server.errorString());
-        return setError(QPlcMasterNode::ServerError, server.errorString());
+        return error.set(QPlcMasterNode::ServerError, server.errorString());
     }
     apply(Event::ServerListens);
     beacon.begin(address,
@@ -280,7 +253,7 @@ bool QPlcMasterNodePrivate::startServer(const QPlcUnderlyingProtocol &protocol)
     qCInfo(lcMaster).noquote() << "listening on" << address.toString() << "port" << server.port() << "security"
                                << serverSettings.security.modeName();
     eventKeeper.keep();
-    return succeed();
+    return error.clear();
 }
 
 // ---- nodes ----
@@ -294,21 +267,21 @@ bool QPlcMasterNodePrivate::addLocalNode(QPlcSlaveNode *node)
     QPlcSlaveNodePrivate &program = QPlcSlaveNodePrivate::of(*node);
     QString text;
     if (!qplc::LocalNode::bind(program, table, &text))
-        return setError(QPlcMasterNode::SignalError, text);
+        return error.set(QPlcMasterNode::SignalError, text);
     qplc::Refusal refusal;
     qplc::NodeDeclaration declaration = qplc::LocalNode::declarationOf(program);
     refusal = needed.judge(&declaration, qplc::NodeSession::inProcess(), QString());
     const std::shared_ptr<NodeSlot> slot
         = refusal.error.isEmpty() ? parts->registry.admit(declaration, &refusal) : nullptr;
     if (!slot)
-        return setError(QPlcMasterNode::NodeError, refusal.text);
+        return error.set(QPlcMasterNode::NodeError, refusal.text);
     slot->prepare(parts->cycle.image(), session);
     parts->settings.leaveToWriters();
     const auto local = std::make_shared<qplc::LocalNode>(program, slot);
     nodes.add(local);
     local->join(q);
     Q_EMIT q->nodeRegistered(slot->name);
-    return succeed();
+    return error.clear();
 }
 
 void QPlcMasterNodePrivate::removeLocalNode(QPlcSlaveNode *node)
@@ -383,21 +356,13 @@ void QPlcMasterNodePrivate::announce(const qplc::messages::StatesInitialized &ne
     }
 }
 
-void QPlcMasterNodePrivate::answerRequester(bool done, const QString &text)
-{
-    if (m_requester)
-        m_requester->sendMessage(
-            done ? qplc::messages::toMessage(qplc::messages::Done())
-                 : qplc::messages::toMessage(qplc::messages::Failed{qplc::messages::errorWord::nodeError, text}));
-    m_requester.clear();
-}
-
 // ---- what people and programs ask for ----
 
 bool QPlcMasterNodePrivate::initializeAllStates()
 {
-    return prepare() && succeed() && apply(missingText().isEmpty() ? Event::Initialize : Event::InitializeIncomplete)
-        && error == QPlcMasterNode::NoError;
+    return prepare() && error.clear()
+        && apply(missingText().isEmpty() ? Event::Initialize : Event::InitializeIncomplete)
+        && error.value() == QPlcMasterNode::NoError;
 }
 
 bool QPlcMasterNodePrivate::startRealTime(quint64 cycles, quint64 token)
@@ -406,25 +371,25 @@ bool QPlcMasterNodePrivate::startRealTime(quint64 cycles, quint64 token)
         return false;
     const QString optionError = phaseSettings.realTimeOptions.errorString();
     if (!optionError.isEmpty())
-        return setError(QPlcMasterNode::RealTimeError, optionError);
-    succeed();
+        return error.set(QPlcMasterNode::RealTimeError, optionError);
+    error.clear();
     const quint64 cyclesOfThisPhase = std::exchange(phaseSettings.cyclesWanted, cycles);
     const bool isArmed = arming.permitsStart(token, qplc::monotonicNow(), serverSettings.isArmingRequired());
     if (apply(!isArmed ? Event::StartUnarmed : missingText().isEmpty() ? Event::Start : Event::StartIncomplete))
-        return error == QPlcMasterNode::NoError;
+        return error.value() == QPlcMasterNode::NoError;
     phaseSettings.cyclesWanted = cyclesOfThisPhase;
     return false;
 }
 
 bool QPlcMasterNodePrivate::arm()
 {
-    return prepare() && apply(Event::Arm) && succeed();
+    return prepare() && apply(Event::Arm) && error.clear();
 }
 
 bool QPlcMasterNodePrivate::reset()
 {
     const bool isTooEarly = parts && !parts->faults.remainingCause().isEmpty();
-    return apply(isTooEarly ? Event::ResetTooEarly : Event::Reset, QStringLiteral("reset")) && succeed();
+    return apply(isTooEarly ? Event::ResetTooEarly : Event::Reset, QStringLiteral("reset")) && error.clear();
 }
 
 void QPlcMasterNodePrivate::stop(const QString &reason)
@@ -450,29 +415,13 @@ bool QPlcMasterNodePrivate::apply(Event event, const QString &reason)
     const auto &cell = qplc::masterStates().at(m_state, event);
     if (cell.verdict == qplc::Verdict::Ignored)
         return true;
-    if (cell.verdict == qplc::Verdict::Refused) {
-        tellRefusal(event, cell.text);
-        return false;
-    }
+    if (cell.verdict == qplc::Verdict::Refused)
+        return error.set(QPlcMasterNode::StateError, refusalText(*this, event, cell.text));
     prepareFor(cell.action);
     enter(cell.next, reason);
     if (m_state == cell.next)  // else who heard of it has done something
         carryOut(cell.action, reason);
     return true;
-}
-
-void QPlcMasterNodePrivate::tellRefusal(Event event, const char *text)
-{
-    QString sentence = QString::fromLatin1(text);
-    sentence.replace(QStringLiteral("%1"), stateReason);
-    if (event == Event::ResetTooEarly)
-        sentence.replace(QStringLiteral("%2"), parts->faults.remainingCause());
-    else
-        sentence.replace(QStringLiteral("%2"), missingText());
-    setError(QPlcMasterNode::StateError,
-             QStringLiteral("%1 is not possible in state %2: %3")
-                 .arg(QLatin1String(qplc::requestName(event)), qplc::stateText(QLatin1String(qplc::nameOf(m_state))),
-                      sentence));
 }
 
 bool QPlcMasterNodePrivate::isLatched() const
@@ -529,7 +478,7 @@ void QPlcMasterNodePrivate::carryOut(Action action, const QString &reason)
         parts->initialization.begin();
         break;
     case Action::StartNodes:
-        succeed();
+        error.clear();
         parts->starting.begin();
         break;
     case Action::IssueToken:
@@ -540,8 +489,8 @@ void QPlcMasterNodePrivate::carryOut(Action action, const QString &reason)
         break;
     case Action::EndSequence:
         parts->stopping.cancel(reason);
-        setError(QPlcMasterNode::InitializationError, reason);
-        answerRequester(false, reason);
+        error.set(QPlcMasterNode::InitializationError, reason);
+        asker.fail(reason);
         break;
     case Action::EndCycles:
     case Action::Unlatch:

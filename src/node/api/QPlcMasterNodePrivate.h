@@ -7,10 +7,12 @@
 #include "node/session/InitializeSequence.h"
 #include "node/session/MasterAudit.h"
 #include "node/session/MasterBeacon.h"
+#include "node/session/MasterError.h"
 #include "node/session/MasterEvictions.h"
 #include "node/session/MasterReports.h"
 #include "node/session/MasterViewers.h"
 #include "node/session/NeededNodes.h"
+#include "node/session/SequenceAsker.h"
 #include "node/session/ServerSettings.h"
 #include "node/session/StartSequence.h"
 #include "node/session/StopSequence.h"
@@ -45,12 +47,6 @@ public:
     qplc::ChosenProfile profile() const;
 
     bool apply(qplc::MasterEvent event, const QString &reason = QString()) override;
-    /// Forgets the last error. \return true
-    bool succeed();
-    /// \return false
-    bool setError(QPlcMasterNode::Error newError, const QString &text);
-    bool setError(QPlcMasterNode::Error newError, const QString &text, const QString &source,
-                  qplc::JournalEvent::Kind kind) override;
     QPlcMasterNode::State state() const override { return m_state; }
     /// Whether only a reset leads on.
     bool isLatched() const;
@@ -93,11 +89,11 @@ public:
     QString stateReason;        // of SafeStop and Fault
     quint64 latch = 0;          // number of the newest safe stop or fault
     qplc::AskedStop askedStop;  // until the next phase
-    QPlcMasterNode::Error error = QPlcMasterNode::NoError;
-    QString errorString;
+    qplc::SequenceAsker asker;
     qplc::EventLoopTimer stepTimer;
     qplc::EventLoopTimer joinTimer;
     qplc::Journal journal;
+    qplc::MasterError error;
     qplc::Leases leaseBooks;
     qplc::PhaseProfile phaseProfile;
     const quint64 session;
@@ -120,9 +116,7 @@ private:
     void nodeAttached(Connection *connection);
     void nodeLost(Connection *connection, const QString &reason);
     void receive(Connection *connection, const QPlcMessage &message);
-    void answerRequester(bool done, const QString &text);
 
-    void tellRefusal(qplc::MasterEvent event, const char *text);
     void enter(QPlcMasterNode::State newState, const QString &reason);
     void prepareFor(qplc::MasterAction action);
     void carryOut(qplc::MasterAction action, const QString &reason);
@@ -130,5 +124,4 @@ private:
     QPlcMasterNode::State m_state = QPlcMasterNode::Off;
     std::shared_ptr<qplc::NodeSession> m_joiner;  // who LetJoin is about
     bool m_startAfterwards = false;               // the initialization at hand belongs to a start
-    QPointer<QPlcSlaveSocket> m_requester;        // waits for the end of the sequence at hand
 };

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "node/state/MasterStates.h"
-#include "node/statistics/EventLog.h"
 #include "protocol/messages/MessageTable.h"
 
 namespace qplc {
@@ -17,11 +16,6 @@ public:
     /// \param reason  for people; empty: none
     /// \return false when the present state refuses \a event; an error says why
     virtual bool apply(MasterEvent event, const QString &reason = QString()) = 0;
-    /// \param source  the node that is to blame, or the master
-    /// \return false
-    virtual bool setError(QPlcMasterNode::Error error, const QString &text, const QString &source,
-                          JournalEvent::Kind kind)
-        = 0;
     /// Tells all clients how the initialization has ended.
     virtual void announce(const messages::StatesInitialized &news) = 0;
 

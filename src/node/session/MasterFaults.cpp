@@ -54,8 +54,10 @@ QString tripText(const CycleEvent &event, const QString &node, int overrunLimit)
 
 }  // namespace
 
-MasterFaults::MasterFaults(MasterControl &master, const NodeSessions &nodes, const RealTimePhase &phase)
+MasterFaults::MasterFaults(MasterControl &master, MasterError &error, const NodeSessions &nodes,
+                           const RealTimePhase &phase)
     : m_master(master)
+    , m_error(error)
     , m_nodes(nodes)
     , m_phase(phase)
 {
@@ -73,7 +75,7 @@ void MasterFaults::blame(const QString &node, bool mustReturn)
 void MasterFaults::nodeFailed(const QString &node, bool isCritical, const QString &text)
 {
     if (m_phase.isRunning() && m_master.state() != QPlcMasterNode::SafeStop)
-        m_master.setError(QPlcMasterNode::NodeError, text, node, JournalEvent::Fault);
+        m_error.set(QPlcMasterNode::NodeError, text, node, JournalEvent::Fault);
     blame(node, false);
     m_master.apply(isCritical ? MasterEvent::CriticalNodeFailed : MasterEvent::NodeFailed, text);
 }
@@ -85,7 +87,7 @@ void MasterFaults::nodeLeft(const NodeSlot &slot, NodeSession::Stage stage, bool
     } else if (stage == NodeSession::Running && slot.critical) {
         const QString critical = QStringLiteral("critical %1").arg(text);
         if (m_master.state() != QPlcMasterNode::SafeStop)
-            m_master.setError(QPlcMasterNode::NodeError, critical, slot.name, JournalEvent::Fault);
+            m_error.set(QPlcMasterNode::NodeError, critical, slot.name, JournalEvent::Fault);
         blame(slot.name, true);
         m_master.apply(MasterEvent::CriticalNodeLeft, critical);
     } else if (!slot.listener) {
@@ -102,10 +104,10 @@ void MasterFaults::tripped(const CycleEvent &event, int overrunLimit)
     const JournalEvent::Kind kind = kindOfTrip(event.kind);
     if (kind != JournalEvent::Overrun) {
         blame(name, event.kind == CycleEvent::TrippedBySafeNode);  // it closes its connection, and begins again
-        m_master.setError(QPlcMasterNode::NodeError, text, name, kind);
+        m_error.set(QPlcMasterNode::NodeError, text, name, kind);
     } else {
         blame(QString(), false);
-        m_master.setError(QPlcMasterNode::RealTimeError, text, NodeRegistry::masterName(), kind);
+        m_error.set(QPlcMasterNode::RealTimeError, text, NodeRegistry::masterName(), kind);
     }
     m_master.apply(MasterEvent::CyclesTripped, text);
 }
@@ -122,7 +124,7 @@ void MasterFaults::overrun(const CycleEvent &event, std::int64_t period)
               .arg(event.cycle)
               .arg(double(event.duration) * 1e-6, 0, 'f', 3)
               .arg(double(period) * 1e-6, 0, 'f', 3);
-    m_master.setError(QPlcMasterNode::RealTimeError, text, NodeRegistry::masterName(), JournalEvent::Overrun);
+    m_error.set(QPlcMasterNode::RealTimeError, text, NodeRegistry::masterName(), JournalEvent::Overrun);
     m_master.apply(MasterEvent::OverrunStop, text);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "MasterControl.h"
+#include "MasterError.h"
 #include "NodeSessions.h"
 #include "RealTimePhase.h"
 
@@ -13,7 +14,7 @@ namespace qplc {
 class MasterFaults
 {
 public:
-    MasterFaults(MasterControl &master, const NodeSessions &nodes, const RealTimePhase &phase);
+    MasterFaults(MasterControl &master, MasterError &error, const NodeSessions &nodes, const RealTimePhase &phase);
 
     /// The code of a node has failed: the plant stops. What follows from the first fault is its
     /// echo and says nothing new.
@@ -35,6 +36,7 @@ private:
     void blame(const QString &node, bool mustReturn);
 
     MasterControl &m_master;
+    MasterError &m_error;
     const NodeSessions &m_nodes;
     const RealTimePhase &m_phase;
     QString m_culprit;          // node that the latched fault is about; empty: none
