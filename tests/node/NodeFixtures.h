@@ -168,6 +168,8 @@ public:
 
     /// Its steps since the last reset; for onStep.
     int count() const { return m_count; }
+    /// The echo that its step reads; for onStep.
+    double newestEcho() const { return m_echo; }
 
 protected:
     void reset() override

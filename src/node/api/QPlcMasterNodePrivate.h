@@ -25,6 +25,8 @@
 class QPlcMasterNodePrivate final : private qplc::MasterControl
 {
 public:
+    static QPlcMasterNodePrivate &of(const QPlcMasterNode &master) { return *master.d; }
+
     explicit QPlcMasterNodePrivate(QPlcMasterNode *master);
 
     /// Fixes the signal table and makes everything that depends on it. \return false when there is

@@ -62,6 +62,8 @@ public:
     ProcessImage &image() { return m_image; }
     /// Number on the wire of cycle 0 of the next phase (or of this one, while it runs).
     std::uint64_t cycleZero() const { return m_cycleZero; }
+    /// Lets the next phase begin with a large number, for tests. \pre not running
+    void setCycleZero(std::uint64_t number) { m_cycleZero = number; }
     /// Of the wall clock when cycle 0 of the last phase began [ns since 1970]; 0: there was none,
     /// or it is in lockstep.
     std::int64_t cycleZeroTime() const { return m_wallStart; }

@@ -147,7 +147,7 @@ void SlaveCycle::run() noexcept
             checkWatchdog(monotonicNow());
             break;
         case CyclicLink::Closed:
-            m_reports.post({CycleEvent::LinkClosed, m_identity.node, 0, m_lastCycle});
+            m_reports.post({CycleEvent::LinkClosed, m_identity.node, 0, m_lastCycle - m_phase.cycleZero});
             open = false;
             break;
         }
