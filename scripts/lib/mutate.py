@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Changes the sources of the core at many places, each chosen at run time, and looks which changes no test notices.
-docs/design/mutation.md says how. Called by scripts/mutate."""
+"""Changes the sources of the core at many places, each chosen at run time, and looks which changes
+no test notices. docs/design/mutation.md says how. Called by scripts/mutate."""
 import argparse
 import hashlib
 import json
@@ -18,7 +18,9 @@ from mutation_sites import drawn, find_sites, header, mutated
 from mutation_tests import Batch, Function, Locks, Program, Verdict, batches
 
 ROOMS = ("protocol", "transport", "node")
-FLAGS = "-w;-O1;-include;{helper}"  # of sources with mutants; all others are compiled as every day, so ccache knows them
+FLAGS = (
+    "-w;-O1;-include;{helper}"  # of sources with mutants; all others are compiled as every day, so ccache knows them
+)
 MOST_REPAIRS = 12  # builds in which sites that do not compile are left out
 LONGEST = 120.0  # [s] a function without a mutation
 
@@ -28,7 +30,12 @@ class Plant:
 
     def __init__(self, root, folder, rooms_of_tests, wanted):
         """wanted: from sites to those that are drawn of them."""
-        self.root, self.folder, self.source, self.build = root, folder, folder / "source", folder / "source" / "build" / "dev"
+        self.root, self.folder, self.source, self.build = (
+            root,
+            folder,
+            folder / "source",
+            folder / "source" / "build" / "dev",
+        )
         self.rooms, self.wanted, self.writing = rooms_of_tests, wanted, Lock()
         self.names = sorted(str(p.relative_to(root)) for room in ROOMS for p in (root / "src" / room).rglob("*.cpp"))
         self.sites = find_sites(root, self.names)
@@ -37,11 +44,23 @@ class Plant:
         self.state_file = folder / "state.json"
         self.state = json.loads(self.state_file.read_text()) if self.state_file.exists() else {}
         if self.state.get("sources") != sources:
-            killers = {**self.state.get("killers", {}), **{i: r["killer"] for i, r in self.state.get("results", {}).items() if r["killer"]}}
-            self.state = {"sources": sources, "left_out": [], "built": "", "programs": {}, "results": {}, "killers": killers}
+            killers = {
+                **self.state.get("killers", {}),
+                **{i: r["killer"] for i, r in self.state.get("results", {}).items() if r["killer"]},
+            }
+            self.state = {
+                "sources": sources,
+                "left_out": [],
+                "built": "",
+                "programs": {},
+                "results": {},
+                "killers": killers,
+            }
 
     def digest(self, *folders):
-        listed = subprocess.run(["git", "ls-files", "-z", *folders], cwd=self.root, capture_output=True, check=True).stdout.decode()
+        listed = subprocess.run(
+            ["git", "ls-files", "-z", *folders], cwd=self.root, capture_output=True, check=True
+        ).stdout.decode()
         digest = hashlib.sha256()
         for name in filter(None, listed.split("\0")):
             if (self.root / name).is_file():
@@ -59,7 +78,9 @@ class Plant:
 
     def made(self):
         """What a build was made of."""
-        return hashlib.sha256("\n".join([self.everything, *self.rooms, *(s.identity for s in self.chosen())]).encode()).hexdigest()
+        return hashlib.sha256(
+            "\n".join([self.everything, *self.rooms, *(s.identity for s in self.chosen())]).encode()
+        ).hexdigest()
 
     def write(self):
         """Copies the sources. The changed files have options of their own."""
@@ -67,14 +88,21 @@ class Plant:
         files = {site.file for site in chosen}
         helper = self.folder / "mutant.h"
         contents = {helper: header(self.sites).encode()}
-        listed = subprocess.run(["git", "ls-files", "-z"], cwd=self.root, capture_output=True, check=True).stdout.decode().split("\0")
+        listed = (
+            subprocess.run(["git", "ls-files", "-z"], cwd=self.root, capture_output=True, check=True)
+            .stdout.decode()
+            .split("\0")
+        )
         for name in filter(None, listed):
             if (self.root / name).is_file():
                 contents[self.source / name] = (self.root / name).read_bytes()
         for name in files:
-            contents[self.source / name] = mutated((self.root / name).read_text(), [s for s in chosen if s.file == name]).encode()
+            contents[self.source / name] = mutated(
+                (self.root / name).read_text(), [s for s in chosen if s.file == name]
+            ).encode()
         sources = "\n    ".join(sorted(name.removeprefix("src/") for name in files))
-        options = f"\nset_source_files_properties(\n    {sources}\n    PROPERTIES COMPILE_OPTIONS \"{FLAGS.format(helper=helper)}\")\n"
+        flags = FLAGS.format(helper=helper)
+        options = f'\nset_source_files_properties(\n    {sources}\n    PROPERTIES COMPILE_OPTIONS "{flags}")\n'
         contents[self.source / "src" / "CMakeLists.txt"] += options.encode()
         for target, content in contents.items():
             target.parent.mkdir(parents=True, exist_ok=True)
@@ -86,7 +114,12 @@ class Plant:
         if self.state["built"] == self.made():
             return
         self.write()
-        subprocess.run(["cmake", "--preset", "dev", "-DCMAKE_CXX_FLAGS_DEBUG=-O0"], cwd=self.source, check=True, stdout=subprocess.DEVNULL)
+        subprocess.run(
+            ["cmake", "--preset", "dev", "-DCMAKE_CXX_FLAGS_DEBUG=-O0"],
+            cwd=self.source,
+            check=True,
+            stdout=subprocess.DEVNULL,
+        )
         self.compile("QtPlcCore")
         self.compile(*self.tests())
         if self.state.get("chosen") != [site.identity for site in self.chosen()]:
@@ -97,8 +130,12 @@ class Plant:
 
     def compile(self, *targets):
         for _ in range(MOST_REPAIRS):
-            run = subprocess.Popen(["cmake", "--build", self.build, "--target", *targets, "--", "-k", "0"], stdout=subprocess.PIPE,
-                                   stderr=subprocess.STDOUT, text=True)
+            run = subprocess.Popen(
+                ["cmake", "--build", self.build, "--target", *targets, "--", "-k", "0"],
+                stdout=subprocess.PIPE,
+                stderr=subprocess.STDOUT,
+                text=True,
+            )
             lines = []
             for line in run.stdout:
                 lines.append(line)
@@ -107,7 +144,9 @@ class Plant:
             if run.wait() == 0:
                 return
             bad = set(re.findall(r"(?:^|[/ ])(src/\S+?\.cpp):(\d+):\d+: (?:error|  required)", "".join(lines), re.M))
-            dropped = [s.number for s in self.chosen() if any(s.file == f and s.line <= int(n) <= s.last for f, n in bad)]
+            dropped = [
+                s.number for s in self.chosen() if any(s.file == f and s.line <= int(n) <= s.last for f, n in bad)
+            ]
             if not dropped:
                 sys.exit("mutate: the mutated sources do not compile:\n" + "".join(lines[-60:]))
             print(f"mutate: {len(dropped)} sites are left out, they do not compile", flush=True)
@@ -117,7 +156,9 @@ class Plant:
         sys.exit("mutate: the mutated sources do not compile")
 
     def tests(self):
-        listed = json.loads(subprocess.run(["ctest", "--show-only=json-v1"], cwd=self.build, capture_output=True, check=True).stdout)
+        listed = json.loads(
+            subprocess.run(["ctest", "--show-only=json-v1"], cwd=self.build, capture_output=True, check=True).stdout
+        )
         tests = {}
         for test in listed["tests"]:
             properties = {p["name"]: p["value"] for p in test.get("properties", [])}
@@ -131,14 +172,17 @@ class Plant:
         return self.folder / "reached" / f"{program}.{function}"
 
     def record(self, jobs):
-        """Runs each function of each new or changed program, and notes the places that it reaches."""
+        """Runs each function of each new or changed program, and notes the places that it
+        reaches."""
         (self.folder / "reached").mkdir(exist_ok=True)
         known, waiting = {}, []
         for name, program in self.tests().items():
             digest = hashlib.sha256(program.path.read_bytes()).hexdigest()
             old = self.state["programs"].get(name)
             known[name] = old if old and old["digest"] == digest else {"digest": digest, "functions": {}}
-            waiting += [(program, f, known[name]["functions"]) for f in program.functions() if f not in known[name]["functions"]]
+            waiting += [
+                (program, f, known[name]["functions"]) for f in program.functions() if f not in known[name]["functions"]
+            ]
         self.state["programs"] = known
         self.each(self.record_function, sorted(waiting, key=lambda w: w[1]), jobs)
 
@@ -158,23 +202,35 @@ class Plant:
 
     def hunt(self, jobs):
         programs = self.tests()
-        self.functions = [Function(programs[p], f, about["seconds"], about["cpu"], self.bitmap(p, f).read_bytes())
-                          for p, known in self.state["programs"].items() for f, about in known["functions"].items() if about["passed"]]
+        self.functions = [
+            Function(programs[p], f, about["seconds"], about["cpu"], self.bitmap(p, f).read_bytes())
+            for p, known in self.state["programs"].items()
+            for f, about in known["functions"].items()
+            if about["passed"]
+        ]
         self.locks = Locks()
         self.each(self.judge, [site for site in self.chosen() if not self.is_judged(site)], jobs)
 
     def is_judged(self, site):
-        """A killer must be the same program still, and a survivor must have been tried with all of today's programs."""
+        """A killer must be the same program still, and a survivor must have been tried with all of
+        today's programs."""
         result = self.state["results"].get(site.identity)
         digests = {name: program["digest"] for name, program in self.state["programs"].items()}
-        return result and all(digests.get(name) == digest for name, digest in result["tried"].items()) and (
-            result["killer"] or len(result["tried"]) == len(digests))
+        return (
+            result
+            and all(digests.get(name) == digest for name, digest in result["tried"].items())
+            and (result["killer"] or len(result["tried"]) == len(digests))
+        )
 
     def judge(self, site):
         """How a mutant ends: what killed it, or nothing, and which tests reached it."""
         old = self.state["results"].get(site.identity, {"tried": {}, "killer": ""})
         programs = self.state["programs"]
-        fresh = [f for f in self.functions if old["killer"] or old["tried"].get(f.program.name) != programs[f.program.name]["digest"]]
+        fresh = [
+            f
+            for f in self.functions
+            if old["killer"] or old["tried"].get(f.program.name) != programs[f.program.name]["digest"]
+        ]
         reaching = [f for f in fresh if f.reached[site.number]]
         hint = self.state["killers"].get(site.identity)
         waiting = [Batch([f]) for f in reaching if f"{f.program.name} {f.name}" == hint] + batches(reaching)
@@ -190,8 +246,12 @@ class Plant:
         tests = sorted({f.program.name for f in self.functions if f.reached[site.number]})
         how = verdict.how if tests else "not reached"
         with self.writing:
-            self.state["results"][site.identity] = {**vars(verdict), "how": how, "tests": tests,
-                                                    "tried": {name: programs[name]["digest"] for name in tried}}
+            self.state["results"][site.identity] = {
+                **vars(verdict),
+                "how": how,
+                "tests": tests,
+                "tried": {name: programs[name]["digest"] for name in tried},
+            }
             if verdict.killer:
                 self.state["killers"][site.identity] = verdict.killer
             self.keep()
@@ -217,8 +277,11 @@ def table(sites, results):
         if result is None or result["killer"]:
             continue
         survivors += 1
-        lines.append(f"{site.file}:{site.line}: {site.kind} {site.number}, {result['how']}: {site.original}\n    -> {site.mutation}\n"
-                     f"    reached by: {some(result['tests'])}")
+        lines.append(
+            f"{site.file}:{site.line}: {site.kind} {site.number}, {result['how']}: {site.original}\n"
+            f"    -> {site.mutation}\n"
+            f"    reached by: {some(result['tests'])}"
+        )
     judged = [results[site.identity] for site in sites if site.identity in results]
     unsteady = sorted({name for result in judged for name in result["unsteady"]})
     lines += [f"failed once, and passed the second time: {', '.join(unsteady)}"] if unsteady else []
@@ -239,8 +302,12 @@ def main():
     arguments = parser.parse_args()
     folder = (arguments.build or arguments.root / "build" / "mutate").resolve()
     folder.mkdir(parents=True, exist_ok=True)
-    plant = Plant(arguments.root.resolve(), folder, arguments.tests.split(","),
-                  lambda sites: drawn([s for s in sites if s.file.startswith(arguments.only)], arguments.seed, arguments.count))
+    plant = Plant(
+        arguments.root.resolve(),
+        folder,
+        arguments.tests.split(","),
+        lambda sites: drawn([s for s in sites if s.file.startswith(arguments.only)], arguments.seed, arguments.count),
+    )
     if arguments.step == "make":
         plant.make()
     elif arguments.step == "record":

@@ -62,9 +62,13 @@ class Site:
 
 
 def masked(text):
-    """The text with blanks in the place of comments, texts, characters and lines of the preprocessor."""
-    pattern = r'//[^\n]*|/\*.*?\*/|R"\(.*?\)"|"(?:\\.|[^"\\\n])*"|(?<![0-9a-fA-F])\'(?:\\.|[^\'\\\n])+\'|^[ \t]*#(?:\\\n|[^\n])*'
-    blank = lambda match: re.sub(r"[^\n]", " ", match.group()) if match.group()[0] in "/# \t" else re.sub(r"[^\n]", "_", match.group())
+    """The text with blanks in the place of comments, texts, characters and lines of the
+    preprocessor."""
+    pattern = (
+        r'//[^\n]*|/\*.*?\*/|R"\(.*?\)"|"(?:\\.|[^"\\\n])*"'
+        r"|(?<![0-9a-fA-F])\'(?:\\.|[^\'\\\n])+\'|^[ \t]*#(?:\\\n|[^\n])*"
+    )
+    blank = lambda match: re.sub(r"[^\n]", " " if match.group()[0] in "/# \t" else "_", match.group())
     return re.sub(pattern, blank, text, flags=re.S | re.M)
 
 
@@ -89,14 +93,19 @@ def statement_end(text, begin):
 
 
 def top_level(text, start, end, operators):
-    """Places of operators outside of brackets; all have blanks around them, as the format of the code wants it."""
+    """Places of operators outside of brackets; all have blanks around them, as the format of the
+    code wants it."""
     found, i = [], start
     while i < end:
         if text[i] in "([{":
             i = closing(text, i) + 1
             continue
         for operator in operators:
-            if text.startswith(operator, i) and text[i - 1].isspace() and text[i + len(operator):i + len(operator) + 1].isspace():
+            if (
+                text.startswith(operator, i)
+                and text[i - 1].isspace()
+                and text[i + len(operator) : i + len(operator) + 1].isspace()
+            ):
                 found.append((i, operator))
         i += 1
     return found
@@ -133,15 +142,31 @@ class Finder:
             start, end = trimmed(self.code, match.end(), end)
             value = self.code[start:end]
             if value in ("true", "false"):
-                self.add("return", start, end, "(qplc_mutant::on(@) != ", ")", "return " + ("false" if value == "true" else "true"))
+                self.add(
+                    "return",
+                    start,
+                    end,
+                    "(qplc_mutant::on(@) != ",
+                    ")",
+                    "return " + ("false" if value == "true" else "true"),
+                )
             elif end > start:
                 self.condition(start, end, False)
         for match in re.finditer(r"(?<=[\w)\]]) ([+-]) (?=[\w(])", self.code):
             sign = match.group(1)
             start = match.end()
             end = re.match(r"[\w.:>-]*", self.code[start:]).end() + start
-            self.add("arithmetic", start, max(end, start + 1), "qplc_mutant::sign(@) * ", "", f"{'-' if sign == '+' else '+'} instead of {sign}")
-        for match in re.finditer(r"^ {4,}((?:Q_EMIT )?[A-Za-z_][\w.:]*(?:(?:->|\.)\w+|\(\)|\[\w+\])*)\(", self.code, re.M):
+            self.add(
+                "arithmetic",
+                start,
+                max(end, start + 1),
+                "qplc_mutant::sign(@) * ",
+                "",
+                f"{'-' if sign == '+' else '+'} instead of {sign}",
+            )
+        for match in re.finditer(
+            r"^ {4,}((?:Q_EMIT )?[A-Za-z_][\w.:]*(?:(?:->|\.)\w+|\(\)|\[\w+\])*)\(", self.code, re.M
+        ):
             self.call(match)
         return [site for site in self.sites if not self.is_constant(site.start)]
 
@@ -151,18 +176,30 @@ class Finder:
         name = match.group(1)
         if end < 0 or not earlier.endswith((";", "{", "}", ")", "else", ":")) or self.code[end - 1] != ")":
             return
-        if re.match(r"(if|for|while|switch|return|sizeof|static_assert|Q_UNUSED|Q_ASSERT\w*|assert|catch|__asm__)$", name):
+        if re.match(
+            r"(if|for|while|switch|return|sizeof|static_assert|Q_UNUSED|Q_ASSERT\w*|assert|catch|__asm__)$", name
+        ):
             return
         self.add("call", start, end + 1, "{ if (!qplc_mutant::on(@)) { ", " } }", "left out")
 
     def condition(self, start, end, is_whole):
         start, end = trimmed(self.code, start, end)
         part = self.code[start:end]
-        if end <= start or ";" in part or "?" in part or "[" in part and "{" in part or top_level(self.code, start, end, ("=",)) or part.startswith("const "):
+        if (
+            end <= start
+            or ";" in part
+            or "?" in part
+            or "[" in part
+            and "{" in part
+            or top_level(self.code, start, end, ("=",))
+            or part.startswith("const ")
+        ):
             return
         terms = []
         for first, last, _ in split(self.code, start, end, "||"):
-            terms += split(self.code, first, last, "&&", outer="||" if len(split(self.code, start, end, "||")) > 1 else "")
+            terms += split(
+                self.code, first, last, "&&", outer="||" if len(split(self.code, start, end, "||")) > 1 else ""
+            )
         if is_whole:
             self.add("condition", start, end, "qplc_mutant::on(@) != bool(", ")", "negated")
         for first, last, chain in terms:
@@ -180,13 +217,13 @@ class Finder:
             return
         place, operator = found[0]
         other = COMPARISONS[operator]
-        changed = " ".join((self.text[start:place] + other + self.text[place + len(operator):end]).split())
+        changed = " ".join((self.text[start:place] + other + self.text[place + len(operator) : end]).split())
         self.add("comparison", start, end, f"(qplc_mutant::on(@) ? ({changed}) : (", "))", changed)
 
     def is_constant(self, place):
         """Whether a statement must be known to the compiler."""
         begin = max(self.code.rfind(mark, 0, place) for mark in ";{}")
-        statement = re.sub(r"\b(case\b[^;]*?[^:]|default):(?!:)", "", self.code[begin + 1:place])  # behind a label
+        statement = re.sub(r"\b(case\b[^;]*?[^:]|default):(?!:)", "", self.code[begin + 1 : place])  # behind a label
         return bool(re.search(r"\b(constexpr|static_assert|case|enum|template|noexcept ?\(|using)\b", statement))
 
 

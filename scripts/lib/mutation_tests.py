@@ -32,15 +32,24 @@ class Program:
         self.name, self.path, self.lock = name, path, lock
 
     def functions(self):
-        listed = subprocess.run([self.path, "-functions"], env=environment(), stdin=subprocess.DEVNULL, capture_output=True, text=True)
+        listed = subprocess.run(
+            [self.path, "-functions"], env=environment(), stdin=subprocess.DEVNULL, capture_output=True, text=True
+        )
         return re.findall(r"^(\w+)\(\)$", listed.stdout, re.M)
 
     def run(self, functions, seconds, cpu, **variables):
         """Ends the program, and what it has started, at the first function that fails."""
         begin = time.monotonic()
         command = ["sh", "-c", 'ulimit -c 0; ulimit -t "$0"; exec "$@"', str(int(cpu) + 1), str(self.path), *functions]
-        test = subprocess.Popen(command, env=environment(**variables), cwd=self.path.parent, stdin=subprocess.DEVNULL,
-                                stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, start_new_session=True)
+        test = subprocess.Popen(
+            command,
+            env=environment(**variables),
+            cwd=self.path.parent,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            start_new_session=True,
+        )
         try:
             how, text = followed(test, begin + seconds)
         finally:
@@ -54,8 +63,13 @@ class Program:
         failure = FAILURE.search(text)
         if how == "ended":
             how = "passed" if test.returncode == 0 else "failed"
-        return Outcome(how, failure.group(1) if failure else "", tuple(PASSED.findall(text)), usage.ru_utime + usage.ru_stime,
-                       time.monotonic() - begin)
+        return Outcome(
+            how,
+            failure.group(1) if failure else "",
+            tuple(PASSED.findall(text)),
+            usage.ru_utime + usage.ru_stime,
+            time.monotonic() - begin,
+        )
 
 
 def environment(**variables):
@@ -87,6 +101,7 @@ def followed(test, end):
 @dataclass
 class Function:
     """A function of a test as it is without a mutation."""
+
     program: Program
     name: str
     seconds: float
@@ -139,15 +154,22 @@ class Batch:
                 break
             names = [f.name for f in rest]
             known = outcome.failed in names  # others may have passed behind it, before the program was ended
-            first = names.index(outcome.failed) if known else max((names.index(name) for name in outcome.passed if name in names), default=0)
-            suspects = rest[first:first + 1] if known else rest[first:]
+            first = (
+                names.index(outcome.failed)
+                if known
+                else max((names.index(name) for name in outcome.passed if name in names), default=0)
+            )
+            suspects = rest[first : first + 1] if known else rest[first:]
             again = self.run(suspects, **variables)
             verdict.cpu += again.cpu
             if again.how != "passed" and self.run(suspects, QTPLC_MUTANT="0").how == "passed":
-                verdict.killer, verdict.how = f"{self.program.name} {again.failed or outcome.failed or names[first]}", again.how
+                verdict.killer, verdict.how = (
+                    f"{self.program.name} {again.failed or outcome.failed or names[first]}",
+                    again.how,
+                )
             else:
                 verdict.unsteady.append(f"{self.program.name} {names[first]}")
-                rest = rest[first + 1:] if known else []
+                rest = rest[first + 1 :] if known else []
         for function in self.functions:
             function.tried += 1
             function.killed += verdict.killer == f"{self.program.name} {function.name}"

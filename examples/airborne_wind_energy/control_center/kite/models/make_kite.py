@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes kite.obj: an arched ram-air kite with cells, open noses and bridle lines, 8 m wide along its arch.
+"""Writes kite.obj: an arched ram-air kite with cells, open noses and bridle lines, 8 m wide along
+its arch.
 
 usage: make_kite.py FILE
 
-Axes as in the example's plant: x to the tail, y along the span, z out of the top side; metres; the origin is the middle of the wing. Vertices carry colours behind their coordinates
-(v x y z r g b), which many programs know; bridle lines are elements "l".
+Axes as in the example's plant: x to the tail, y along the span, z out of the top side; metres; the
+origin is the middle of the wing. Vertices carry colours behind their coordinates (v x y z r g b),
+which many programs know; bridle lines are elements "l".
 """
 import math
 import sys
@@ -34,13 +36,15 @@ def camber(x):
 
 
 def profile():
-    """Places (x, z) around the aerofoil [chords], from the nose over the top to the tail and back below."""
+    """Places (x, z) around the aerofoil [chords], from the nose over the top to the tail and back
+    below."""
     top = [(x, camber(x) + half_thickness(x)) for x in UPPER]
     return top + [(x, camber(x) - 0.55 * half_thickness(x)) for x in LOWER]
 
 
 def frame(station):
-    """Middle line, unit vector out of the top side and chord at a station -1 ... 1 along the span."""
+    """Middle line, unit vector out of the top side and chord at a station -1 ... 1 along the
+    span."""
     angle = ARCH_END * station
     place = (0.0, ARCH_Y * math.sin(angle), ARCH_Z * (math.cos(angle) - 0.8))
     length = math.hypot(ARCH_Z * math.sin(angle), ARCH_Y * math.cos(angle))
@@ -114,7 +118,10 @@ class Model:
 
     def text(self):
         out = ["# SPDX-License-Identifier: Apache-2.0", "# Made by make_kite.py: change that, not this.", "o kite"]
-        out += ["v " + " ".join(f"{p:.3f}" for p in place) + " " + " ".join(f"{p:g}" for p in color) for place, color in self.vertices]
+        out += [
+            "v " + " ".join(f"{p:.3f}" for p in place) + " " + " ".join(f"{p:g}" for p in color)
+            for place, color in self.vertices
+        ]
         out += ["vn " + " ".join(f"{p + 0.0:.3f}" for p in normal) for normal in self.normals]
         out += ["f " + " ".join(f"{i}//{i}" for i in face) for face in self.faces]
         out += [f"l {a} {b}" for a, b in self.lines]
