@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A flight in real time with the programs of the example, for benchmarks that look at its master."""
+"""A flight in real time with the programs of the example, for benchmarks that look at its
+master."""
 import json
 import re
 import signal
@@ -31,12 +32,19 @@ class Flight:
 
     def start(self, program, *arguments):
         log = subprocess.PIPE if program == "awe_master" else subprocess.DEVNULL
-        process = subprocess.Popen([str(self.programs / program), *arguments], stdout=subprocess.DEVNULL, stderr=log, text=True)
+        process = subprocess.Popen(
+            [str(self.programs / program), *arguments], stdout=subprocess.DEVNULL, stderr=log, text=True
+        )
         self.processes.append(process)
         return process
 
     def tell(self, command, *arguments):
-        run = subprocess.run([str(self.programs / "qtplc"), command, *arguments, "--master", self.address], capture_output=True, text=True, timeout=30)
+        run = subprocess.run(
+            [str(self.programs / "qtplc"), command, *arguments, "--master", self.address],
+            capture_output=True,
+            text=True,
+            timeout=30,
+        )
         if run.returncode:
             raise SystemExit(f"qtplc {command}: {run.stderr}")
         return run.stdout

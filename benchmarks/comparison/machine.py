@@ -9,11 +9,19 @@ import time
 from pathlib import Path
 
 # Loopback alone: exact byte counts, multicast, nothing from outside.
-NAMESPACE = ("unshare", "-n", "sh", "-c", 'ip link set lo up multicast on; ip route add 224.0.0.0/4 dev lo; exec "$@"', "sh")
+NAMESPACE = (
+    "unshare",
+    "-n",
+    "sh",
+    "-c",
+    'ip link set lo up multicast on; ip route add 224.0.0.0/4 dev lo; exec "$@"',
+    "sh",
+)
 
 
 def busy_seconds():
-    """CPU time of the whole machine (stolen time included), and of our own children that have ended."""
+    """CPU time of the whole machine (stolen time included), and of our own children that have
+    ended."""
     fields = Path("/proc/stat").read_text().splitlines()[0].split()
     user, nice, system, _idle, _wait, irq, softirq, steal = (int(field) for field in fields[1:9])
     own = resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -52,8 +60,14 @@ def is_there(program):
 
 def description():
     """One line: processor, cores, kernel, scheduling. Names no host."""
-    model = next((line.split(":", 1)[1].strip() for line in Path("/proc/cpuinfo").read_text().splitlines()
-                  if line.startswith("model name")), platform.machine())
+    model = next(
+        (
+            line.split(":", 1)[1].strip()
+            for line in Path("/proc/cpuinfo").read_text().splitlines()
+            if line.startswith("model name")
+        ),
+        platform.machine(),
+    )
     virtual = "virtual, " if succeeds("grep", "-qw", "hypervisor", "/proc/cpuinfo") else ""
     preempt = "PREEMPT_RT" if "PREEMPT_RT" in platform.version() else "not PREEMPT_RT"
     return f"{model} ({virtual}{os.cpu_count()} CPUs), Linux {platform.release().split('-')[0]} ({preempt})"

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The programs that are compared: ours, and reference programs with the same command line in a folder of their own."""
+"""The programs that are compared: ours, and reference programs with the same command line in a
+folder of their own."""
 import os
 import re
 from dataclasses import dataclass
@@ -10,10 +11,18 @@ TRANSPORTS = ("udp", "udp-multicast", "tcp", "local", "inprocess")
 
 # name, file, most slaves
 PEERS = (
-    ("udp/blocking", "peer_udp", 64), ("udp/mmsg", "peer_udp", 64), ("udp/multicast", "peer_udp", 64),
-    ("tcp/epoll", "peer_tcp", 64), ("unix/seqpacket", "peer_local", 64), ("shm/futex", "peer_local", 64),
-    ("qt/notifier", "peer_qt", 64), ("qt/udp", "peer_qt", 64), ("qt/tcp", "peer_qt", 64),
-    ("zmq/router", "peer_zmq", 64), ("cyclone/reliable", "peer_cyclone", 64), ("fastdds/udp", "peer_fastdds", 64),
+    ("udp/blocking", "peer_udp", 64),
+    ("udp/mmsg", "peer_udp", 64),
+    ("udp/multicast", "peer_udp", 64),
+    ("tcp/epoll", "peer_tcp", 64),
+    ("unix/seqpacket", "peer_local", 64),
+    ("shm/futex", "peer_local", 64),
+    ("qt/notifier", "peer_qt", 64),
+    ("qt/udp", "peer_qt", 64),
+    ("qt/tcp", "peer_qt", 64),
+    ("zmq/router", "peer_zmq", 64),
+    ("cyclone/reliable", "peer_cyclone", 64),
+    ("fastdds/udp", "peer_fastdds", 64),
     ("lcm/per-slave", "peer_lcm", 10),
 )
 

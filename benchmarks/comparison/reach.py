@@ -42,8 +42,14 @@ class Reach:
             for key in ("rtt_p50_us", "cpu_total_us"):
                 self.ratio(ONE_CORE, slaves, "qtplc/udp", REFERENCE, key, floor)
                 self.ratio(ONE_CORE, slaves, "qtplc/udp", SECOND, key, zmq)
-        for slaves, name, reach in ((10, "udp-multicast", 0.80), (32, "udp-multicast", 0.75), (1, "tcp", 1.45), (10, "tcp", 1.40),
-                                    (1, "local", 0.60), (10, "local", 0.60)):
+        for slaves, name, reach in (
+            (10, "udp-multicast", 0.80),
+            (32, "udp-multicast", 0.75),
+            (1, "tcp", 1.45),
+            (10, "tcp", 1.40),
+            (1, "local", 0.60),
+            (10, "local", 0.60),
+        ):
             self.ratio(ONE_CORE, slaves, f"qtplc/{name}", REFERENCE, "rtt_p50_us", reach)
 
     def in_process(self):
@@ -56,11 +62,18 @@ class Reach:
             self.ratio(FIFO, 10, "qtplc/udp", "udp/mmsg", key, 1.15)
             self.ratio(FIFO, 10, "qtplc/udp", SECOND, key, 0.45)
         missed = self.results.missed(FIFO, 32, "qtplc/udp")
-        self.expect(f"{FIFO}, N = 32: qtplc/udp, missed cycles [%]", "<=", 0.5, None if missed is None else 100 * missed)
+        self.expect(
+            f"{FIFO}, N = 32: qtplc/udp, missed cycles [%]", "<=", 0.5, None if missed is None else 100 * missed
+        )
 
     def slave(self):
-        self.expect("UDP, 3 -> 32 floats: bytes per slave and cycle on the wire", "<=", 228,
-                    whole_bytes(self.results.median(ONE_CORE, 10, "qtplc/udp", "bytes_per_cycle"), 10), 0)
+        self.expect(
+            "UDP, 3 -> 32 floats: bytes per slave and cycle on the wire",
+            "<=",
+            228,
+            whole_bytes(self.results.median(ONE_CORE, 10, "qtplc/udp", "bytes_per_cycle"), 10),
+            0,
+        )
         memory = self.results.median(ONE_CORE, 1, "qtplc/udp", "rss_slave_kb")
         self.expect("slave: resident memory [MB]", "<=", 9, None if memory is None else memory / 1000, 1)
         self.expect("slave: threads", "<=", 2, self.results.median(ONE_CORE, 1, "qtplc/udp", "threads_slave"), 0)
@@ -71,13 +84,23 @@ class Reach:
             for place, label in enumerate(("p50", "p99")):
                 if ours in figures and other in figures and figures[other][place] > 0:
                     ratio = figures[ours][place] / figures[other][place]
-                    self.expect(f"wake-up, {period_us / 1000:g} ms, SCHED_{policy.upper()}: {ours}, {label}, x {other}", "<=", 1.1, ratio)
+                    self.expect(
+                        f"wake-up, {period_us / 1000:g} ms, SCHED_{policy.upper()}: {ours}, {label}, x {other}",
+                        "<=",
+                        1.1,
+                        ratio,
+                    )
 
     def rates(self, rates):
         """rates: program -> highest rate [Hz]."""
         for other, reach in (("udp/mmsg", 0.9), (SECOND, 2.0)):
             if rates.get(other) and "qtplc/udp" in rates:
-                self.expect(f"highest rate, SCHED_FIFO, N = 10: qtplc/udp, x {other}", ">=", reach, rates["qtplc/udp"] / rates[other])
+                self.expect(
+                    f"highest rate, SCHED_FIFO, N = 10: qtplc/udp, x {other}",
+                    ">=",
+                    reach,
+                    rates["qtplc/udp"] / rates[other],
+                )
 
     def system_calls(self, master, slave):
         self.expect("system calls per cycle: master of 10 UDP slaves", "<=", 5, round(sum(master.values()), 1), 1)

@@ -13,6 +13,7 @@ from . import machine
 @dataclass(frozen=True)
 class Configuration:
     """How a program is run. cpu: all processes on this one; None: as the scheduler likes."""
+
     mode: str
     slaves: int
     period_us: int = 0
@@ -34,7 +35,7 @@ class Runner:
         if configuration.policy == "fifo":
             line += ["chrt", "-f", "49"]
         line += [*self.namespace, *program.command]
-        line += ["--slaves", str(configuration.slaves), "--in", "3", "--out", "32", "--period-us", str(configuration.period_us)]
+        line += f"--slaves {configuration.slaves} --in 3 --out 32 --period-us {configuration.period_us}".split()
         return line + ["--seconds", f"{seconds:g}", "--warmup", "0.2"]
 
     def run(self, program, configuration, seconds=None):
@@ -44,13 +45,20 @@ class Runner:
         if program.name in self.failures and "not available" in self.failures[program.name]:
             return None
         foreign = machine.Foreign()
-        run = subprocess.run(self.command(program, configuration, seconds or self.seconds), capture_output=True, text=True)
+        run = subprocess.run(
+            self.command(program, configuration, seconds or self.seconds), capture_output=True, text=True
+        )
         lines = [line for line in run.stdout.splitlines() if line.startswith("{")]
         if not lines:
             self.failures[program.name] = run.stderr.strip()[-200:] or f"exit code {run.returncode}"
             return None
-        result = {**json.loads(lines[-1]), "name": program.name, "mode": configuration.mode, "cpu": configuration.cpu,
-                  "foreign_cpus": round(foreign.cpus(), 2)}
+        result = {
+            **json.loads(lines[-1]),
+            "name": program.name,
+            "mode": configuration.mode,
+            "cpu": configuration.cpu,
+            "foreign_cpus": round(foreign.cpus(), 2),
+        }
         result["noisy"] = result["foreign_cpus"] > self.quiet
         self.results.append(result)
         return result
@@ -103,6 +111,7 @@ class Results:
 
 
 def missed_share(result):
-    """Share of the periods that were left out or not complete in time: some programs count a long one once, and leave it at that."""
+    """Share of the periods that were left out or not complete in time: some programs count a long
+    one once, and leave it at that."""
     due = max(1.0, result["seconds"] * 1e6 / result["period_us"])
     return max(result["overruns"], due - result["cycles"] - 2, 0.0) / due if result["cycles"] else 1.0

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""System calls per cycle of master and slaves, as the difference of two runs of the same length with many and with few cycles.
+"""System calls per cycle of master and slaves, as the difference of two runs of the same length
+with many and with few cycles.
 
-What happens before and after the cycles falls out, and so does what happens so many times a second whatever the period is.
+What happens before and after the cycles falls out, and so does what happens so many times a second
+whatever the period is.
 """
 import collections
 import json
@@ -16,8 +18,11 @@ CHILD = re.compile(r"^(?:clone3?|v?fork)\((.*)\)?.* = (\d+)$")
 
 def trace(command, folder):
     """\return figures of the run, and calls by name of master and slaves (all threads together)"""
-    run = subprocess.run(["timeout", "-s", "KILL", "120", "strace", "-ff", "-qq", "-o", f"{folder}/trace", *command],
-                         capture_output=True, text=True)
+    run = subprocess.run(
+        ["timeout", "-s", "KILL", "120", "strace", "-ff", "-qq", "-o", f"{folder}/trace", *command],
+        capture_output=True,
+        text=True,
+    )
     figures = json.loads(next(line for line in run.stdout.splitlines() if line.startswith("{")))
     calls, threads, processes = {}, collections.defaultdict(list), {}
     for path in Path(folder).glob("trace.*"):
@@ -33,7 +38,9 @@ def trace(command, folder):
             elif child:
                 processes[child.group(2)] = task
     slaves = set(processes)
-    master = next(task for task in calls if task not in slaves and not any(task in family for family in threads.values()))
+    master = next(
+        task for task in calls if task not in slaves and not any(task in family for family in threads.values())
+    )
     return figures, with_threads(calls, threads, [master]), with_threads(calls, threads, slaves)
 
 
@@ -51,8 +58,8 @@ def per_cycle(bench, transport, slaves, cpu):
     """Calls of the master, and of one slave, per cycle: {call: number}."""
     runs = []
     for period_us in (20000, 5000):
-        command = ["taskset", "-c", str(cpu), str(bench), "--transport", transport, "--slaves", str(slaves), "--period-us", str(period_us),
-                   "--seconds", "4", "--warmup", "0"]
+        command = ["taskset", "-c", str(cpu), str(bench)]
+        command += f"--transport {transport} --slaves {slaves} --period-us {period_us} --seconds 4 --warmup 0".split()
         with tempfile.TemporaryDirectory() as folder:
             runs.append(trace(command, folder))
     (few, few_master, few_slaves), (many, many_master, many_slaves) = runs
@@ -62,4 +69,6 @@ def per_cycle(bench, transport, slaves, cpu):
 
 def difference(many, few, cycles):
     rates = {name: (many[name] - few[name]) / cycles for name in many}
-    return {name: round(rate, 3) for name, rate in sorted(rates.items(), key=lambda item: -item[1]) if abs(rate) >= 0.005}
+    return {
+        name: round(rate, 3) for name, rate in sorted(rates.items(), key=lambda item: -item[1]) if abs(rate) >= 0.005
+    }

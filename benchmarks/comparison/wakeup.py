@@ -21,13 +21,21 @@ def limited(command, seconds, policy):
 
 
 def of_bench(bench, period_us, seconds, policy, *options):
-    output = limited([str(bench), "--transport", "inprocess", "--period-us", str(period_us), "--seconds", f"{seconds:g}", *options], seconds, policy)
+    output = limited(
+        [str(bench), "--transport", "inprocess", "--period-us", str(period_us), "--seconds", f"{seconds:g}", *options],
+        seconds,
+        policy,
+    )
     result = json.loads(output)
     return result["late_p50_us"], result["late_p99_us"]
 
 
 def of_timer(timer, period_us, seconds, policy):
-    output = limited([str(timer), "--variant", "nanosleep", "--period-us", str(period_us), "--seconds", f"{seconds:g}"], seconds, policy)
+    output = limited(
+        [str(timer), "--variant", "nanosleep", "--period-us", str(period_us), "--seconds", f"{seconds:g}"],
+        seconds,
+        policy,
+    )
     result = json.loads(output)
     return result["late_p50_us"], result["late_p99_us"]
 
@@ -35,7 +43,11 @@ def of_timer(timer, period_us, seconds, policy):
 def of_cyclictest(period_us, seconds, policy):
     scheduling = ["-p49"] if policy == "fifo" else ["--policy=other"]
     loops = str(int(seconds * 1e6 / period_us))
-    output = limited(["cyclictest", "-q", "-m", "-t1", *scheduling, "-i", str(period_us), "-l", loops, "-h", str(LONGEST)], seconds, policy)
+    output = limited(
+        ["cyclictest", "-q", "-m", "-t1", *scheduling, "-i", str(period_us), "-l", loops, "-h", str(LONGEST)],
+        seconds,
+        policy,
+    )
     bins = [(int(us), int(count)) for us, count in re.findall(r"^(\d{6}) (\d{6,})$", output, re.MULTILINE)]
     return quantile(bins, 0.5), quantile(bins, 0.99)
 
@@ -66,5 +78,8 @@ def measure(bench, peers, period_us, policy, seconds, rounds):
                 seen[name].append(ways[name]())
             except (ValueError, KeyError):
                 continue  # it gave no figures; the others did
-    return {name: tuple(how(v[i] for v in values) for how in (min, statistics.median) for i in (0, 1))
-            for name, values in seen.items() if values}
+    return {
+        name: tuple(how(v[i] for v in values) for how in (min, statistics.median) for i in (0, 1))
+        for name, values in seen.items()
+        if values
+    }
