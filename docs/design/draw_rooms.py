@@ -60,14 +60,17 @@ def placed(room):
 
 
 def arrows():
-    """Room: the rooms that it includes. Includes of public headers count for the folder that they belong to."""
+    """Room: the rooms that it includes. Includes of public headers count for the folder that they
+    belong to."""
     check = layers.Check(ROOT)
     found = {}
     for path in layers.files(check.source):
         room = room_of(check, path)
         for _, line in layers.code_of(path.read_text()):
             match = re.match(r'\s*#\s*include\s+"([^"]+)"', line)
-            target = match and next((f for f in (d / match[1] for d in (path.parent, check.source, check.public)) if f.is_file()), None)
+            target = match and next(
+                (f for f in (d / match[1] for d in (path.parent, check.source, check.public)) if f.is_file()), None
+            )
             other = placed(check.room(target.resolve())) if target else None
             if not other or other == "all" or group(other) == group(room) and target.parent == check.public:
                 continue
@@ -81,6 +84,7 @@ def group(room):
 
 def reduced(found):
     """Without arrows that follow from others."""
+
     def reaches(begin, end, seen):
         return any(n == end or n not in seen and (seen.add(n) or reaches(n, end, seen)) for n in found.get(begin, ()))
 
@@ -118,7 +122,12 @@ def box(name):
         x, y = LEFT + column * COLUMN, TOP + row * ROW
         return x, y, x + WIDTH, y + HEIGHT
     boxes = [box(room) for room in PLACES if group(room) == name]
-    return (min(b[0] for b in boxes) - 12, min(b[1] for b in boxes) - 26, max(b[2] for b in boxes) + 12, max(b[3] for b in boxes) + 12)
+    return (
+        min(b[0] for b in boxes) - 12,
+        min(b[1] for b in boxes) - 26,
+        max(b[2] for b in boxes) + 12,
+        max(b[3] for b in boxes) + 12,
+    )
 
 
 def way(begin, end):
@@ -144,8 +153,10 @@ def arrow(begin, end):
     color = "#b3261e" if runs_up(begin, end) else "#4a5a6a"
     tip = [(x2, y2), (x2 - 9 * dx - 4 * dy, y2 - 9 * dy + 4 * dx), (x2 - 9 * dx + 4 * dy, y2 - 9 * dy - 4 * dx)]
     corners[-1] = (x2 - 8 * dx, y2 - 8 * dy)
-    return [f'<polyline points="{points(corners)}" fill="none" stroke="{color}" stroke-width="1.2"/>',
-            f'<polygon points="{points(tip)}" fill="{color}"/>']
+    return [
+        f'<polyline points="{points(corners)}" fill="none" stroke="{color}" stroke-width="1.2"/>',
+        f'<polygon points="{points(tip)}" fill="{color}"/>',
+    ]
 
 
 def points(corners):
@@ -156,14 +167,20 @@ def rectangle(name):
     x, y, right, bottom = box(name)
     fill, edge = PALETTE.get(group(name), PALETTE[""])
     if name in GROUPS:
-        return [f'<rect x="{x:g}" y="{y:g}" width="{right - x:g}" height="{bottom - y:g}" rx="8" fill="{fill}" stroke="{edge}"/>',
-                f'<text x="{x + 12:g}" y="{y + 18:g}" font-weight="bold" fill="#24435f">{name}</text>']
+        return [
+            f'<rect x="{x:g}" y="{y:g}" width="{right - x:g}" height="{bottom - y:g}" rx="8" '
+            f'fill="{fill}" stroke="{edge}"/>',
+            f'<text x="{x + 12:g}" y="{y + 18:g}" font-weight="bold" fill="#24435f">{name}</text>',
+        ]
     middle = (x + right) / 2
     fill = "#ffffff" if group(name) in GROUPS else fill
     title = name.split("/")[-1]
-    return [f'<rect x="{x:g}" y="{y:g}" width="{WIDTH}" height="{HEIGHT}" rx="5" fill="{fill}" stroke="{edge}"/>',
-            f'<text x="{middle:g}" y="{y + 19:g}" text-anchor="middle" font-weight="bold" fill="#24435f">{title}</text>',
-            f'<text x="{middle:g}" y="{y + 36:g}" text-anchor="middle" font-size="12" fill="#3c4a57">{PLACES[name][2]}</text>']
+    return [
+        f'<rect x="{x:g}" y="{y:g}" width="{WIDTH}" height="{HEIGHT}" rx="5" fill="{fill}" stroke="{edge}"/>',
+        f'<text x="{middle:g}" y="{y + 19:g}" text-anchor="middle" font-weight="bold" fill="#24435f">{title}</text>',
+        f'<text x="{middle:g}" y="{y + 36:g}" text-anchor="middle" font-size="12" fill="#3c4a57">'
+        f"{PLACES[name][2]}</text>",
+    ]
 
 
 def picture():
@@ -173,11 +190,13 @@ def picture():
         sys.exit(f"draw_rooms.py: no place in the picture for {', '.join(sorted(unknown))}; give it one in PLACES")
     names = list(GROUPS) + list(PLACES)
     width, height = max(box(n)[2] for n in names) + 24, max(box(n)[3] for n in names) + 24
-    parts = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:g} {height:g}" width="{width:g}" height="{height:g}" '
-             'font-family="Helvetica, Arial, sans-serif" font-size="14" role="img">',
-             "<title>The rooms of the sources</title>",
-             "<desc>An arrow goes from a room to one that it includes; one that follows from others is left out.</desc>",
-             f'<rect width="{width:g}" height="{height:g}" fill="#ffffff"/>']
+    parts = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:g} {height:g}" '
+        f'width="{width:g}" height="{height:g}" font-family="Helvetica, Arial, sans-serif" font-size="14" role="img">',
+        "<title>The rooms of the sources</title>",
+        "<desc>An arrow goes from a room to one that it includes; one that follows from others is left out.</desc>",
+        f'<rect width="{width:g}" height="{height:g}" fill="#ffffff"/>',
+    ]
     for name in names:
         parts += rectangle(name)
     for begin, end in sorted(shown(found)):
@@ -191,7 +210,9 @@ def main():
         file.write_text(picture())
     elif sys.argv[1:] == ["--check"]:
         if not file.exists() or file.read_text() != picture():
-            sys.exit("docs/design/rooms.svg does not show the sources as they are; remedy: docs/design/draw_rooms.py --write")
+            sys.exit(
+                "docs/design/rooms.svg does not show the sources as they are; remedy: docs/design/draw_rooms.py --write"
+            )
     else:
         sys.exit(__doc__)
 

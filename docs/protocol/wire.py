@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The wire format of QtPLC by docs/protocol.md alone. It shares nothing with the C++ code, not even the CRC-32C, so that each tests the other."""
+"""The wire format of QtPLC by docs/protocol.md alone. It shares nothing with the C++ code, not even
+the CRC-32C, so that each tests the other."""
 import struct
 
 INPUTS, OUTPUTS, GROUP_INPUTS = 1, 2, 3
@@ -9,7 +10,8 @@ HEADER = 12
 SESSION = 0x8F3A61C2D4E5B097
 
 
-# ---- checksums ------------------------------------------------------------------------------------------------------
+# ---- checksums -----------------------------------------------------------------------------------
+
 
 def crc32c(data, crc=0):
     """Bit by bit: slow, and easy to compare with the definition."""
@@ -32,7 +34,8 @@ def hex64(number):
     return format(number, "016x")
 
 
-# ---- ChaCha20-Poly1305, by RFC 8439 -----------------------------------------------------------------------------------
+# ---- ChaCha20-Poly1305, by RFC 8439 --------------------------------------------------------------
+
 
 def chacha20_block(key, counter, nonce):
     def rotated(x, bits):
@@ -62,12 +65,13 @@ def poly1305(key, data):
     r = int.from_bytes(key[:16], "little") & 0x0FFFFFFC0FFFFFFC0FFFFFFC0FFFFFFF
     total = 0
     for i in range(0, len(data), 16):
-        total = (total + int.from_bytes(data[i:i + 16] + b"\1", "little")) * r % (2**130 - 5)
+        total = (total + int.from_bytes(data[i : i + 16] + b"\1", "little")) * r % (2**130 - 5)
     return ((total + int.from_bytes(key[16:], "little")) % 2**128).to_bytes(16, "little")
 
 
 def aead(key, nonce, plain, header):
     """What is sealed, then the tag."""
+
     def padded(data):
         return data + bytes(-len(data) % 16)
 
@@ -78,15 +82,37 @@ def aead(key, nonce, plain, header):
 
 def check_aead():
     """The example of RFC 8439, section 2.8.2."""
-    plain = (b"Ladies and Gentlemen of the class of '99: If I could offer you only one tip for the future, sunscreen would be it.")
-    result = aead(bytes(range(0x80, 0xA0)), bytes.fromhex("070000004041424344454647"), plain, bytes.fromhex("50515253c0c1c2c3c4c5c6c7"))
-    assert result[:16].hex() == "d31a8d34648e60db7b86afbc53ef7ec2" and result[-16:].hex() == "1ae10b594f09e26a7e902ecbd0600691"
+    plain = (
+        b"Ladies and Gentlemen of the class of '99: If I could offer you only one tip for the future, "
+        b"sunscreen would be it."
+    )
+    result = aead(
+        bytes(range(0x80, 0xA0)),
+        bytes.fromhex("070000004041424344454647"),
+        plain,
+        bytes.fromhex("50515253c0c1c2c3c4c5c6c7"),
+    )
+    assert (
+        result[:16].hex() == "d31a8d34648e60db7b86afbc53ef7ec2"
+        and result[-16:].hex() == "1ae10b594f09e26a7e902ecbd0600691"
+    )
 
 
-# ---- layouts and values ---------------------------------------------------------------------------------------------
+# ---- layouts and values --------------------------------------------------------------------------
 
-SIZES = {"Int8": 1, "Int16": 2, "Int32": 4, "Int64": 8, "UInt8": 1, "UInt16": 2, "UInt32": 4, "UInt64": 8,
-         "Real32": 4, "Real64": 8, "DateTime": 8}
+SIZES = {
+    "Int8": 1,
+    "Int16": 2,
+    "Int32": 4,
+    "Int64": 8,
+    "UInt8": 1,
+    "UInt16": 2,
+    "UInt32": 4,
+    "UInt64": 8,
+    "Real32": 4,
+    "Real64": 8,
+    "DateTime": 8,
+}
 
 
 def size_of(type_name):
@@ -99,7 +125,8 @@ def size_of(type_name):
 
 
 def layout(name, fields, table=None, maximum=1456, qualities=False):
-    """fields: (signal, canonical type); table: type names as written in the signal table, where they differ; qualities: they follow the values."""
+    """fields: (signal, canonical type); table: type names as written in the signal table, where
+    they differ; qualities: they follow the values."""
     table = table or {}
     offset, lines, placed, borders = 0, [], [], [0]
     for signal, type_name in fields:
@@ -118,12 +145,22 @@ def layout(name, fields, table=None, maximum=1456, qualities=False):
     borders.append(offset)
     text = "".join(lines)
     ini = "".join(f"[{signal}]\ntype = {table.get(signal, type_name)}\n" for signal, type_name in fields)
-    return {"name": name, "table": ini, "fields": placed, "text": text, "hash": hex64(fnv1a64(text.encode())),
-            "size": offset, "maximum": maximum, "borders": borders, "qualities": qualities}
+    return {
+        "name": name,
+        "table": ini,
+        "fields": placed,
+        "text": text,
+        "hash": hex64(fnv1a64(text.encode())),
+        "size": offset,
+        "maximum": maximum,
+        "borders": borders,
+        "qualities": qualities,
+    }
 
 
 def digest(image, before=0):
     """Of all values, after a cycle."""
+
     def mix(state, word):
         state = (state ^ word) * 0x9E3779B97F4A7C15 & 0xFFFFFFFFFFFFFFFF
         return state ^ state >> 32
@@ -138,12 +175,17 @@ def digest(image, before=0):
 
 
 def table_lines(name, type_name, unit="", minimum=b"", maximum=b"", safe=b"", hold="", nan="", slope=None, writer=""):
-    """The two lines of a signal in the text of the table hash; the second one is that of its safety hash. Values are their bytes in a payload."""
+    """The two lines of a signal in the text of the table hash; the second one is that of its safety
+    hash. Values are their bytes in a payload."""
     slope = struct.pack("<d", slope).hex() if slope else ""
-    return f"{name}:{type_name}:{unit}\n", ":".join([minimum.hex(), maximum.hex(), safe.hex(), hold, nan, slope, writer]) + "\n"
+    return (
+        f"{name}:{type_name}:{unit}\n",
+        ":".join([minimum.hex(), maximum.hex(), safe.hex(), hold, nan, slope, writer]) + "\n",
+    )
 
 
-# ---- cyclic frames --------------------------------------------------------------------------------------------------
+# ---- cyclic frames -------------------------------------------------------------------------------
+
 
 def short_time(time):
     """5 bits exponent, 11 bits fraction; what does not fit is cut."""
@@ -155,29 +197,50 @@ class Channel:
     """One direction of one node."""
 
     def __init__(self, kind, node, layout_hash, borders, session=SESSION, key=None):
-        self.kind, self.node, self.layout_hash, self.borders, self.session, self.key = kind, node, layout_hash, borders, session, key
+        self.kind, self.node, self.layout_hash, self.borders, self.session, self.key = (
+            kind,
+            node,
+            layout_hash,
+            borders,
+            session,
+            key,
+        )
         self.seed = crc32c(struct.pack("<QHQ", session, node, layout_hash))
 
     def part(self, number, cycle, info, payload, flags=0, version=VERSION, before=0):
         if number > 0:
             flags, info = flags | PART, number
-        body = struct.pack("<BBHIHH", version << 4 | self.kind, flags, self.session & 0xFFFF, cycle & 0xFFFFFFFF,
-                           info if flags & PART else short_time(info), before)
+        body = struct.pack(
+            "<BBHIHH",
+            version << 4 | self.kind,
+            flags,
+            self.session & 0xFFFF,
+            cycle & 0xFFFFFFFF,
+            info if flags & PART else short_time(info),
+            before,
+        )
         if self.key:
             nonce = struct.pack("<QH", cycle ^ self.session, number ^ self.node) + body[:2]
-            return body + aead(self.key, nonce, payload[self.borders[number]:self.borders[number + 1]], body)
-        body += payload[self.borders[number]:self.borders[number + 1]]
+            return body + aead(self.key, nonce, payload[self.borders[number] : self.borders[number + 1]], body)
+        body += payload[self.borders[number] : self.borders[number + 1]]
         return body + struct.pack("<I", crc32c(body, self.seed))
 
     def parts(self, cycle, info, payload, flags=0, before=0):
         return [self.part(i, cycle, info, payload, flags, before=before) for i in range(len(self.borders) - 1)]
 
     def json(self):
-        return {"kind": {INPUTS: "Inputs", OUTPUTS: "Outputs", GROUP_INPUTS: "GroupInputs"}[self.kind], "session": hex64(self.session),
-                "node": self.node, "layoutHash": hex64(self.layout_hash), "borders": self.borders, **({"key": self.key.hex()} if self.key else {})}
+        return {
+            "kind": {INPUTS: "Inputs", OUTPUTS: "Outputs", GROUP_INPUTS: "GroupInputs"}[self.kind],
+            "session": hex64(self.session),
+            "node": self.node,
+            "layoutHash": hex64(self.layout_hash),
+            "borders": self.borders,
+            **({"key": self.key.hex()} if self.key else {}),
+        }
 
 
-# ---- control frames and beacons -------------------------------------------------------------------------------------
+# ---- control frames and beacons ------------------------------------------------------------------
+
 
 def control(kind, body):
     return struct.pack("<IB", 1 + len(body), kind) + body
@@ -185,5 +248,7 @@ def control(kind, body):
 
 def beacon(port, name, flags=0, table_hash=0, magic=b"QPLB", version=1, length=None):
     text = name if isinstance(name, bytes) else name.encode()
-    body = struct.pack("<4sBBHQB", magic, version, flags, port, table_hash, len(text) if length is None else length) + text
+    body = (
+        struct.pack("<4sBBHQB", magic, version, flags, port, table_hash, len(text) if length is None else length) + text
+    )
     return body + struct.pack("<I", crc32c(body))

@@ -27,11 +27,20 @@ TIME = 1800  # [s] of a search
 
 # Events of the tables that the model never applies, and why.
 LEFT_OUT = {
-    "ME_Listen": "a program starts its server again", "ME_ServerListens": "likewise", "ME_ServerFailed": "likewise",
-    "ME_AddNode": "nodes in the process of the master", "ME_End": "a master that ends in order",
-    "ME_ListenerJoined": "listeners", "ME_CycleLimitReached": "phases of a fixed length", "ME_OverrunStop": "overrun policies",
-    "NE_Connect": "as Retry", "NE_Leave": "a node that ends in order", "NE_AddedLocally": "nodes in the process of the master",
-    "NE_HelloCame": "changes no state", "NE_Accepted": "changes no state", "NE_MasterEnded": "a master that ends in order",
+    "ME_Listen": "a program starts its server again",
+    "ME_ServerListens": "likewise",
+    "ME_ServerFailed": "likewise",
+    "ME_AddNode": "nodes in the process of the master",
+    "ME_End": "a master that ends in order",
+    "ME_ListenerJoined": "listeners",
+    "ME_CycleLimitReached": "phases of a fixed length",
+    "ME_OverrunStop": "overrun policies",
+    "NE_Connect": "as Retry",
+    "NE_Leave": "a node that ends in order",
+    "NE_AddedLocally": "nodes in the process of the master",
+    "NE_HelloCame": "changes no state",
+    "NE_Accepted": "changes no state",
+    "NE_MasterEnded": "a master that ends in order",
 }
 
 
@@ -46,10 +55,14 @@ class Run:
 
 def text(old, new):
     """A mutant of the model: `old`, which has to be there once, becomes `new`."""
+
     def edit(plant, tables):
         if plant.count(old) != 1:
-            raise SystemExit(f"check: the mutant of '{old}' fits {plant.count(old)} places of plant.pml; update check.py")
+            raise SystemExit(
+                f"check: the mutant of '{old}' fits {plant.count(old)} places of plant.pml; update check.py"
+            )
         return plant.replace(old, new), tables
+
     return edit
 
 
@@ -59,6 +72,7 @@ def both(first, second):
 
 def cell(event, state, outcome):
     """A mutant of the tables: another outcome of one event in one state."""
+
     def edit(plant, tables):
         head = f"    :: event == {event} ->\n        if\n"
         begin = tables.index(head) + len(head)
@@ -71,16 +85,18 @@ def cell(event, state, outcome):
                 options.append(f"        :: {' || '.join(kept)} -> {then}\n")
         options.append(f"        :: state == {state} -> {outcome}\n")
         return plant, tables[:begin] + "".join(options) + tables[end:]
+
     return edit
 
 
 PRESENT = "attached[0]&&(stage[0]"  # the critical node takes part, as far as the master knows
-BOUNDED = "without<="               # and it really does, but for some cycles
+BOUNDED = "without<="  # and it really does, but for some cycles
 PERSON, RESET, SEEN, STAYS_SAFE = "permitted", "latched", "||seen", "mayNotMove"
-CYCLES = "cycles==("                # they run in the states in which they should
-OUT = "&&attached"                  # an evicted node has no session
+CYCLES = "cycles==("  # they run in the states in which they should
+OUT = "&&attached"  # an evicted node has no session
 NEUTRAL, STOPS, RESTS, WATCHED = "unheard<=", "event!=ME_Stop", "connection[0]", "alone[0]<="
 
+# fmt: off
 RUNS = [
     # ---- all switches on: everything holds ----
     Run("start_stop_reset", "properties 1, 3, 4; three commands on a good network", COMMANDS=3, FAULTS=0, LOSS=0),
@@ -89,24 +105,29 @@ RUNS = [
     Run("fault_and_reset", "the same with three commands, so that a plant can be reset and started again",
         COMMANDS=3, FAULTS=1, LOSS=0, PROMPT=1),
     Run("two_faults", "properties 1 and 3; two faults after a start", COMMANDS=1, FAULTS=2, LOSS=0, PROMPT=1),
-    Run("bad_network", "properties 1, 2, 5; frames that are lost and late", COMMANDS=1, FAULTS=0, LOSS=2, PRESENCE=1, SILENCE=1),
+    Run("bad_network", "properties 1, 2, 5; frames that are lost and late",
+        COMMANDS=1, FAULTS=0, LOSS=2, PRESENCE=1, SILENCE=1),
     Run("bad_network_and_stop", "the same with a second command", COMMANDS=2, FAULTS=0, LOSS=1, PRESENCE=1, SILENCE=1),
-    Run("presence", "property 1 in cycles; one fault, frames are lost", COMMANDS=1, FAULTS=1, LOSS=1, PRESENCE=1, PROMPT=1),
+    Run("presence", "property 1 in cycles; one fault, frames are lost",
+        COMMANDS=1, FAULTS=1, LOSS=1, PRESENCE=1, PROMPT=1),
     Run("code_fails", "property 1 in cycles; code of a node throws",
         COMMANDS=1, FAULTS=1, LOSS=0, PRESENCE=1, CODE_FAILS=1),
     Run("silence", "property 5; one fault, and a stop", COMMANDS=2, FAULTS=1, LOSS=0, SILENCE=1, MASTER_FAULTS=0),
     Run("master_dies", "property 5; master killed or stopped", COMMANDS=1, FAULTS=1, LOSS=0, SILENCE=1),
     Run("short_watchdog", "property 1 with a watchdog that is shorter than the time for late answers",
         COMMANDS=1, FAULTS=0, LOSS=1, PRESENCE=1, BucketLimit=6, WatchdogTime=2),
-    Run("waits", "properties 1 and 3; the master waits for node 1", COMMANDS=2, FAULTS=0, LOSS=1, WAITS=1, PRESENCE=1, PROMPT=1),
+    Run("waits", "properties 1 and 3; the master waits for node 1",
+        COMMANDS=2, FAULTS=0, LOSS=1, WAITS=1, PRESENCE=1, PROMPT=1),
     Run("arming", "properties 1, 3, 4 with arming", COMMANDS=3, FAULTS=0, LOSS=0, ARMING=1),
-    Run("thread_fails", "properties 1, 3, 4; the cycle thread may fail to start", COMMANDS=3, FAULTS=0, LOSS=0, THREAD_FAILS=1),
+    Run("thread_fails", "properties 1, 3, 4; the cycle thread may fail to start",
+        COMMANDS=3, FAULTS=0, LOSS=0, THREAD_FAILS=1),
     Run("lease", "property 2", quick=True, COMMANDS=2, FAULTS=0, LOSS=0, PROMPT=1, LEASE=1),
     Run("lease_and_stop", "property 2; three commands", COMMANDS=3, FAULTS=0, LOSS=0, PROMPT=1, LEASE=1),
-    Run("evictions", "properties 1, 3, 4, 6; nodes are evicted and admitted", quick=True, COMMANDS=2, FAULTS=0, LOSS=0, EVICTS=1),
+    Run("evictions", "properties 1, 3, 4, 6; nodes are evicted and admitted", quick=True,
+        COMMANDS=2, FAULTS=0, LOSS=0, EVICTS=1),
     Run("eviction_and_fault", "the same with a fault", COMMANDS=2, FAULTS=1, LOSS=0, PROMPT=1, EVICTS=1),
-    Run("eviction_and_silence", "properties 1 and 5: an evicted node is safe soon", COMMANDS=2, FAULTS=0, LOSS=1, PRESENCE=1, SILENCE=1,
-        PROMPT=1, EVICTS=1),
+    Run("eviction_and_silence", "properties 1 and 5: an evicted node is safe soon",
+        COMMANDS=2, FAULTS=0, LOSS=1, PRESENCE=1, SILENCE=1, PROMPT=1, EVICTS=1),
     Run("moves_again", "property 4: after a fault a patient operator moves the plant again", formula="moves_again",
         HELPFUL=1, COMMANDS=0, FAULTS=1, LOSS=0, PROMPT=1),
     Run("stop_stops", "property 4: a Stop that was sent is carried out, or the master has died", formula="stop_stops",
@@ -141,18 +162,27 @@ RUNS = [
     Run("mutant_node_refuses_values", "a node refuses its initial values: nobody ever moves", "acceptance cycle",
         formula="moves_again", edit=cell("NE_ValuesCame", "N_Initializing", "refuse()"),
         HELPFUL=1, COMMANDS=0, FAULTS=0, LOSS=0, PROMPT=1),
-    Run("mutant_manifest_at_start_only", "before a start the manifest asks who is registered, before an initialization nothing", PRESENT,
-        edit=both(text(":: what == C_Initialize -> event = (mayBegin -> ME_Initialize : ME_InitializeIncomplete)", ":: what == C_Initialize -> event = ME_Initialize"),
-                  text("(attached[0] && (master != M_Ready || isComplete))", "attached[0]")), COMMANDS=2, FAULTS=0, LOSS=0),
-    Run("mutant_manifest_is_empty_in_ready", "in Ready a start asks for nobody, and an initialization begins without the critical node", PRESENT,
-        edit=text("(attached[0] && (master != M_Ready || isComplete))", "true"), COMMANDS=2, FAULTS=0, LOSS=0),
+    Run("mutant_manifest_at_start_only",
+        "before a start the manifest asks who is registered, before an initialization nothing", PRESENT,
+        edit=both(text(":: what == C_Initialize -> event = (mayBegin -> ME_Initialize : ME_InitializeIncomplete)",
+                       ":: what == C_Initialize -> event = ME_Initialize"),
+                  text("(attached[0] && (master != M_Ready || isComplete))", "attached[0]")),
+        COMMANDS=2, FAULTS=0, LOSS=0),
+    Run("mutant_manifest_is_empty_in_ready",
+        "in Ready a start asks for nobody, and an initialization begins without the critical node", PRESENT,
+        edit=text("(attached[0] && (master != M_Ready || isComplete))", "true"),
+        COMMANDS=2, FAULTS=0, LOSS=0),
     Run("mutant_evicted_node_registers", "an evicted node registers again", OUT,
-        edit=text(":: !isEvicted(n) && !attached[n] -> follows = n", ":: !attached[n] -> follows = n"), COMMANDS=1, FAULTS=0, LOSS=0, EVICTS=1),
+        edit=text(":: !isEvicted(n) && !attached[n] -> follows = n", ":: !attached[n] -> follows = n"),
+        COMMANDS=1, FAULTS=0, LOSS=0, EVICTS=1),
     Run("mutant_eviction_ends_no_session", "an eviction leaves the session of a node", OUT,
-        edit=text("sendToNode(who, Rejected); nodeLost(who)", "sendToNode(who, Rejected)"), COMMANDS=1, FAULTS=0, LOSS=0, EVICTS=1),
+        edit=text("sendToNode(who, Rejected); nodeLost(who)", "sendToNode(who, Rejected)"),
+        COMMANDS=1, FAULTS=0, LOSS=0, EVICTS=1),
     Run("mutant_evicted_node_is_not_needed", "a plant starts without a critical node that is evicted", PRESENT,
-        edit=both(text("(attached[0] && (master != M_Ready || isComplete))", "(isEvicted(0) || (attached[0] && (master != M_Ready || isComplete)))"),
-                  text("#define isComplete (stage[0] >= IsInitialized)", "#define isComplete (isEvicted(0) || stage[0] >= IsInitialized)")),
+        edit=both(text("(attached[0] && (master != M_Ready || isComplete))",
+                       "(isEvicted(0) || (attached[0] && (master != M_Ready || isComplete)))"),
+                  text("#define isComplete (stage[0] >= IsInitialized)",
+                       "#define isComplete (isEvicted(0) || stage[0] >= IsInitialized)")),
         COMMANDS=2, FAULTS=0, LOSS=0, EVICTS=1),
     Run("mutant_late_answers_are_forgiven", "late answers of a critical node stop nothing", BOUNDED,
         edit=text(":: isCritical(n) && bucket[n] == BucketLimit -> trip(n + 2)", ":: false -> trip(n + 2)"),
@@ -161,15 +191,18 @@ RUNS = [
         edit=text("    gap = 0;\n    flag = tripped;\n", "    gap = 0;\n    flag = false;\n"),
         COMMANDS=1, FAULTS=1, LOSS=0, PRESENCE=1),
     Run("mutant_no_watchdog", "the watchdog of a node only reports", WATCHED,
-        edit=text("            safe[n] = true; mayNotMove[n] = true; watchdogReport[n] = true\n", "            watchdogReport[n] = true\n"),
+        edit=text("            safe[n] = true; mayNotMove[n] = true; watchdogReport[n] = true\n",
+                  "            watchdogReport[n] = true\n"),
         COMMANDS=1, FAULTS=1, LOSS=0, SILENCE=1),
     Run("mutant_node_resumes", "a node in its safe state moves when a frame has no flag", STAYS_SAFE,
-        edit=text("        :: frame[n] == Rest && !safe[n] ->", "        :: frame[n] == Motion -> safe[n] = false\n        :: frame[n] == Rest && !safe[n] ->"),
+        edit=text("        :: frame[n] == Rest && !safe[n] ->",
+                  "        :: frame[n] == Motion -> safe[n] = false\n        :: frame[n] == Rest && !safe[n] ->"),
         COMMANDS=1, FAULTS=0, LOSS=1),
     Run("mutant_lost_lease_keeps_its_value", "a lost lease leaves its value", NEUTRAL,
         edit=text("lease = Lost; leaseAge = 0; setting = Neutral", "lease = Lost; leaseAge = 0"),
         COMMANDS=2, FAULTS=0, LOSS=0, PROMPT=1, LEASE=1),
 ]
+# fmt: on
 
 
 def check_events():
@@ -177,8 +210,11 @@ def check_events():
     plant, tables = (HERE / "plant.pml").read_text(), (HERE / "tables.pml").read_text()
     events = re.findall(r"^#define ([MN]E_\w+)", tables, re.M)
     used = set(re.findall(r"\b[MN]E_\w+", plant))
-    errors = [f"the model never applies {event}: model it in plant.pml, or say in check.py why not"
-              for event in events if event not in used and event not in LEFT_OUT]
+    errors = [
+        f"the model never applies {event}: model it in plant.pml, or say in check.py why not"
+        for event in events
+        if event not in used and event not in LEFT_OUT
+    ]
     errors += [f"check.py leaves out {event}, which the model applies" for event in LEFT_OUT if event in used]
     errors += [f"{event} is in no table any more" for event in sorted((used | set(LEFT_OUT)) - set(events))]
     actions = re.findall(r"^#define ([MN]A_\w+)", tables, re.M)
@@ -187,7 +223,9 @@ def check_events():
 
 
 def execute(command, folder, seconds=TIME):
-    return subprocess.run(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=seconds)
+    return subprocess.run(
+        command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=seconds
+    )
 
 
 def search(run, folder):
@@ -202,13 +240,17 @@ def search(run, folder):
     if made.returncode or "Error" in made.stdout:
         raise RuntimeError(f"spin: {made.stdout}")
     kind = ["-DNFAIR=3"] if run.formula else ["-DSAFETY", "-DNOCLAIM"]
-    # An optimiser needs minutes for the functions that spin makes; -O0 needs seconds, and most searches are short.
+    # An optimiser needs minutes for the functions that spin makes; -O0 needs seconds, and most
+    # searches are short.
     built = execute(["gcc", "-O0", "-w", "-DCOLLAPSE", f"-DMEMLIM={MEMORY}", *kind, "-o", "pan", "pan.c"], folder)
     if built.returncode:
         raise RuntimeError(f"gcc: {built.stdout[:2000]}")
     # -E: states in which nothing can happen are judged by the process Monitor.
     # -c: a mutant may violate other assertions before the one that it has to violate.
-    found = execute(["./pan", "-m3000000", "-w22", *(["-c100"] if run.fails else []), *(["-a", "-f"] if run.formula else ["-E"])], folder)
+    found = execute(
+        ["./pan", "-m3000000", "-w22", *(["-c100"] if run.fails else []), *(["-a", "-f"] if run.formula else ["-E"])],
+        folder,
+    )
     if "max search depth too small" in found.stdout or "out of memory" in found.stdout or "errors:" not in found.stdout:
         raise RuntimeError(f"the search is not complete: {found.stdout[-2000:]}")
     return found.stdout
@@ -224,7 +266,11 @@ def judge(run, output):
     # spin writes the assertions with the numbers of the names
     numbers = dict(re.findall(r"^#define (\w+) (\d+)", (HERE / "tables.pml").read_text(), re.M))
     fails = re.sub(r"\b[MN]E_\w+", lambda name: numbers[name[0]], run.fails)
-    return "" if any(fails in one.replace(" ", "") or fails in one for one in seen) else f"violated something else: {'; '.join(seen)}"
+    return (
+        ""
+        if any(fails in one.replace(" ", "") or fails in one for one in seen)
+        else f"violated something else: {'; '.join(seen)}"
+    )
 
 
 def main():
@@ -253,12 +299,17 @@ def main():
                 output, wrong = "", str(error)
         states = re.search(r"(\d\S*) states, stored", output)
         memory = re.search(r"([\d.]+)\s+total actual memory", output)
-        print(f"{'FAILED' if wrong else 'found' if run.fails else 'holds':6} {time.monotonic() - begin:5.0f} s "
-              f"{float(states[1]) if states else 0:12,.0f} states {float(memory[1]) if memory else 0:6.0f} MB  {run.name}: {run.what}",
-              flush=True)
+        print(
+            f"{'FAILED' if wrong else 'found' if run.fails else 'holds':6} {time.monotonic() - begin:5.0f} s "
+            f"{float(states[1]) if states else 0:12,.0f} states {float(memory[1]) if memory else 0:6.0f} MB  "
+            f"{run.name}: {run.what}",
+            flush=True,
+        )
         if wrong:
             errors.append(f"{run.name}: {wrong}")
-    print("\n".join(errors) or ("the model has the events of the tables" if arguments.events else "the model is in order"))
+    print(
+        "\n".join(errors) or ("the model has the events of the tables" if arguments.events else "the model is in order")
+    )
     return 1 if errors else 0
 
 

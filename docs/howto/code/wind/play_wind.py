@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Plays a wind sensor: sends a sentence of NMEA 0183 twice a second to the fake device that is named on the command line."""
+"""Plays a wind sensor: sends a sentence of NMEA 0183 twice a second to the fake device that is
+named on the command line."""
 import os
 import pty
 import sys
