@@ -19,7 +19,7 @@ def scope(symbol):
     names, place = [], begin.end() if begin else len(symbol)
     while digits := re.match(r"\d+", symbol[place:]):
         place += digits.end()
-        names.append(symbol[place:place + int(digits[0])])
+        names.append(symbol[place : place + int(digits[0])])
         place += int(digits[0])
     return names
 
@@ -30,7 +30,8 @@ def is_private(symbol):
 
 
 def is_inline_of_others(symbol, kind):
-    """Whether the compiler has put it into this library although it belongs into each program that uses it."""
+    """Whether the compiler has put it into this library although it belongs into each program that
+    uses it."""
     of_qtplc = scope(symbol)[:1] and re.match("QPlc|QSplit|qplc$", scope(symbol)[0])
     is_code_or_type = kind == "W" or symbol.startswith("_ZT")
     return kind in "WVu" and not (of_qtplc and is_code_or_type)
@@ -38,8 +39,9 @@ def is_inline_of_others(symbol, kind):
 
 def exported(library):
     """Mangled: those that other programs can use."""
-    text = subprocess.run(["nm", "--dynamic", "--defined-only", "--format=posix", library], capture_output=True,
-                          text=True, check=True).stdout
+    text = subprocess.run(
+        ["nm", "--dynamic", "--defined-only", "--format=posix", library], capture_output=True, text=True, check=True
+    ).stdout
     lines = [line.split() for line in text.splitlines()]
     return [symbol for symbol, kind, *_ in lines if symbol.startswith("_Z") and not is_inline_of_others(symbol, kind)]
 
@@ -63,8 +65,10 @@ def compare(root, library):
     broken = len(report)
     report += [f"{file.stem} has gained {name}" for name in now if name not in set(before)]
     if broken:
-        report.append("Lost symbols break programs that use them, private ones are nobody's business. "
-                      "Remedy: QTPLC_EXPORT, or Q_DECL_HIDDEN; docs/design/abi.md")
+        report.append(
+            "Lost symbols break programs that use them, private ones are nobody's business. "
+            "Remedy: QTPLC_EXPORT, or Q_DECL_HIDDEN; docs/design/abi.md"
+        )
     return report
 
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Does abi.py see what is lost, gained and private? It looks at small libraries made for the purpose.
+"""Does abi.py see what is lost, gained and private? It looks at small libraries made for the
+purpose.
 
 usage: tst_abi.py CXX_COMPILER
 """
@@ -34,8 +35,12 @@ class Lists(unittest.TestCase):
         abi.main(["--renew", self.root, self.library])
 
     def build(self, text, *options):
-        subprocess.run([COMPILER, "-x", "c++", "-", "-shared", "-fPIC", "-fvisibility=hidden", *options,
-                        "-o", self.library], input=text, text=True, check=True)
+        subprocess.run(
+            [COMPILER, "-x", "c++", "-", "-shared", "-fPIC", "-fvisibility=hidden", *options, "-o", self.library],
+            input=text,
+            text=True,
+            check=True,
+        )
 
     def report(self):
         return abi.compare(self.root, self.library)
@@ -61,13 +66,19 @@ class Lists(unittest.TestCase):
         self.assertIn("QtPlcThing exports the private vtable for qplc::Inside", report)
 
     def test_private_classes_of_public_ones_are_found(self):
-        self.build(PUBLIC.replace("void one();", "void one(); struct Private { void call(); };")
-                   + "void QPlcThing::Private::call() {}")
+        self.build(
+            PUBLIC.replace("void one();", "void one(); struct Private { void call(); };")
+            + "void QPlcThing::Private::call() {}"
+        )
         self.assertIn("QtPlcThing exports the private QPlcThing::Private::call()", self.report())
 
     def test_arguments_may_be_private(self):
-        self.build(PUBLIC.replace("void one();", "void one(); void three(qplc::Inside &);").replace("#define", "namespace qplc { struct Inside; }\n#define")
-                   + "void QPlcThing::three(qplc::Inside &) {}")
+        self.build(
+            PUBLIC.replace("void one();", "void one(); void three(qplc::Inside &);").replace(
+                "#define", "namespace qplc { struct Inside; }\n#define"
+            )
+            + "void QPlcThing::three(qplc::Inside &) {}"
+        )
         self.assertEqual(self.report()[0], "QtPlcThing has gained QPlcThing::three(qplc::Inside&)")
 
 

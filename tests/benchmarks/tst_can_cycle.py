@@ -16,7 +16,13 @@ PROGRAM = sys.argv.pop(1)
 
 def run(*arguments):
     with tempfile.TemporaryDirectory() as folder:
-        return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=120, env=dict(os.environ, QTPLC_FAKE_DEVICES=folder))
+        return subprocess.run(
+            [PROGRAM, *arguments],
+            capture_output=True,
+            text=True,
+            timeout=120,
+            env=dict(os.environ, QTPLC_FAKE_DEVICES=folder),
+        )
 
 
 class CanCycle(unittest.TestCase):

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The arithmetic, the tables and the picture of benchmarks/compare_cycles, with figures that are known.
+"""The arithmetic, the tables and the picture of benchmarks/compare_cycles, with figures that are
+known.
 
 usage: tst_comparison.py FOLDER
 """
@@ -21,8 +22,21 @@ from comparison.runs import Configuration, Results, Runner, missed_share  # noqa
 
 
 def run_of(name, p50, noisy=False, slaves=1, **more):
-    return {"name": name, "mode": ONE_CORE, "slaves": slaves, "noisy": noisy, "period_us": 0, "rtt_p50_us": p50, "rtt_p99_us": 2 * p50,
-            "cpu_total_us": p50 + 1, "bytes_per_cycle": 228.0 * slaves, "cycles": 100, "seconds": 1.0, "overruns": 0, **more}
+    return {
+        "name": name,
+        "mode": ONE_CORE,
+        "slaves": slaves,
+        "noisy": noisy,
+        "period_us": 0,
+        "rtt_p50_us": p50,
+        "rtt_p99_us": 2 * p50,
+        "cpu_total_us": p50 + 1,
+        "bytes_per_cycle": 228.0 * slaves,
+        "cycles": 100,
+        "seconds": 1.0,
+        "overruns": 0,
+        **more,
+    }
 
 
 class Arithmetic(unittest.TestCase):
@@ -40,7 +54,9 @@ class Arithmetic(unittest.TestCase):
         self.assertEqual(missed_share({**due, "cycles": 1000, "overruns": 0}), 0)
         self.assertEqual(missed_share({**due, "cycles": 999, "overruns": 0}), 0)  # the border of the measured time
         self.assertEqual(missed_share({**due, "cycles": 1000, "overruns": 10}), 0.01)
-        self.assertEqual(missed_share({**due, "cycles": 502, "overruns": 10}), 0.496)  # it left them out and counted little
+        self.assertEqual(
+            missed_share({**due, "cycles": 502, "overruns": 10}), 0.496
+        )  # it left them out and counted little
         self.assertEqual(missed_share({**due, "cycles": 0, "overruns": 0}), 1)
 
     def test_quantiles_of_a_histogram(self):
@@ -83,17 +99,37 @@ class Runs(unittest.TestCase):
 
 class Output(unittest.TestCase):
     def test_picture_is_xml_with_a_bar_for_each_figure(self):
-        drawing = picture.draw("a < b", "s", [("1", {"qtplc/udp": 11.0, "udp/blocking": 10.0}), ("10", {"qtplc/udp": 99.0})], "udp/blocking")
+        drawing = picture.draw(
+            "a < b",
+            "s",
+            [("1", {"qtplc/udp": 11.0, "udp/blocking": 10.0}), ("10", {"qtplc/udp": 99.0})],
+            "udp/blocking",
+        )
         tags = [element.tag.split("}")[1] for element in xml.fromstring(drawing).iter()]
         self.assertEqual(tags.count("rect"), 1 + 3)
         self.assertEqual(tags.count("line"), 1)  # no reference, no line
 
     def test_kept_runs_give_the_tables_again(self):
-        kept = {"machine": "m", "load": "1", "quiet": 0.25, "failures": {}, "runs": [run_of("qtplc/udp", 11), run_of("udp/blocking", 10, noisy=True)]}
+        kept = {
+            "machine": "m",
+            "load": "1",
+            "quiet": 0.25,
+            "failures": {},
+            "runs": [run_of("qtplc/udp", 11), run_of("udp/blocking", 10, noisy=True)],
+        }
         with tempfile.TemporaryDirectory() as folder:
             file, drawing = Path(folder) / "runs.json", Path(folder) / "p.svg"
             file.write_text(json.dumps(kept))
-            script = [sys.executable, "-B", str(FOLDER / "compare_cycles"), "--from", str(file), str(file), "--svg", str(drawing)]
+            script = [
+                sys.executable,
+                "-B",
+                str(FOLDER / "compare_cycles"),
+                "--from",
+                str(file),
+                str(file),
+                "--svg",
+                str(drawing),
+            ]
             run = subprocess.run(script, capture_output=True, text=True, timeout=60)
             self.assertEqual((run.returncode, run.stderr), (0, ""))
             self.assertIn("| **qtplc/udp** | 11.0 (11.0) | 22.0 | 12.0 | 1.10 |", run.stdout)
@@ -102,9 +138,19 @@ class Output(unittest.TestCase):
 
     def test_bad_calls(self):
         for arguments in (["--parts", "lunch"], ["--slaves", "0"], ["--rounds", "0"], ["--from", "/nowhere"]):
-            run = subprocess.run([sys.executable, "-B", str(FOLDER / "compare_cycles"), *arguments], capture_output=True, text=True, timeout=60)
+            run = subprocess.run(
+                [sys.executable, "-B", str(FOLDER / "compare_cycles"), *arguments],
+                capture_output=True,
+                text=True,
+                timeout=60,
+            )
             self.assertEqual(run.returncode, 2, run.stderr)
-        run = subprocess.run([sys.executable, "-B", str(FOLDER / "compare_cycles"), "--bin", "/nowhere"], capture_output=True, text=True, timeout=60)
+        run = subprocess.run(
+            [sys.executable, "-B", str(FOLDER / "compare_cycles"), "--bin", "/nowhere"],
+            capture_output=True,
+            text=True,
+            timeout=60,
+        )
         self.assertIn("remedy", run.stderr)
         self.assertEqual(run.returncode, 2)
 

@@ -11,9 +11,32 @@ import unittest
 
 PROGRAM = sys.argv.pop(1)
 KEYS = {f"rtt_{key}_us" for key in ("p50", "p99", "p999", "max")} | {
-    "peer", "variant", "slaves", "in", "out", "period_us", "policy", "cycles", "all_cycles", "seconds", "cycles_per_s", "errors", "overruns", "cpu_master_us",
-    "cpu_slave_us", "cpu_total_us", "ctx_master", "ctx_slave", "bytes_per_cycle", "packets_per_cycle", "threads_master", "threads_slave", "rss_slave_kb",
-    "registration_s", "start_s"}
+    "peer",
+    "variant",
+    "slaves",
+    "in",
+    "out",
+    "period_us",
+    "policy",
+    "cycles",
+    "all_cycles",
+    "seconds",
+    "cycles_per_s",
+    "errors",
+    "overruns",
+    "cpu_master_us",
+    "cpu_slave_us",
+    "cpu_total_us",
+    "ctx_master",
+    "ctx_slave",
+    "bytes_per_cycle",
+    "packets_per_cycle",
+    "threads_master",
+    "threads_slave",
+    "rss_slave_kb",
+    "registration_s",
+    "start_s",
+}
 PACED_KEYS = KEYS | {f"late_{key}_us" for key in ("p50", "p99", "p999", "max")} | {"drift_us"}
 
 
@@ -34,7 +57,10 @@ class Bench(unittest.TestCase):
                 with self.subTest(transport=transport, slaves=slaves):
                     figures = self.figures("--transport", transport, "--slaves", str(slaves))
                     self.assertEqual(set(figures), KEYS)
-                    self.assertEqual((figures["variant"], figures["slaves"], figures["errors"], figures["overruns"]), (transport, slaves, 0, 0))
+                    self.assertEqual(
+                        (figures["variant"], figures["slaves"], figures["errors"], figures["overruns"]),
+                        (transport, slaves, 0, 0),
+                    )
                     self.assertGreater(figures["cycles"], 20)
                     self.assertGreaterEqual(figures["all_cycles"], figures["cycles"])
                     self.assertGreater(figures["rtt_p50_us"], 0)
@@ -45,13 +71,17 @@ class Bench(unittest.TestCase):
         for transport in ("udp", "tcp"):
             with self.subTest(transport=transport):
                 figures = self.figures("--transport", transport, "--slaves", "3", "--sealed")
-                self.assertEqual((figures["variant"], figures["errors"], figures["overruns"]), (f"{transport} sealed", 0, 0))
+                self.assertEqual(
+                    (figures["variant"], figures["errors"], figures["overruns"]), (f"{transport} sealed", 0, 0)
+                )
                 self.assertGreater(figures["cycles"], 20)
 
     def test_a_paced_run_keeps_its_grid(self):
         figures = self.figures("--period-us", "5000", "--slaves", "2")
         self.assertEqual(set(figures), PACED_KEYS)
-        self.assertAlmostEqual(figures["cycles"] + figures["overruns"], figures["seconds"] / 0.005, delta=0.3 * figures["seconds"] / 0.005)
+        self.assertAlmostEqual(
+            figures["cycles"] + figures["overruns"], figures["seconds"] / 0.005, delta=0.3 * figures["seconds"] / 0.005
+        )
         self.assertLess(abs(figures["drift_us"]), 5000)
         self.assertLessEqual(figures["late_p50_us"], figures["late_max_us"])
 
@@ -64,8 +94,15 @@ class Bench(unittest.TestCase):
         self.assertEqual((figures["in"], figures["out"], figures["errors"]), (1, 1000, 0))
 
     def test_bad_calls_are_refused_in_one_sentence(self):
-        for arguments, text in ((["--transport", "pigeon"], "use one of"), (["--slaves", "0"], "1 ... 250"), (["--sealed", "--transport", "local"], "not sealed"), (["--period-us", "9"], "use 10 or more"),
-                                (["--period-us", "-1"], "0 ... 10000000"), (["--seconds", "x"], "--seconds"), (["--nonsense"], "nonsense")):
+        for arguments, text in (
+            (["--transport", "pigeon"], "use one of"),
+            (["--slaves", "0"], "1 ... 250"),
+            (["--sealed", "--transport", "local"], "not sealed"),
+            (["--period-us", "9"], "use 10 or more"),
+            (["--period-us", "-1"], "0 ... 10000000"),
+            (["--seconds", "x"], "--seconds"),
+            (["--nonsense"], "nonsense"),
+        ):
             with self.subTest(arguments=arguments):
                 result = run(*arguments)
                 self.assertEqual((result.returncode, result.stdout), (2, ""))

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""qtplc_plot_bench as its users see it: figures that fit together, and bad calls. Speeds are not judged here: docs/control-center-figures.md.
+"""qtplc_plot_bench as its users see it: figures that fit together, and bad calls. Speeds are not
+judged here: docs/control-center-figures.md.
 
 usage: tst_plot_bench.py PROGRAM
 """
@@ -13,12 +14,37 @@ import tempfile
 import unittest
 
 PROGRAM = sys.argv.pop(1)
-KEYS = {"plots", "curves", "points", "channels", "fps", "line_width", "noise", "mode", "columns", "frames", "drawn_plots", "cpu_percent", "frame_p50_ms", "frame_p99_ms",
-        "append_ns", "range_ns", "bytes_per_sample", "store_mb", "resident_mb"}
+KEYS = {
+    "plots",
+    "curves",
+    "points",
+    "channels",
+    "fps",
+    "line_width",
+    "noise",
+    "mode",
+    "columns",
+    "frames",
+    "drawn_plots",
+    "cpu_percent",
+    "frame_p50_ms",
+    "frame_p99_ms",
+    "append_ns",
+    "range_ns",
+    "bytes_per_sample",
+    "store_mb",
+    "resident_mb",
+}
 
 
 def run(*arguments):
-    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=120, env={**os.environ, "QT_QPA_PLATFORM": "offscreen"})
+    return subprocess.run(
+        [PROGRAM, *arguments],
+        capture_output=True,
+        text=True,
+        timeout=120,
+        env={**os.environ, "QT_QPA_PLATFORM": "offscreen"},
+    )
 
 
 class Bench(unittest.TestCase):
@@ -37,7 +63,9 @@ class Bench(unittest.TestCase):
         self.assertEqual((figures["frames"], figures["drawn_plots"], figures["channels"]), (20, 60, 6))
 
     def test_new_columns_draw_as_often_as_there_are_new_ones(self):
-        figures = self.figures("--plots", "2", "--mode", "new-column", "--points", "100000")  # columns of more than 100 ms
+        figures = self.figures(
+            "--plots", "2", "--mode", "new-column", "--points", "100000"
+        )  # columns of more than 100 ms
         new_columns = 400 / (100000 / figures["columns"])
         self.assertAlmostEqual(figures["drawn_plots"] / 2, new_columns, delta=1)
 
@@ -71,8 +99,16 @@ class Bench(unittest.TestCase):
             self.assertIn(option, result.stdout)
 
     def test_bad_calls_are_refused_in_one_sentence(self):
-        for arguments, text in ((["--plots", "0"], "1 ... 64"), (["--points", "x"], "--points x"), (["--curves", "1.5"], "whole number"), (["--mode", "sometimes"], "new-column"),
-                                (["--channels", "3"], "use 32 or more"), (["--seconds", "0"], "0.01 ..."), (["--nonsense"], "nonsense"), (["plot"], "options only")):
+        for arguments, text in (
+            (["--plots", "0"], "1 ... 64"),
+            (["--points", "x"], "--points x"),
+            (["--curves", "1.5"], "whole number"),
+            (["--mode", "sometimes"], "new-column"),
+            (["--channels", "3"], "use 32 or more"),
+            (["--seconds", "0"], "0.01 ..."),
+            (["--nonsense"], "nonsense"),
+            (["plot"], "options only"),
+        ):
             with self.subTest(arguments=arguments):
                 result = run(*arguments)
                 self.assertEqual((result.returncode, result.stdout), (2, ""))

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs a master and its slaves for a fixed number of cycles, and counts what they cost. Used by budget.py."""
+"""Runs a master and its slaves for a fixed number of cycles, and counts what they cost. Used by
+budget.py."""
 import json
 import re
 import shutil
@@ -35,17 +36,24 @@ class Runs:
 
     # ---- processes ----
     def run(self, transport, slaves, cycles, period_us=0, master_under=(), slave_under=()):
-        """One phase. Returns what the master and the first slave say; slave_under is for the first slave."""
+        """One phase. Returns what the master and the first slave say; slave_under is for the first
+        slave."""
         processes = []
         plant = [f"--plant={self.plant}"] if self.plant else []
 
         def start(under, *arguments):
-            processes.append(subprocess.Popen([*under, self.program, f"--cycles={cycles}", *arguments], stdout=subprocess.PIPE, text=True))
+            processes.append(
+                subprocess.Popen(
+                    [*under, self.program, f"--cycles={cycles}", *arguments], stdout=subprocess.PIPE, text=True
+                )
+            )
             return processes[-1]
 
         try:
             in_process = plant if transport == "inprocess" else []
-            master = start(master_under, f"--transport={transport}", f"--slaves={slaves}", f"--period-us={period_us}", *in_process)
+            master = start(
+                master_under, f"--transport={transport}", f"--slaves={slaves}", f"--period-us={period_us}", *in_process
+            )
             port = json.loads(master.stdout.readline() or "{}").get("port")
             if port is None:
                 raise Failed("the master did not start")
@@ -61,7 +69,9 @@ class Runs:
                     process.kill()
                     process.wait()
         if any(process.returncode for process in processes) or not answers[0]:
-            raise Failed(f"{transport} with {slaves} slaves: exit codes {[process.returncode for process in processes]}")
+            raise Failed(
+                f"{transport} with {slaves} slaves: exit codes {[process.returncode for process in processes]}"
+            )
         return answers[0], answers[-1] if slaves == 1 or transport == "inprocess" else answers[1]
 
     def difference(self, what, lengths=LENGTHS):
@@ -96,12 +106,18 @@ class Runs:
 
     # ---- bytes ----
     def frames(self):
-        """Bytes of the frames of a slave with 3 inputs and 32 outputs, and of both on the wire, as its system calls show them."""
+        """Bytes of the frames of a slave with 3 inputs and 32 outputs, and of both on the wire, as
+        its system calls show them."""
         needed("strace", "-qq", "-o", "/dev/null", "true")
         cycles = 200
         with tempfile.TemporaryDirectory() as folder:
             trace = Path(folder) / "trace"
-            self.run("udp", 1, cycles, slave_under=("strace", "-f", "-qq", "-yy", "-s0", "-e", "trace=%network", "-o", str(trace)))
+            self.run(
+                "udp",
+                1,
+                cycles,
+                slave_under=("strace", "-f", "-qq", "-yy", "-s0", "-e", "trace=%network", "-o", str(trace)),
+            )
             calls = re.findall(r"(recv|send)\w*\(\d+<UDP:[^\n]*\) = (\d+)$", trace.read_text(), flags=re.M)
         sizes = {kind: [int(size) for name, size in calls if name == kind] for kind in ("recv", "send")}
         if not all(len(seen) >= cycles for seen in sizes.values()):
@@ -119,7 +135,11 @@ class Runs:
                 result, log = Path(folder) / "callgrind", Path(folder) / "log"
                 under = ("valgrind", "--tool=callgrind", f"--callgrind-out-file={result}", f"--log-file={log}")
                 self.run(transport, slaves, cycles, **{f"{who}_under": under})
-                totals = re.findall(r"^(?:totals|summary): (\d+)", result.read_text(), flags=re.M) if result.is_file() else []
+                totals = (
+                    re.findall(r"^(?:totals|summary): (\d+)", result.read_text(), flags=re.M)
+                    if result.is_file()
+                    else []
+                )
                 if not totals:
                     raise Failed(f"callgrind gave no total: {log.read_text()}")
                 return {"instructions": int(totals[-1])}

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Plants costs in the step of a slave, and checks that budget.py finds each of them and says what to do. Of a build without a budget it says that it is skipped.
+"""Plants costs in the step of a slave, and checks that budget.py finds each of them and says what
+to do. Of a build without a budget it says that it is skipped.
 
 usage: tst_budget.py PROGRAM BUILD
 """
@@ -29,13 +30,20 @@ def judge(program, build, planted):
     run = budget(program, build, "--plant", planted, "--only", case)
     if run.returncode == SKIPPED:
         return SKIPPED, run.stdout
-    found = run.returncode == 1 and re.search(rf"BUDGET EXCEEDED: {re.escape(text)}: a cycle costs [1-9].*the budget is \d", run.stdout) and "--write" in run.stdout
+    found = (
+        run.returncode == 1
+        and re.search(rf"BUDGET EXCEEDED: {re.escape(text)}: a cycle costs [1-9].*the budget is \d", run.stdout)
+        and "--write" in run.stdout
+    )
     return 0 if found else 1, run.stdout + run.stderr
 
 
 def skips_debug_builds(program):
     run = budget(program, "GNU 12 Debug x86_64", "--only", "instructions")
-    says = "SKIPPED instructions, GNU 12 Debug x86_64: inprocess: this build is not judged, but GNU 12 -O2 x86_64" in run.stdout
+    says = (
+        "SKIPPED instructions, GNU 12 Debug x86_64: inprocess: this build is not judged, but GNU 12 -O2 x86_64"
+        in run.stdout
+    )
     print("skipped: a Debug build" if says else f"NOT SKIPPED: a Debug build\n{run.stdout}{run.stderr}")
     return run.returncode == SKIPPED and says
 
@@ -45,7 +53,12 @@ def main():
     for planted in PLANTED:
         code, output = judge(sys.argv[1], sys.argv[2], planted)
         codes.append(code)
-        print({0: f"found: {planted}", 1: f"NOT FOUND: {planted}\n{output}", SKIPPED: f"SKIPPED {planted}: {output}"}[code], flush=True)
+        print(
+            {0: f"found: {planted}", 1: f"NOT FOUND: {planted}\n{output}", SKIPPED: f"SKIPPED {planted}: {output}"}[
+                code
+            ],
+            flush=True,
+        )
     return 1 if 1 in codes else max(codes)
 
 

@@ -1,11 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Checks that each public header reads as a manual page: doxygen documents everything that it declares, and its class has an
-example, a thread rule and a group. Functions that override a documented one may inherit its comment.
+"""Checks that each public header reads as a manual page: doxygen documents everything that it
+declares, and its class has an example, a thread rule and a group. Functions that override a
+documented one may inherit its comment.
 
 usage: headers.py check SOURCE_FOLDER WORK_FOLDER [DOXYGEN]
-       headers.py sample NUMBER SOURCE_FOLDER WORK_FOLDER   a random choice of what is documented, for a reader
-       headers.py examples SOURCE_FOLDER OUTPUT_FOLDER      writes examples_LIBRARY.cpp with the examples of all headers
+       headers.py sample NUMBER SOURCE_FOLDER WORK_FOLDER
+           a random choice of what is documented, for a reader
+       headers.py examples SOURCE_FOLDER OUTPUT_FOLDER
+           writes examples_LIBRARY.cpp with the examples of all headers
 """
 import random
 import re
@@ -14,7 +17,8 @@ import sys
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
-# Library: its umbrella header, and what its examples use of Qt. A header that no other umbrella names belongs to the first.
+# Library: its umbrella header, and what its examples use of Qt. A header that no other umbrella
+# names belongs to the first.
 LIBRARIES = {
     "core": ("QtPlcCore", "<QtNetwork/QtNetwork>"),
     "hardware": ("QtPlcHardware", "<QtNetwork/QtNetwork>"),
@@ -62,19 +66,31 @@ def is_inherited(member):
 
 def entries(roots):
     """Everything that a user of the headers can name: its place, its declaration, its text."""
-    compounds = [(each, each.get("kind"), text_of(each.find("compoundname"))) for root in roots for each in root.findall("compounddef")]
-    hidden = tuple(f"{name}::" for compound, kind, name in compounds if kind in CLASS and compound.get("prot") == "private")
+    compounds = [
+        (each, each.get("kind"), text_of(each.find("compoundname")))
+        for root in roots
+        for each in root.findall("compounddef")
+    ]
+    hidden = tuple(
+        f"{name}::" for compound, kind, name in compounds if kind in CLASS and compound.get("prot") == "private"
+    )
     for compound, kind, name in compounds:
         if kind not in CLASS | {"file"} or f"{name}::".startswith(hidden):
             continue
         if kind in CLASS:
             yield compound.find("location"), name, description(compound)
         for member in compound.iter("memberdef"):
-            if member.get("prot") == "private" or re.match(r"friend (class|struct)", text_of(member.find("definition")) + " "):
+            if member.get("prot") == "private" or re.match(
+                r"friend (class|struct)", text_of(member.find("definition")) + " "
+            ):
                 continue
             if kind == "file" and member.get("kind") == "define" and not description(member):
                 continue  # of a list of macros that say the same in turn, the first has the comment
-            whole = f"{name}::{text_of(member.find('name'))}{text_of(member.find('argsstring'))}" if kind in CLASS else text_of(member.find("name"))
+            whole = (
+                f"{name}::{text_of(member.find('name'))}{text_of(member.find('argsstring'))}"
+                if kind in CLASS
+                else text_of(member.find("name"))
+            )
             for value in member.findall("enumvalue"):
                 yield member.find("location"), f"{name}::{text_of(value.find('name'))}", description(value)
             if description(member) or not is_inherited(member):
@@ -92,8 +108,16 @@ def pages(roots):
 def check(source, work, doxygen):
     roots = run_doxygen(doxygen, source, work)
     found = list(entries(roots))
-    errors = [f"{place.get('file')}:{place.get('line')}: {name} has no comment" for place, name, text in found if not text]
-    grouped = {text_of(inner) for root in roots for group in root.findall("compounddef") if group.get("kind") == "group" for inner in group.findall("innerclass")}
+    errors = [
+        f"{place.get('file')}:{place.get('line')}: {name} has no comment" for place, name, text in found if not text
+    ]
+    grouped = {
+        text_of(inner)
+        for root in roots
+        for group in root.findall("compounddef")
+        if group.get("kind") == "group"
+        for inner in group.findall("innerclass")
+    }
     for compound, name in pages(roots):
         place = compound.find("location")
         where = f"{place.get('file')}:{place.get('line')}: {name}"
@@ -109,13 +133,16 @@ def check(source, work, doxygen):
 
 
 def sample(number, source, work):
-    for place, name, text in random.sample([entry for entry in entries(run_doxygen("doxygen", source, work)) if entry[2]], number):
+    for place, name, text in random.sample(
+        [entry for entry in entries(run_doxygen("doxygen", source, work)) if entry[2]], number
+    ):
         print(f"{name}\n    {text}")
     return 0
 
 
 def examples_of(header):
-    """C++ between \\code and \\endcode, and the line where it begins. Other languages are named, as in \\code{.ini}."""
+    """C++ between \\code and \\endcode, and the line where it begins. Other languages are named, as
+    in \\code{.ini}."""
     lines = header.read_text().split("\n")
     begin = None
     for number, line in enumerate(lines, 1):
@@ -123,18 +150,26 @@ def examples_of(header):
         if comment == "/// \\code":
             begin = number
         elif comment == "/// \\endcode" and begin is not None:
-            yield begin + 1, [re.sub(r"^\s*/// ?", "", text) for text in lines[begin:number - 1]]
+            yield begin + 1, [re.sub(r"^\s*/// ?", "", text) for text in lines[begin : number - 1]]
             begin = None
 
 
 def write_examples(source, output):
-    """An example stands in a namespace of its own, and in a function unless it is a whole program."""
+    """An example stands in a namespace of its own, and in a function unless it is a whole
+    program."""
     public = source / "include/QtPlc"
-    owner = {name: library for library, (umbrella, _) in LIBRARIES.items() for name in re.findall(r'#include "(\w+\.h)"', (public / umbrella).read_text())}
+    owner = {
+        name: library
+        for library, (umbrella, _) in LIBRARIES.items()
+        for name in re.findall(r'#include "(\w+\.h)"', (public / umbrella).read_text())
+    }
     output.mkdir(parents=True, exist_ok=True)
     for library, (umbrella, qt) in LIBRARIES.items():
         text = [f"// Made by headers.py of the examples of the public headers.\n#include {qt}\n#include <{umbrella}>\n"]
-        text += [f'#pragma GCC diagnostic ignored "-W{warning}"' for warning in ("unused-variable", "unused-parameter", "unused-but-set-variable", "unused-local-typedefs")]
+        text += [
+            f'#pragma GCC diagnostic ignored "-W{warning}"'
+            for warning in ("unused-variable", "unused-parameter", "unused-but-set-variable", "unused-local-typedefs")
+        ]
         for header in sorted(public.glob("*.h")):
             if owner.get(header.name) != library:
                 continue
@@ -154,7 +189,11 @@ def write_examples(source, output):
 def main():
     command, *arguments = sys.argv[1:]
     if command == "check":
-        return check(Path(arguments[0]).resolve(), Path(arguments[1]).resolve(), arguments[2] if len(arguments) > 2 else "doxygen")
+        return check(
+            Path(arguments[0]).resolve(),
+            Path(arguments[1]).resolve(),
+            arguments[2] if len(arguments) > 2 else "doxygen",
+        )
     if command == "sample":
         return sample(int(arguments[0]), Path(arguments[1]).resolve(), Path(arguments[2]).resolve())
     if command == "examples":

@@ -63,7 +63,9 @@ class Headers(unittest.TestCase):
             for name in ("Doxyfile.in", "reference.dox"):
                 (root / "docs" / name).write_text((SOURCE / "docs" / name).read_text())
             (root / "include/QtPlc/QPlcValve.h").write_text(page)
-            run = subprocess.run([sys.executable, "-B", HEADERS, "check", root, root / "work", DOXYGEN], capture_output=True, text=True)
+            run = subprocess.run(
+                [sys.executable, "-B", HEADERS, "check", root, root / "work", DOXYGEN], capture_output=True, text=True
+            )
             self.assertEqual(run.stderr, "")
             return run.returncode, run.stdout
 
@@ -80,10 +82,15 @@ class Headers(unittest.TestCase):
         self.assertIn("9 of 9 public names have a comment", output)
 
     def test_each_comment_that_is_missing_is_named(self):
-        for comment, name in (("    /// How far it is open.\n", "QPlcValve::State"),
-                              ("  ///< no flow", "QPlcValve::Closed"), ("    /// Opens the valve.\n", "QPlcValve::open()"),
-                              ("    /// Returns how far it is open.\n", "QPlcValve::state() const"), ("  ///< of its wheel", "QPlcValve::turns"),
-                              ("    /// Emitted when it has opened.\n", "QPlcValve::opened()"), ("    /// Called when it leaks.\n", "QPlcValve::leaked()")):
+        for comment, name in (
+            ("    /// How far it is open.\n", "QPlcValve::State"),
+            ("  ///< no flow", "QPlcValve::Closed"),
+            ("    /// Opens the valve.\n", "QPlcValve::open()"),
+            ("    /// Returns how far it is open.\n", "QPlcValve::state() const"),
+            ("  ///< of its wheel", "QPlcValve::turns"),
+            ("    /// Emitted when it has opened.\n", "QPlcValve::opened()"),
+            ("    /// Called when it leaks.\n", "QPlcValve::leaked()"),
+        ):
             with self.subTest(name):
                 self.assert_named(comment, f"{name} has no comment")
 

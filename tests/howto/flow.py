@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Does what docs/howto tells its reader with the weather station: the model writes the wind; the vane is wired, and its values take the place of those of the model; it falls silent, is unplugged and comes
-back; its node is killed and comes back. Nobody stops the plant.
+"""Does what docs/howto tells its reader with the weather station: the model writes the wind; the
+vane is wired, and its values take the place of those of the model; it falls silent, is unplugged
+and comes back; its node is killed and comes back. Nobody stops the plant.
 """
 import argparse
 import os
@@ -29,7 +30,8 @@ def await_that(condition, text):
 
 
 class Vane:
-    """A wind vane at the other end of a line: says its angle ten times a second, unless it is silent."""
+    """A wind vane at the other end of a line: says its angle ten times a second, unless it is
+    silent."""
 
     def __init__(self):
         self.descriptor, line = pty.openpty()
@@ -72,7 +74,12 @@ class Plant:
         return path.read_text()
 
     def qtplc(self, *arguments):
-        run = subprocess.run([self.options.qtplc, "--master", self.address, *arguments], capture_output=True, text=True, timeout=LONGEST_WAIT)
+        run = subprocess.run(
+            [self.options.qtplc, "--master", self.address, *arguments],
+            capture_output=True,
+            text=True,
+            timeout=LONGEST_WAIT,
+        )
         require(run.returncode == 0, f"qtplc {' '.join(arguments)} gives {run.returncode}: {run.stderr}")
         return run.stdout
 
@@ -83,7 +90,10 @@ class Plant:
         await_that(lambda: self.value("windDirection") == angle, f"windDirection is never {angle}")
 
     def await_model(self):
-        await_that(lambda: 180.0 < self.value("windDirection") < 200.0 or self.value("windDirection") == 180.0, "windDirection is never that of the model")
+        await_that(
+            lambda: 180.0 < self.value("windDirection") < 200.0 or self.value("windDirection") == 180.0,
+            "windDirection is never that of the model",
+        )
 
     def kill(self, name):
         self.programs[name].kill()

@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Types a page of docs/howto as written, from an installed package, after the tutorial: in ~/winch are its programs.
+"""Types a page of docs/howto as written, from an installed package, after the tutorial: in ~/winch
+are its programs.
 
-usage: typed_howtos.py PAGE SOURCE_FOLDER BUILD_FOLDER        PAGE: wire-a-sensor, simulink-model, write-a-panel or test-a-plant
+usage: typed_howtos.py PAGE SOURCE_FOLDER BUILD_FOLDER
+PAGE: wire-a-sensor, simulink-model, write-a-panel or test-a-plant
 """
 import subprocess
 import sys
@@ -32,33 +34,54 @@ class Plant:
 
     def value(self, signal):
         """None: not yet. Beside what the page types, so that its terminal shows only that."""
-        run = subprocess.run([self.home / "qtplc" / "bin" / "qtplc", "get", signal, "--plain"], env=self.terminal.environment, capture_output=True, text=True)
+        run = subprocess.run(
+            [self.home / "qtplc" / "bin" / "qtplc", "get", signal, "--plain"],
+            env=self.terminal.environment,
+            capture_output=True,
+            text=True,
+        )
         return float(run.stdout) if run.returncode == 0 else None
 
     def await_value(self, signal, condition, text):
         def comes():
             value = self.value(signal)
             return value is not None and condition(value)
-        await_that(comes, lambda: f"{signal} {text} never comes, it is {self.value(signal)}; the terminal shows {self.terminal.shown[-1500:]}")
+
+        await_that(
+            comes,
+            lambda: f"{signal} {text} never comes, it is {self.value(signal)}; "
+            f"the terminal shows {self.terminal.shown[-1500:]}",
+        )
 
     def await_nodes(self, count):
         def registered():
             self.terminal.take(0.1)
             return self.terminal.shown.count("registered at") >= count
+
         await_that(registered, lambda: f"{count} nodes never register: {self.terminal.shown[-1500:]}")
 
 
 def wire_a_sensor(plant):
     terminal, device = plant.terminal, plant.home / "winch" / "devices" / "wind"
     return {
-        "python3 play_wind.py wind &": Expectation(after=lambda: await_that(device.exists, lambda: "the sensor that is played never comes")),
+        "python3 play_wind.py wind &": Expectation(
+            after=lambda: await_that(device.exists, lambda: "the sensor that is played never comes")
+        ),
         "qtplc_hardware wind.ini --check": Expectation(shows=r"relativeSpeed +-> windSpeed"),
         "qtplc_hardware wind.ini --monitor": Expectation(shows=r"windSpeed +5\.1", keys=(r"windSpeed +5\.1", b"\x03")),
         "build/winch_master &": Expectation(after=lambda: terminal.await_text("port 50000")),
         "qtplc_hardware wind.ini --master localhost &": Expectation(after=lambda: plant.await_nodes(1)),
-        "qtplc get windSpeed windDirection": Expectation(shows=r"(?s)5\.1.*214\.8", before=lambda: plant.await_value("windSpeed", lambda speed: speed == 5.1, "= 5.1")),
-        "kill %1": Expectation(after=lambda: plant.await_value("windSpeed", lambda speed: speed == 0.0, "= 0, its safe value,")),
-        "qtplc watch 'wind*'": Expectation(before=lambda: plant.await_value("windSpeed", lambda speed: speed == 5.1, "= 5.1, again,"), keys=("windSpeed", b"q")),
+        "qtplc get windSpeed windDirection": Expectation(
+            shows=r"(?s)5\.1.*214\.8",
+            before=lambda: plant.await_value("windSpeed", lambda speed: speed == 5.1, "= 5.1"),
+        ),
+        "kill %1": Expectation(
+            after=lambda: plant.await_value("windSpeed", lambda speed: speed == 0.0, "= 0, its safe value,")
+        ),
+        "qtplc watch 'wind*'": Expectation(
+            before=lambda: plant.await_value("windSpeed", lambda speed: speed == 5.1, "= 5.1, again,"),
+            keys=("windSpeed", b"q"),
+        ),
     }
 
 
@@ -69,7 +92,9 @@ def simulink_model(plant):
         plant.await_value("tetherLength", lambda length: length <= 301.0, "<= 301")
 
     return {
-        "~/winch/build/winch_master --signals ~/winch/winch.ini &": Expectation(after=lambda: plant.terminal.await_text("port 50000")),
+        "~/winch/build/winch_master --signals ~/winch/winch.ini &": Expectation(
+            after=lambda: plant.terminal.await_text("port 50000")
+        ),
         "~/winch/build/winch_operator &": Expectation(after=lambda: plant.await_nodes(2)),
         "qtplc start": Expectation(after=flies),
         "qtplc list": Expectation(shows="tetherLength.*Winch"),
@@ -78,7 +103,9 @@ def simulink_model(plant):
 
 def write_a_panel(plant):
     return {
-        "~/winch/build/winch_master --signals ~/winch/winch.ini &": Expectation(after=lambda: plant.terminal.await_text("port 50000")),
+        "~/winch/build/winch_master --signals ~/winch/winch.ini &": Expectation(
+            after=lambda: plant.terminal.await_text("port 50000")
+        ),
         "~/winch/build/winch_operator &": Expectation(after=lambda: plant.await_nodes(1)),
         "build/my_window &": Expectation(after=lambda: plant.await_nodes(2)),
     }
@@ -89,7 +116,9 @@ def test_a_plant(_plant):
 
 
 def run(*command):
-    result = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    result = subprocess.run(
+        [str(word) for word in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+    )
     require(result.returncode == 0, f"{' '.join(map(str, command))} fails:\n{result.stdout[-4000:]}")
 
 
@@ -114,9 +143,16 @@ def main():
         terminal = Terminal(home, {"PATH": f"{home}/qtplc/bin:/usr/local/bin:/usr/bin:/bin"})
         plant = Plant(home, terminal)
         try:
-            expected, folder = {"wire-a-sensor": (wire_a_sensor, "winch"), "simulink-model": (simulink_model, "winch_model"), "write-a-panel": (write_a_panel, "my_window"), "test-a-plant": (test_a_plant, "winch_tests")}[page]
+            expected, folder = {
+                "wire-a-sensor": (wire_a_sensor, "winch"),
+                "simulink-model": (simulink_model, "winch_model"),
+                "write-a-panel": (write_a_panel, "my_window"),
+                "test-a-plant": (test_a_plant, "winch_tests"),
+            }[page]
             terminal.type(f"cd ~/{folder}")
-            Reader(source / "docs" / "howto" / f"{page}.md", home / folder, terminal, expected(plant), NOT_TYPED[page]).follow()
+            Reader(
+                source / "docs" / "howto" / f"{page}.md", home / folder, terminal, expected(plant), NOT_TYPED[page]
+            ).follow()
         finally:
             terminal.close()
     print(f"{page} works as written")

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Checks who includes whom, what each room may know, and the length of functions: docs/design/layers.md says why.
+"""Checks who includes whom, what each room may know, and the length of functions:
+docs/design/layers.md says why.
 
 usage: layers.py SOURCE_FOLDER
 """
@@ -10,7 +11,8 @@ import sys
 from pathlib import Path
 
 BELOW_NODE = {"signals", "realtime", "transport", "protocol", "protocol/messages"}
-# Room: the rooms whose headers it may include. The public headers of all rooms of the node belong to "node".
+# Room: the rooms whose headers it may include. The public headers of all rooms of the node belong
+# to "node".
 ARROWS = {
     "signals": {"signals"},
     "realtime": {"realtime"},
@@ -23,12 +25,25 @@ ARROWS = {
     "node/security": BELOW_NODE | {"node", "node/security"},
     "node/cycle": BELOW_NODE | {"node", "node/cycle"},
     "node/statistics": BELOW_NODE | {"node", "node/cycle", "node/statistics"},
-    "node/session": BELOW_NODE | {"node", "node/state", "node/security", "node/cycle", "node/statistics", "node/session"},
-    "node/api": BELOW_NODE | {"node", "node/state", "node/security", "node/cycle", "node/statistics", "node/session", "node/api"},
+    "node/session": BELOW_NODE
+    | {"node", "node/state", "node/security", "node/cycle", "node/statistics", "node/session"},
+    "node/api": BELOW_NODE
+    | {"node", "node/state", "node/security", "node/cycle", "node/statistics", "node/session", "node/api"},
     "hardware": {"signals", "realtime", "node", "node/session", "hardware"},
     "gui": {"signals", "node", "gui"},
     "gui/store": {"signals", "gui/store"},
-    "gui/plant": {"signals", "protocol", "protocol/messages", "node", "node/state", "node/cycle", "node/session", "gui", "gui/store", "gui/plant"},
+    "gui/plant": {
+        "signals",
+        "protocol",
+        "protocol/messages",
+        "node",
+        "node/state",
+        "node/cycle",
+        "node/session",
+        "gui",
+        "gui/store",
+        "gui/plant",
+    },
     "gui/plot": {"signals", "node", "gui", "gui/store", "gui/plant", "gui/plot"},
     "gui/models": {"signals", "node", "node/state", "gui", "gui/plant", "gui/models"},
     "gui/panel": {"signals", "node", "gui", "gui/plant", "gui/plot", "gui/models", "gui/panel"},
@@ -39,19 +54,61 @@ ARROWS = {
     "gui/tables": {"signals", "node", "gui", "gui/models", "gui/panel", "gui/tables"},
     "gui/layout": {"signals", "node", "gui", "gui/panel", "gui/layout"},
     # It makes panels by their names (QPlcWidgetFactory).
-    "gui/window": {"signals", "node", "node/state", "node/session", "gui", "gui/plant", "gui/models", "gui/panel", "gui/layout", "gui/window"},
+    "gui/window": {
+        "signals",
+        "node",
+        "node/state",
+        "node/session",
+        "gui",
+        "gui/plant",
+        "gui/models",
+        "gui/panel",
+        "gui/layout",
+        "gui/window",
+    },
     "gui3d": {"signals", "node", "gui", "gui/panel", "gui3d"},
     "test_support": BELOW_NODE | {"node", "test_support"},
-    "tools": BELOW_NODE | {"node", "node/state", "node/security", "node/cycle", "node/statistics", "node/session", "tools"},
+    "tools": BELOW_NODE
+    | {"node", "node/state", "node/security", "node/cycle", "node/statistics", "node/session", "tools"},
 }
-# Room with a library of its own: folder of its list of headers, and its umbrella header. All others belong to QtPlc::Core.
-LIBRARIES = {"hardware": ("src/hardware", "QtPlcHardware"), "gui": ("src/gui", "QtPlcGui"), "gui3d": ("src/gui3d", "QtPlcGui3D"), "test_support": ("src/test_support", "QtPlcTest"), "test": ("src/test_support", "QtPlcTest")}
+# Room with a library of its own: folder of its list of headers, and its umbrella header. All others
+# belong to QtPlc::Core.
+LIBRARIES = {
+    "hardware": ("src/hardware", "QtPlcHardware"),
+    "gui": ("src/gui", "QtPlcGui"),
+    "gui3d": ("src/gui3d", "QtPlcGui3D"),
+    "test_support": ("src/test_support", "QtPlcTest"),
+    "test": ("src/test_support", "QtPlcTest"),
+}
 # Public headers without a source file of their own; "all": a plain value that every room may use.
 HEADER_ONLY = {
-    "QPlcBoundInput": "node", "QPlcBoundOutput": "node", "QPlcClock": "all", "QPlcCycle": "all",
-    "QPlcCycleStatistics": "all", "QPlcDistribution": "all", "QPlcDurationStatistics": "all", "QPlcGlobal": "all",
-    "QPlcGuiGlobal": "gui", "QPlcGui3DGlobal": "gui3d", "QPlcHardwareGlobal": "hardware", "QPlcReadChannel": "hardware", "QPlcWriteChannel": "hardware", "QPlcInput": "node", "QPlcInputTiming": "all", "QPlcLease": "node", "QPlcMasterStatistics": "all", "QPlcNodeInfo": "all", "QPlcNodeStatistics": "all", "QPlcOutput": "node",
-    "QPlcRealTimeSetting": "realtime", "QPlcSignalDefinition": "signals", "QPlcSimulatedRoad": "test_support", "QPlcSlaveStatistics": "node", "QPlcStatisticFigure": "node", "QPlcWidgetFactoryOf": "gui", "QPlcWorstCycle": "all",
+    "QPlcBoundInput": "node",
+    "QPlcBoundOutput": "node",
+    "QPlcClock": "all",
+    "QPlcCycle": "all",
+    "QPlcCycleStatistics": "all",
+    "QPlcDistribution": "all",
+    "QPlcDurationStatistics": "all",
+    "QPlcGlobal": "all",
+    "QPlcGuiGlobal": "gui",
+    "QPlcGui3DGlobal": "gui3d",
+    "QPlcHardwareGlobal": "hardware",
+    "QPlcReadChannel": "hardware",
+    "QPlcWriteChannel": "hardware",
+    "QPlcInput": "node",
+    "QPlcInputTiming": "all",
+    "QPlcLease": "node",
+    "QPlcMasterStatistics": "all",
+    "QPlcNodeInfo": "all",
+    "QPlcNodeStatistics": "all",
+    "QPlcOutput": "node",
+    "QPlcRealTimeSetting": "realtime",
+    "QPlcSignalDefinition": "signals",
+    "QPlcSimulatedRoad": "test_support",
+    "QPlcSlaveStatistics": "node",
+    "QPlcStatisticFigure": "node",
+    "QPlcWidgetFactoryOf": "gui",
+    "QPlcWorstCycle": "all",
     "QSplitPrimitive": "signals",
 }
 INCLUDE = r'^\s*#\s*include\s+"([^"]+)"'
@@ -70,29 +127,45 @@ FORBIDDEN = {
 }
 # Lines of a function, from its name to its last brace: at most, and for 99 of 100.
 MOST_LINES, USUAL_LINES = 80, 40
-# Fields of control messages have their names in src/protocol/messages alone. Elsewhere nobody reads a QPlcMessage by
-# names, or makes one with fields: messages come and go as structs.
+# Fields of control messages have their names in src/protocol/messages alone. Elsewhere nobody reads
+# a QPlcMessage by names, or makes one with fields: messages come and go as structs.
 NAME = r"(?:QStringLiteral|QLatin1String)\("
-BY_NAME = re.compile(rf"(?<!settings)(?<!reader)\.(?:hex64|text|bytes)\({NAME}"
-                     r"|(?:[mM]essage|answer|hello|reply|request|question|rejected)\.fields\(\)"
-                     rf"|\.fields\(\)(?:\.(?:value|contains|find|take|keys)\(|\[{NAME})"
-                     r"|\b(?:QPlc)?Message(?:\s+\w+)?\s*[({]\s*(?:QPlc)?Message::\w+\s*,"
-                     r"|\{\{QStringLiteral\(\"(?:error|text|name)\"\)")
-# JSON that is no message: settings and layouts of windows, configurations of devices, what transports add to a
-# registration. The tool writes documents for --json, and reads none. All other rooms know no JSON.
+BY_NAME = re.compile(
+    rf"(?<!settings)(?<!reader)\.(?:hex64|text|bytes)\({NAME}"
+    r"|(?:[mM]essage|answer|hello|reply|request|question|rejected)\.fields\(\)"
+    rf"|\.fields\(\)(?:\.(?:value|contains|find|take|keys)\(|\[{NAME})"
+    r"|\b(?:QPlc)?Message(?:\s+\w+)?\s*[({]\s*(?:QPlc)?Message::\w+\s*,"
+    r"|\{\{QStringLiteral\(\"(?:error|text|name)\"\)"
+)
+# JSON that is no message: settings and layouts of windows, configurations of devices, what
+# transports add to a registration. The tool writes documents for --json, and reads none. All other
+# rooms know no JSON.
 HAS_JSON = {
-    "transport", "hardware", "test_support", "gui3d", "gui", "gui/charts", "gui/gauges", "gui/layout", "gui/panel",
-    "gui/plot", "gui/setters", "gui/tables", "gui/window", "gui/models",
+    "transport",
+    "hardware",
+    "test_support",
+    "gui3d",
+    "gui",
+    "gui/charts",
+    "gui/gauges",
+    "gui/layout",
+    "gui/panel",
+    "gui/plot",
+    "gui/setters",
+    "gui/tables",
+    "gui/window",
+    "gui/models",
 }
 JSON = re.compile(r"\bQJson\w+")
 READS_JSON = re.compile(r"\.to(?:Object|Array)\(\)|QJsonDocument::fromJson\(")
 # Panels know the window by QPlcPanelContext alone.
 WINDOW = re.compile(r'[wW]indowContext\b|"gui/(?:window|layout)/')
 PANEL_ROOMS = ("charts", "gauges", "setters", "tables")
-# Clocks, random numbers, sleeps, threads and sockets come from the Host (docs/design/simulation.md), so that a
-# simulator can give others. QTimer and QSocketNotifier belong to the event dispatcher, which a simulator has, too.
-# A word counts wherever it stands in the code. Functions whose name others have, too, count with :: or std:: before
-# them, or with the arguments of the kernel's.
+# Clocks, random numbers, sleeps, threads and sockets come from the Host
+# (docs/design/simulation.md), so that a simulator can give others. QTimer and QSocketNotifier
+# belong to the event dispatcher, which a simulator has, too. A word counts wherever it stands in
+# the code. Functions whose name others have, too, count with :: or std:: before them, or with the
+# arguments of the kernel's.
 GLOBAL = r"(?:(?<![\w>])::|\bstd::)"
 ARGUMENT = r"(?:[^(),;]|\((?:[^()]|\([^()]*\))*\))*"
 
@@ -103,31 +176,33 @@ def with_arguments(name, count):
 
 KERNEL = {
     "a clock": r"\b(?:steady_clock|system_clock|high_resolution_clock|file_clock|clock_get(?:time|res)|gettimeofday|"
-               r"timespec_get|ftime|QElapsedTimer|QDeadlineTimer|current(?:DateTime\w*|MSecs\w*|Secs\w*|Time|Date)(?=\s*\())\b"
-               rf"|{GLOBAL}(?:time|clock|times)\s*\(|(?<![\w:.>])time\s*\(\s*(?:nullptr|NULL|0|&\s*\w+)\s*\)",
+    r"timespec_get|ftime|QElapsedTimer|QDeadlineTimer|current(?:DateTime\w*|MSecs\w*|Secs\w*|Time|Date)(?=\s*\())\b"
+    rf"|{GLOBAL}(?:time|clock|times)\s*\(|(?<![\w:.>])time\s*\(\s*(?:nullptr|NULL|0|&\s*\w+)\s*\)",
     "a timer": r"\b(?:timerfd_\w+|timer_(?:create|settime)|[gs]etitimer|ualarm)\b" rf"|{GLOBAL}alarm\s*\(",
-    "a sleep": r"\b(?:[un]sleep|nanosleep|clock_nanosleep|sleep_for|sleep_until|msleep|qSleep|sigtimedwait|FUTEX_WAIT\w*)\b"
-               rf"|(?<![\w:.>])(?<!void )sleep\s*\(|\bQThread::sleep\b|{GLOBAL}(?:sleep|p?poll|p?select|pause)\s*\("
-               r"|\b(?:ppoll|pselect|epoll_\w+|io_uring_\w+)\s*\("
-               rf"|{with_arguments('poll', 3)}|{with_arguments('select', 5)}",
+    "a sleep": r"\b(?:[un]sleep|nanosleep|clock_nanosleep|sleep_for|sleep_until|msleep|qSleep|sigtimedwait|"
+    r"FUTEX_WAIT\w*)\b"
+    rf"|(?<![\w:.>])(?<!void )sleep\s*\(|\bQThread::sleep\b|{GLOBAL}(?:sleep|p?poll|p?select|pause)\s*\("
+    r"|\b(?:ppoll|pselect|epoll_\w+|io_uring_\w+)\s*\("
+    rf"|{with_arguments('poll', 3)}|{with_arguments('select', 5)}",
     "a wake-up": r"\b(?:eventfd|signalfd)\s*\([^)]",
-    "a random number": r"\b(?:s?rand|rand_r|[dlm]rand48|getrandom|getentropy|arc4random\w*|randombytes_\w+|RAND_\w*bytes|"
-                       r"QRandomGenerator(?:64)?|qs?rand|createUuid\w*|mt19937(?:_64)?|minstd_rand0?|default_random_engine|"
-                       rf"random_device)\b|{GLOBAL}s?random\s*\(",
-    "a thread": r"\b(?:pthread_\w+|thrd_\w+|QThread|QThreadPool|QtConcurrent|QRunnable|QWaitCondition|QSemaphore|QFuture\w*|"
-                r"condition_variable(?:_any)?|std::(?:jthread|thread|async|packaged_task|promise))\b",
-    "a process": r"\b(?:v?fork|posix_spawnp?|exec[lv]p?e?|popen|QProcess|clone3?(?=\s*\([^)]))\b" rf"|{GLOBAL}system\s*\(",
+    "a random number": r"\b(?:s?rand|rand_r|[dlm]rand48|getrandom|getentropy|arc4random\w*|randombytes_\w+|"
+    r"RAND_\w*bytes|QRandomGenerator(?:64)?|qs?rand|createUuid\w*|mt19937(?:_64)?|minstd_rand0?|"
+    rf"default_random_engine|random_device)\b|{GLOBAL}s?random\s*\(",
+    "a thread": r"\b(?:pthread_\w+|thrd_\w+|QThread|QThreadPool|QtConcurrent|QRunnable|QWaitCondition|"
+    r"QSemaphore|QFuture\w*|condition_variable(?:_any)?|std::(?:jthread|thread|async|packaged_task|promise))\b",
+    "a process": r"\b(?:v?fork|posix_spawnp?|exec[lv]p?e?|popen|QProcess|clone3?(?=\s*\([^)]))\b"
+    rf"|{GLOBAL}system\s*\(",
     # Whoever gets a socket may use it: a pointer to one is none.
-    "a socket": r"\b(?:Q(?:Udp|Local|Sctp|Web)Socket|Q(?:Tcp|Local|Sctp|WebSocket)Server|QNetworkAccessManager|QDnsLookup|"
-                r"QHostInfo|socketpair|accept4|getaddrinfo|gethostbyname\w*)\b"
-                r"|(?<!class )\bQ(?:Tcp|Ssl|Abstract)Socket\b(?!\s*(?:[*&]|::))"
-                rf"|{GLOBAL}(?:socket|accept)\s*\(|{with_arguments('socket', 3)}",
+    "a socket": r"\b(?:Q(?:Udp|Local|Sctp|Web)Socket|Q(?:Tcp|Local|Sctp|WebSocket)Server|QNetworkAccessManager|"
+    r"QDnsLookup|QHostInfo|socketpair|accept4|getaddrinfo|gethostbyname\w*)\b"
+    r"|(?<!class )\bQ(?:Tcp|Ssl|Abstract)Socket\b(?!\s*(?:[*&]|::))"
+    rf"|{GLOBAL}(?:socket|accept)\s*\(|{with_arguments('socket', 3)}",
 }
 HOSTED = ("signals", "realtime", "protocol", "transport", "node", "gui", "gui3d", "hardware", "tools")
 # A window shows the time of the person before it, and measures its own drawing.
 OF_ROOM = {"gui": {"a clock"}, "gui3d": {"a clock"}}
-# Why, what, and by which files the machine itself is asked. A list that only shrinks: one day the beacon and the names
-# of a machine belong to a Host, too.
+# Why, what, and by which files the machine itself is asked. A list that only shrinks: one day the
+# beacon and the names of a machine belong to a Host, too.
 OF_MACHINE = (
     ("is the machine as a Host", "a clock, a sleep, a wake-up, a random number", "realtime/Machine.cpp"),
     ("runs cycles where a host has no strand", "a thread", "realtime/CycleThread.cpp realtime/CycleThread.h"),
@@ -135,29 +210,50 @@ OF_MACHINE = (
     ("ends the waits of a thread", "a timer", "realtime/InterruptibleWaits.cpp"),
     ("wakes a wait of the kernel, where a host has kernel timers", "a timer", "realtime/AlarmTime.cpp"),
     ("writes the log of the machine behind the cycles", "a sleep, a thread", "realtime/LogWriter.cpp"),
-    ("sets up or measures the machine", "a thread",
-     "realtime/RealTimeSetup.cpp realtime/StackPrefault.cpp realtime/WakeUpProbe.cpp transport/LoopbackProbe.cpp"),
+    (
+        "sets up or measures the machine",
+        "a thread",
+        "realtime/RealTimeSetup.cpp realtime/StackPrefault.cpp realtime/WakeUpProbe.cpp transport/LoopbackProbe.cpp",
+    ),
     ("measures the machine", "a socket", "transport/LoopbackProbe.cpp"),
-    ("is the network of the machine, to which hosts have others", "a socket",
-     "transport/ControlNetwork.cpp transport/OpenSslTls.cpp"),
-    ("is a transport of the kernel; hosts have those of their own", "a socket",
-     "transport/LocalListener.cpp transport/LocalSocket.cpp transport/UdpLink.cpp transport/UdpMulticastKind.cpp "
-     "transport/UdpTransport.cpp"),
-    ("waits for frames of the kernel or of other processes", "a sleep",
-     "transport/CyclicHub.cpp transport/SharedChannel.cpp"),
+    (
+        "is the network of the machine, to which hosts have others",
+        "a socket",
+        "transport/ControlNetwork.cpp transport/OpenSslTls.cpp",
+    ),
+    (
+        "is a transport of the kernel; hosts have those of their own",
+        "a socket",
+        "transport/LocalListener.cpp transport/LocalSocket.cpp transport/UdpLink.cpp transport/UdpMulticastKind.cpp "
+        "transport/UdpTransport.cpp",
+    ),
+    (
+        "waits for frames of the kernel or of other processes",
+        "a sleep",
+        "transport/CyclicHub.cpp transport/SharedChannel.cpp",
+    ),
     ("resolves the name of a machine", "a socket", "transport/TransportKind.cpp gui/plant/AddressResolver.cpp"),
-    ("finds masters by their beacons", "a socket",
-     "node/session/MasterBeacon.cpp node/session/MasterFinder.cpp node/session/MasterFinder.h"),
+    (
+        "finds masters by their beacons",
+        "a socket",
+        "node/session/MasterBeacon.cpp node/session/MasterFinder.cpp node/session/MasterFinder.h",
+    ),
     ("talks to the service manager of the machine", "a socket", "transport/NotifySocket.cpp"),
     ("carries signals of the kernel, such as Ctrl-C", "a socket", "node/api/QPlcApplicationOptions.cpp"),
     ("receives the values of a plant beside the drawing", "a thread", "gui/plant/Listener.cpp gui/plant/Listener.h"),
     ("gives each connection a timeout that tells it from others", "a random number", "gui/plant/PlantLeases.cpp"),
     ("waits for the graphics card", "a sleep, a thread", "gui3d/SceneRenderer.cpp"),
-    ("devices are read and written beside the cycle", "a thread",
-     "hardware/DriverRunner.cpp hardware/DriverRunner.h hardware/can/QtCanBus.cpp hardware/can/QtCanBus.h "
-     "hardware/can/CanLogWriter.cpp hardware/can/CanLogWriter.h"),
-    ("wakes the thread of a device, and tries again after a random pause", "a sleep, a wake-up, a random number",
-     "hardware/DriverRunner.cpp"),
+    (
+        "devices are read and written beside the cycle",
+        "a thread",
+        "hardware/DriverRunner.cpp hardware/DriverRunner.h hardware/can/QtCanBus.cpp hardware/can/QtCanBus.h "
+        "hardware/can/CanLogWriter.cpp hardware/can/CanLogWriter.h",
+    ),
+    (
+        "wakes the thread of a device, and tries again after a random pause",
+        "a sleep, a wake-up, a random number",
+        "hardware/DriverRunner.cpp",
+    ),
     ("wakes the thread of a device", "a wake-up", "hardware/can/QtCanBus.cpp"),
     ("waits for the threads of devices", "a sleep", "hardware/QPlcHardwareNode.cpp"),
     ("is a bus of the kernel", "a socket", "hardware/can/SocketCanBus.cpp hardware/can/FakeCanBus.cpp"),
@@ -167,28 +263,41 @@ OF_MACHINE = (
 EXCUSED = {(file, what) for _, kinds, names in OF_MACHINE for file in names.split() for what in kinds.split(", ")}
 # A table of data may be longer: rows of a test, or one constant that is returned.
 TABLE = r"_data\(\)$|^\s*static const\b"
-# Columns. A text behind #error cannot be wrapped. A formula or a drawing, three spaces behind its ///, may take those of code.
+# Columns. A text behind #error cannot be wrapped. A formula or a drawing, three spaces behind its
+# ///, may take those of code.
 CODE_COLUMNS, COMMENT_COLUMNS = 120, 100
 
 SOURCES = ("include", "src", "examples", "tests", "benchmarks", "docs")
 
 
 def files(folder):
-    return sorted(p for p in folder.rglob("*") if p.is_file() and (p.suffix in (".h", ".cpp") or p.parent.name == "QtPlc"))
+    return sorted(
+        p for p in folder.rglob("*") if p.is_file() and (p.suffix in (".h", ".cpp") or p.parent.name == "QtPlc")
+    )
 
 
-# A comment, or what may contain the signs of one: a raw text, a text, a character (an apostrophe in a number is none).
-COMMENT_OR_TEXT = re.compile(r'''//[^\n]*|/\*.*?\*/|\b(?:u8|[uUL])?R"([^()\\\s]*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"'''
-                             r"""|(?:(?<!\w)|(?<=\b[uUL])|(?<=\bu8))'(?:\\.|[^'\\\n])+'""", re.S)
+# A comment, or what may contain the signs of one: a raw text, a text, a character (an apostrophe in
+# a number is none).
+COMMENT_OR_TEXT = re.compile(
+    r'''//[^\n]*|/\*.*?\*/|\b(?:u8|[uUL])?R"([^()\\\s]*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"'''
+    r"""|(?:(?<!\w)|(?<=\b[uUL])|(?<=\bu8))'(?:\\.|[^'\\\n])+'""",
+    re.S,
+)
 
 
 # A test looks at the same texts again and again.
 @functools.lru_cache(maxsize=None)
 def code_of(text, has_texts=True):
-    """The lines of a file without comments, numbered from 1. \param has_texts  false: texts are empty, and includes are left out"""
+    """The lines of a file without comments, numbered from 1.
+
+    \param has_texts  false: texts are empty, and includes are left out
+    """
+
     def kept(match):
         is_comment = match[0].startswith(("//", "/*"))
-        return "\n" * match[0].count("\n") if is_comment else match[0] if has_texts else '""' + "\n" * match[0].count("\n")
+        return (
+            "\n" * match[0].count("\n") if is_comment else match[0] if has_texts else '""' + "\n" * match[0].count("\n")
+        )
 
     text = COMMENT_OR_TEXT.sub(kept, text)
     if not has_texts:
@@ -209,17 +318,20 @@ def long_lines(text):
 
 @functools.lru_cache(maxsize=None)
 def functions_of(text):
-    """The functions of a file: line of the name, number of lines, whether it is a table. The format of the code is relied on."""
+    """The functions of a file: line of the name, number of lines, whether it is a table. The format
+    of the code is relied on."""
     found = []
     lines = text.split("\n")
     for brace, line in enumerate(lines):
         if line.strip() != "{":
             continue
         margin, first = line[:-1], brace - 1
-        while first > 0 and lines[first].startswith(margin) and re.match(r"[ :,]", lines[first][len(margin):]):
+        while first > 0 and lines[first].startswith(margin) and re.match(r"[ :,]", lines[first][len(margin) :]):
             first -= 1
         head = " ".join(part.strip() for part in lines[first:brace])
-        if "(" not in head or re.match(r"(template<.*> )?(class|struct|union|enum|namespace|extern|if|for|while|switch|do|//)\b", head):
+        if "(" not in head or re.match(
+            r"(template<.*> )?(class|struct|union|enum|namespace|extern|if|for|while|switch|do|//)\b", head
+        ):
             continue
         last = next((at for at in range(brace, len(lines)) if lines[at].startswith(margin + "}")), len(lines))
         found.append((first + 1, last - first + 1, bool(re.search(TABLE, head) or re.search(TABLE, lines[brace + 1]))))
@@ -235,7 +347,8 @@ def lines_with(text, pattern):
 
 @functools.lru_cache(maxsize=None)
 def first_with(text, pattern, has_texts=True):
-    """Number and text of the line where the first piece of code begins that the pattern fits; it may go over lines."""
+    """Number and text of the line where the first piece of code begins that the pattern fits; it
+    may go over lines."""
     lines = [line for _, line in code_of(text, has_texts)]
     found = re.search(pattern, "\n".join(lines))
     if not found:
@@ -278,7 +391,9 @@ class Check:
                 continue
             for number, line in lines_with(path.read_text(), INCLUDE):
                 match = re.match(INCLUDE, line)
-                target = next((f for f in (d / match[1] for d in (path.parent, self.source, self.public)) if f.is_file()), None)
+                target = next(
+                    (f for f in (d / match[1] for d in (path.parent, self.source, self.public)) if f.is_file()), None
+                )
                 if target is None:
                     continue
                 other = self.room(target.resolve())
@@ -340,22 +455,32 @@ class Check:
             elif path.suffix == ".h" and not path.stem.endswith("Global"):
                 # Definitions at the left margin outside of namespaces for internals.
                 text = re.sub(r"^namespace \w+ \{\n.*?^\} +// namespace", "", path.read_text(), flags=re.S | re.M)
-                classes = re.findall(r"^(?:class|struct|union)\s+(?:QTPLC_\w*EXPORT\s+)?(\w+)[^;\n]*$", text, flags=re.M)
+                classes = re.findall(
+                    r"^(?:class|struct|union)\s+(?:QTPLC_\w*EXPORT\s+)?(\w+)[^;\n]*$", text, flags=re.M
+                )
                 if classes != [path.stem]:
-                    self.error(path, 1, f"defines {', '.join(classes) or 'no class'}: one class a header, named like the file")
+                    self.error(
+                        path, 1, f"defines {', '.join(classes) or 'no class'}: one class a header, named like the file"
+                    )
                 elif not re.search(r"^///.*\n(?:template<[^\n]*>\n)?(?:class|struct|union)\b", text, flags=re.M):
                     self.error(path, 1, f"{path.stem} has no comment that says what it is for")
         for path in self.public.iterdir():
-            folder, umbrella = LIBRARIES.get(self.room(path) or path.name.lower().removeprefix("qtplc"), ("src", "QtPlcCore"))
+            folder, umbrella = LIBRARIES.get(
+                self.room(path) or path.name.lower().removeprefix("qtplc"), ("src", "QtPlcCore")
+            )
             if path.name not in re.findall(r"include/QtPlc/(\S+)", (self.root / folder / "CMakeLists.txt").read_text()):
                 self.error(path, 1, f"is missing in the list of headers of {folder}/CMakeLists.txt")
-            if path.suffix == ".h" and path.name not in re.findall(r'#include "(\w+\.h)"', (self.public / umbrella).read_text()):
+            if path.suffix == ".h" and path.name not in re.findall(
+                r'#include "(\w+\.h)"', (self.public / umbrella).read_text()
+            ):
                 self.error(path, 1, f"is missing in the umbrella header {umbrella}")
 
     def columns(self):
         for path in (path for folder in SOURCES for path in files(self.root / folder)):
             for number, length in long_lines(path.read_text()):
-                self.error(path, number, f"{length} columns: wrap comments at {COMMENT_COLUMNS} and code at {CODE_COLUMNS}")
+                self.error(
+                    path, number, f"{length} columns: wrap comments at {COMMENT_COLUMNS} and code at {CODE_COLUMNS}"
+                )
 
     def lengths_and_licences(self):
         lengths = []
@@ -371,7 +496,11 @@ class Check:
         lengths.sort(key=lambda entry: -entry[0])
         usual, path, line = lengths[len(lengths) // 100]
         if usual > USUAL_LINES:
-            self.error(path, line, f"one function of a hundred has {usual} lines or more, more than {USUAL_LINES}: split the longest")
+            self.error(
+                path,
+                line,
+                f"one function of a hundred has {usual} lines or more, more than {USUAL_LINES}: split the longest",
+            )
 
 
 def errors_of(root):

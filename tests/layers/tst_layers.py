@@ -98,7 +98,12 @@ class Faults(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
         cls.root = Path(cls.folder.name)
-        for part in ("include", "src", "examples/airborne_wind_energy/plant", "examples/airborne_wind_energy/flight_control"):
+        for part in (
+            "include",
+            "src",
+            "examples/airborne_wind_energy/plant",
+            "examples/airborne_wind_energy/flight_control",
+        ):
             shutil.copytree(SOURCE / part, cls.root / part)
 
     @classmethod
@@ -184,9 +189,18 @@ class Faults(unittest.TestCase):
                 self.assertEqual(layers.asked_of_machine(f"void step()\n{{\n    {line}\n}}\n"), {})
 
     def test_every_room_of_the_product_is_looked_at(self):
-        for path in ("src/signals/Fnv1a.h", "src/realtime/CycleClock.cpp", "src/protocol/CyclicFrame.cpp", "src/transport/UdpLink.cpp",
-                     "src/node/cycle/MasterCycle.cpp", "src/gui/plant/Plant.cpp", "src/gui3d/View3DEditor.cpp", "src/hardware/DeviceFiles.cpp",
-                     "src/tools/EchoCommand.cpp", "include/QtPlc/QPlcSlaveNode.h"):
+        for path in (
+            "src/signals/Fnv1a.h",
+            "src/realtime/CycleClock.cpp",
+            "src/protocol/CyclicFrame.cpp",
+            "src/transport/UdpLink.cpp",
+            "src/node/cycle/MasterCycle.cpp",
+            "src/gui/plant/Plant.cpp",
+            "src/gui3d/View3DEditor.cpp",
+            "src/hardware/DeviceFiles.cpp",
+            "src/tools/EchoCommand.cpp",
+            "include/QtPlc/QPlcSlaveNode.h",
+        ):
             with self.subTest(path):
                 self.plant(path, "std::future<int> later = std::async(compute);\n")
                 self.assert_named(f"{path}:", "asks the machine for a thread")
@@ -204,19 +218,28 @@ class Faults(unittest.TestCase):
         self.assert_named("src/realtime/WakeUpProbe.cpp:", "take it out of OF_MACHINE")
 
     def test_a_field_of_a_message_has_its_name_in_one_place(self):
-        self.plant("src/node/session/ViewerPushes.cpp", 'const QString who = message.text(QStringLiteral("whoever"));\n')
+        self.plant(
+            "src/node/session/ViewerPushes.cpp", 'const QString who = message.text(QStringLiteral("whoever"));\n'
+        )
         self.assert_named("src/node/session/ViewerPushes.cpp:", "fields have their names in src/protocol/messages")
 
     def test_a_window_reads_no_message_by_names(self):
-        self.plant("src/gui/window/NewNotice.cpp", 'const bool ok = message.fields().value(QLatin1String("ok")).toBool();\n')
+        self.plant(
+            "src/gui/window/NewNotice.cpp", 'const bool ok = message.fields().value(QLatin1String("ok")).toBool();\n'
+        )
         self.assert_named("src/gui/window/NewNotice.cpp:1:", "fields have their names in src/protocol/messages")
 
     def test_a_new_command_makes_no_message_by_names(self):
-        self.plant("src/tools/NewCommand.cpp", 'call.ask(QPlcMessage(\n    QPlcMessage::Stop, {{QStringLiteral("how"), how}}));\n')
+        self.plant(
+            "src/tools/NewCommand.cpp",
+            'call.ask(QPlcMessage(\n    QPlcMessage::Stop, {{QStringLiteral("how"), how}}));\n',
+        )
         self.assert_named("src/tools/NewCommand.cpp:1:", "fields have their names in src/protocol/messages")
 
     def test_the_tool_writes_json_and_reads_none(self):
-        self.plant("src/tools/NewCommand.cpp", 'const QJsonObject rows = document[QStringLiteral("signals")].toObject();\n')
+        self.plant(
+            "src/tools/NewCommand.cpp", 'const QJsonObject rows = document[QStringLiteral("signals")].toObject();\n'
+        )
         self.assert_named("src/tools/NewCommand.cpp:1:", "fields have their names in src/protocol/messages")
 
     def test_the_plant_of_a_window_knows_no_json(self):
@@ -252,8 +275,15 @@ class Faults(unittest.TestCase):
         self.assert_named("plant/Plant.h:", "may not know Qt")
 
     def test_a_public_header_has_one_class_and_is_listed(self):
-        self.plant("include/QtPlc/QPlcNews.h", "// SPDX-License-Identifier: Apache-2.0\nclass QPlcOther\n{\n};\nclass QPlcNews\n{\n};\n")
-        self.assert_named("QPlcNews.h:1: defines QPlcOther, QPlcNews", "missing in the list of headers", "missing in the umbrella header")
+        self.plant(
+            "include/QtPlc/QPlcNews.h",
+            "// SPDX-License-Identifier: Apache-2.0\nclass QPlcOther\n{\n};\nclass QPlcNews\n{\n};\n",
+        )
+        self.assert_named(
+            "QPlcNews.h:1: defines QPlcOther, QPlcNews",
+            "missing in the list of headers",
+            "missing in the umbrella header",
+        )
 
     def test_a_public_class_needs_a_comment(self):
         header = "include/QtPlc/QPlcCycle.h"
@@ -266,7 +296,10 @@ class Faults(unittest.TestCase):
         self.assert_named("src/node/cycle/NodeSlot.cpp:", "a function of 81 lines")
 
     def test_a_table_may_be_longer(self):
-        self.plant("src/node/cycle/NodeSlot.cpp", "\nint table()\n{\n    static const int rows[] = {\n" + "        1,\n" * 90 + "    };\n}\n")
+        self.plant(
+            "src/node/cycle/NodeSlot.cpp",
+            "\nint table()\n{\n    static const int rows[] = {\n" + "        1,\n" * 90 + "    };\n}\n",
+        )
         self.assertEqual(layers.errors_of(self.root), [])
 
     def test_one_function_of_a_hundred_may_have_40_lines(self):
@@ -275,7 +308,10 @@ class Faults(unittest.TestCase):
 
     def test_a_room_of_the_node_has_its_own_arrows(self):
         self.plant("src/node/state/StateText.cpp", '#include "node/session/Leases.h"\n')
-        self.assert_named("src/node/state/StateText.cpp:", "node/state may not include node/session/Leases.h, which belongs to node/session")
+        self.assert_named(
+            "src/node/state/StateText.cpp:",
+            "node/state may not include node/session/Leases.h, which belongs to node/session",
+        )
 
     def test_a_file_begins_with_its_licence(self):
         self.plant("src/node/News.h", "#pragma once\n")

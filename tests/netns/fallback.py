@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Nodes whose address names no transport: they use UDP, also on a bad network, and TCP where the kernel drops UDP in one direction.
+"""Nodes whose address names no transport: they use UDP, also on a bad network, and TCP where the
+kernel drops UDP in one direction.
 
-usage: fallback.py FOLDER_OF_PROGRAMS        exit code 77: skipped, with the reason (not root, or no namespaces here)
+usage: fallback.py FOLDER_OF_PROGRAMS
+exit code 77: skipped, with the reason (not root, or no namespaces here)
 """
 import sys
 
@@ -12,7 +14,11 @@ SIDES = ("to the master", "to the nodes")
 
 
 def transports(plant):
-    return {name: (node["transport"], node.get("fallback", False)) for name, node in plant.nodes().items() if node["transport"] != "inprocess"}
+    return {
+        name: (node["transport"], node.get("fallback", False))
+        for name, node in plant.nodes().items()
+        if node["transport"] != "inprocess"
+    }
 
 
 def check_fallback(plant, side):

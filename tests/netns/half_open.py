@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Both ends of a wire that is cut without a word notice it, though neither has anything to say, and nodes are registered anew.
+"""Both ends of a wire that is cut without a word notice it, though neither has anything to say, and
+nodes are registered anew.
 
-usage: half_open.py FOLDER_OF_PROGRAMS        exit code 77: skipped, with the reason (not root, or no namespaces here)
+usage: half_open.py FOLDER_OF_PROGRAMS
+exit code 77: skipped, with the reason (not root, or no namespaces here)
 """
 import sys
 import time

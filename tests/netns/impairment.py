@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A bad wire between two interfaces, in user space: delay, jitter, loss, duplication, another order. Linux, root."""
+"""A bad wire between two interfaces, in user space: delay, jitter, loss, duplication, another
+order. Linux, root."""
 import fcntl
 import heapq
 import os
@@ -22,7 +23,8 @@ def open_tun(name):
 
 
 class Wire(threading.Thread):
-    """Carries packets between two TUN interfaces. The faults may be changed at any time: shares of 0 ... 1, times in s."""
+    """Carries packets between two TUN interfaces. The faults may be changed at any time: shares of
+    0 ... 1, times in s."""
 
     def __init__(self, one, other, seed):
         super().__init__(daemon=True)

@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Flies a real master and real nodes in two network namespaces, on a wire that the kernel and a program make bad: losses, delays, another order, cuts.
+"""Flies a real master and real nodes in two network namespaces, on a wire that the kernel and a
+program make bad: losses, delays, another order, cuts.
 
-usage: netns.py FOLDER_OF_PROGRAMS        exit code 77: skipped, with the reason (not root, or no namespaces here)
+usage: netns.py FOLDER_OF_PROGRAMS
+exit code 77: skipped, with the reason (not root, or no namespaces here)
 """
 import json
 import os
@@ -50,9 +52,13 @@ def reason_to_skip():
 
 
 def drop_rules(table, packets):
-    """Drop such packets that arrive over the wire: one that is dropped on its way out would be an error of the sender, and who asks the master beside it wants an answer. None: drop nothing."""
+    """Drop such packets that arrive over the wire: one that is dropped on its way out would be an
+    error of the sender, and who asks the master beside it wants an answer. None: drop nothing."""
     drop = f'iifname != "lo" {packets} drop\n' if packets else ""
-    return f"table inet {table}\ndelete table inet {table}\ntable inet {table} {{\nchain arrive {{\ntype filter hook input priority 0;\n{drop}}}\n}}\n"
+    return (
+        f"table inet {table}\ndelete table inet {table}\ntable inet {table} {{\n"
+        f"chain arrive {{\ntype filter hook input priority 0;\n{drop}}}\n}}\n"
+    )
 
 
 def loss_rules(share):
@@ -96,7 +102,9 @@ class Network:
 class Plant:
     def __init__(self, folder, network, scheme="udp://"):
         self.folder, self.network, self.programs = folder, network, network.programs
-        self.start(0, "awe_master", "--listen", MASTER, "--port", "50000", "--insecure-network", "--profile", "simulation")
+        self.start(
+            0, "awe_master", "--listen", MASTER, "--port", "50000", "--insecure-network", "--profile", "simulation"
+        )
         self.wait(lambda: self.ask("state").returncode == 0, "the master listens")
         for node in ("awe_model", "awe_autopilot"):
             self.start(1, node, "--master", f"{scheme}{MASTER}:50000")
@@ -157,12 +165,16 @@ def late_share(counted):
 
 
 def show(name, counted):
-    print(f"{name:32} {counted['cycles']:5.0f} cycles, {100 * late_share(counted):5.1f} % without an answer in time, "
-          f"{counted['duplicates']:.0f} came twice or late, {counted['rejected']:.0f} rejected", flush=True)
+    print(
+        f"{name:32} {counted['cycles']:5.0f} cycles, {100 * late_share(counted):5.1f} % without an answer in time, "
+        f"{counted['duplicates']:.0f} came twice or late, {counted['rejected']:.0f} rejected",
+        flush=True,
+    )
 
 
 def run(check):
-    """Calls check(folder, network) in a network of its own, and ends what it leaves behind. \\return exit code"""
+    """Calls check(folder, network) in a network of its own, and ends what it leaves behind.
+    \\return exit code"""
     reason = reason_to_skip()
     if reason:
         print(f"SKIPPED: {reason}")
@@ -187,7 +199,8 @@ def check(folder, network):
     network.lose(0)
     show("10 % loss in each direction", counted)
     expected = 1 - (1 - LOSS) ** 2
-    # Chance alone gives 19 %; with TCP it would be twice as much, and a busy machine is late by itself.
+    # Chance alone gives 19 %; with TCP it would be twice as much, and a busy machine is late by
+    # itself.
     assert expected - 0.09 < late_share(counted) < expected + 0.15 + noise, "not what chance says"
     assert counted["rejected"] == 0
 

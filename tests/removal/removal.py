@@ -1,13 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Takes the defences of QtPLC away, one after the other, in a copy of the sources, and sees whether the test notices that is said to show the defence.
+"""Takes the defences of QtPLC away, one after the other, in a copy of the sources, and sees whether
+the test notices that is said to show the defence.
 
 usage: removal.py [--work FOLDER] [--only WORD]... [--jobs N] [--check] SOURCE_FOLDER
 
 --work FOLDER  keeps the copy and its build there: the next call is faster
 --only WORD    only the faults with this word in their names; may come several times
 --jobs N       compilers at a time; one leaves the rest of the machine to others
---check        builds nothing: sees whether all that is to be taken away is there, and all tests are, and whether each fault of docs/faults.md has a removal that one of its tests notices
+--check        builds nothing: sees whether all that is to be taken away is there, and all tests
+               are, and whether each fault of docs/faults.md has a removal that one of its tests
+               notices
 """
 import argparse
 import os
@@ -29,7 +32,11 @@ def source_of(program):
 
 
 def test_exists(root, removal):
-    sources = [path.read_text() for folder in ("tests", "examples") for path in (root / folder).rglob(source_of(removal.program) + ".cpp")]
+    sources = [
+        path.read_text()
+        for folder in ("tests", "examples")
+        for path in (root / folder).rglob(source_of(removal.program) + ".cpp")
+    ]
     return any(re.search(rf"void (?:\w+::)?{removal.test}\(\)", source) for source in sources)
 
 
@@ -57,12 +64,21 @@ def faults_without_removal(root):
     faults = faults_of(root)
     if not faults:
         return ["docs/faults.md: no table says by which tests a fault is shown"]
-    return [f"docs/faults.md: {fault}: none of its tests is named by a removal; add one" for fault, tests in faults if not noticed.intersection(tests)]
+    return [
+        f"docs/faults.md: {fault}: none of its tests is named by a removal; add one"
+        for fault, tests in faults
+        if not noticed.intersection(tests)
+    ]
 
 
 def copy(root, target):
-    """The files of the repository; those that are the same keep their times, so that little is built again."""
-    listed = subprocess.run(["git", "-C", root, "ls-files", "-z", "--cached", "--others", "--exclude-standard"], capture_output=True, check=True)
+    """The files of the repository; those that are the same keep their times, so that little is
+    built again."""
+    listed = subprocess.run(
+        ["git", "-C", root, "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
+        capture_output=True,
+        check=True,
+    )
     for name in filter(None, listed.stdout.decode().split("\0")):
         source, place = root / name, target / name
         if not source.is_file() or (place.is_file() and place.read_bytes() == source.read_bytes()):
@@ -73,7 +89,9 @@ def copy(root, target):
 
 
 def run(*command, **options):
-    return subprocess.run([str(word) for word in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, **options)
+    return subprocess.run(
+        [str(word) for word in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, **options
+    )
 
 
 def build(folder, jobs, *targets):
@@ -107,12 +125,23 @@ def outcome(source, folder, jobs, removal):
 def prove(root, work, jobs, removals):
     source, folder = work, work / "build/removal"
     copy(root, source)
-    # As the preset release says, so that a compiler cache knows most of it. Only what a test needs is built.
+    # As the preset release says, so that a compiler cache knows most of it. Only what a test needs
+    # is built.
     gui = any(removal.file.startswith("src/gui/") for removal in removals)
-    options = ["-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG", "-DQTPLC_WARNINGS_AS_ERRORS=ON", f"-DQTPLC_BUILD_GUI={'ON' if gui else 'OFF'}",
-               "-DQTPLC_BUILD_EXAMPLES=ON", "-DQTPLC_BUILD_BENCHMARKS=OFF"]
+    options = [
+        "-DCMAKE_BUILD_TYPE=Release",
+        "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG",
+        "-DQTPLC_WARNINGS_AS_ERRORS=ON",
+        f"-DQTPLC_BUILD_GUI={'ON' if gui else 'OFF'}",
+        "-DQTPLC_BUILD_EXAMPLES=ON",
+        "-DQTPLC_BUILD_BENCHMARKS=OFF",
+    ]
     configured = run("cmake", "-S", source, "-B", folder, "-G", "Ninja", *options)
-    log = configured.stdout if configured.returncode != 0 else build(folder, jobs, *sorted({removal.program for removal in removals}))
+    log = (
+        configured.stdout
+        if configured.returncode != 0
+        else build(folder, jobs, *sorted({removal.program for removal in removals}))
+    )
     if log:
         sys.exit(log)
     failed = 0
@@ -121,7 +150,9 @@ def prove(root, work, jobs, removals):
         failed += result != "noticed"
         print(f"{result:12} {removal.fault:55} {removal.program}::{removal.test}", flush=True)
     log = build(folder, jobs, *sorted({removal.program for removal in removals}))
-    broken = sorted({f"{removal.program}::{removal.test}" for removal in removals if log or not passes(folder, removal)})
+    broken = sorted(
+        {f"{removal.program}::{removal.test}" for removal in removals if log or not passes(folder, removal)}
+    )
     for test in broken:
         print(f"fails with its defence, too: {test}")
     print(f"{len(removals)} defences taken away, {failed} of them without notice")

@@ -4,8 +4,8 @@
 
 runs.py labels SOURCE BUILD        by its labels each test of the build runs for each change, or is
                                    in the list of the nightly run
-runs.py ran SOURCE BUILD...        each test of these builds is in the file tests.xml that CTest wrote
-                                   in one of them, or in that list
+runs.py ran SOURCE BUILD...        each test of these builds is in the file tests.xml that CTest
+                                   wrote in one of them, or in that list
 runs.py record SOURCE NAME RESULT SECONDS   writes the result of a nightly run into that list
 """
 import datetime
@@ -17,7 +17,9 @@ import xml.etree.ElementTree
 from pathlib import Path
 
 PAGE = Path("docs/tests.md")
-ROW = re.compile(r"^\| `([^`]+)` \|([^|\n]*)\| (never|\d{4}-\d\d-\d\d) \| (-|passed|FAILED|skipped) \| (-|\d+ s) \|$", re.M)
+ROW = re.compile(
+    r"^\| `([^`]+)` \|([^|\n]*)\| (never|\d{4}-\d\d-\d\d) \| (-|passed|FAILED|skipped) \| (-|\d+ s) \|$", re.M
+)
 CHANGE = ("change-release", "change-asan")
 
 
@@ -38,7 +40,8 @@ def filters_of(source):
             label = {kind: preset["filter"].get(kind, {}).get("label") for kind in ("include", "exclude")}
             found[preset["name"]] = lambda labels, label=label: (
                 (label["include"] is None or any(re.search(label["include"], one) for one in labels))
-                and not (label["exclude"] and any(re.search(label["exclude"], one) for one in labels)))
+                and not (label["exclude"] and any(re.search(label["exclude"], one) for one in labels))
+            )
     return found
 
 
@@ -56,13 +59,18 @@ def check_labels(tests, filters, nightly):
             errors.append(f"{name} runs nowhere: no test preset of a change takes its labels ({', '.join(labels)})")
         if len(runs) > 1 and "optimised" not in labels:
             errors.append(f"{name} runs twice; if both builds tell something, its label is optimised")
-    errors += [f"{PAGE} has a row for {name}, which is no nightly test"
-               for name in nightly if " " not in name and "nightly" not in tests.get(name, {"nightly"})]
+    errors += [
+        f"{PAGE} has a row for {name}, which is no nightly test"
+        for name in nightly
+        if " " not in name and "nightly" not in tests.get(name, {"nightly"})
+    ]
     return errors
 
 
 def check_ran(tests, ran, nightly):
-    return [f"{name} ran nowhere, and is not in the nightly list of {PAGE}" for name in sorted(tests - ran - set(nightly))]
+    return [
+        f"{name} ran nowhere, and is not in the nightly list of {PAGE}" for name in sorted(tests - ran - set(nightly))
+    ]
 
 
 def ran_in(build):

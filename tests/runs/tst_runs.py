@@ -9,7 +9,9 @@ import runs
 
 SOURCE = Path(sys.argv.pop())
 FILTERS = runs.filters_of(SOURCE)
-PAGE = "| `long_flight` | hours of flight | 2026-01-31 | passed | 99 s |\n| `all of it` | | 2026-01-31 | FAILED | 1 s |\n"
+PAGE = (
+    "| `long_flight` | hours of flight | 2026-01-31 | passed | 99 s |\n| `all of it` | | 2026-01-31 | FAILED | 1 s |\n"
+)
 
 
 class Runs(unittest.TestCase):
@@ -20,7 +22,9 @@ class Runs(unittest.TestCase):
         self.assertEqual(self.labels(tst_A=set(), tst_B={"programs"}, tst_C={"tsan"}, tst_D={"optimised"}), [])
 
     def test_each_label_of_the_release_build_is_known_to_both_presets(self):
-        line = next(l for l in (SOURCE / "cmake/QtPlcTestRuns.cmake").read_text().splitlines() if "RELEASE_LABELS " in l)
+        line = next(
+            l for l in (SOURCE / "cmake/QtPlcTestRuns.cmake").read_text().splitlines() if "RELEASE_LABELS " in l
+        )
         for label in line.strip("set()").split()[1:]:
             self.assertEqual([FILTERS[preset]({label}) for preset in runs.CHANGE], [True, False], label)
 

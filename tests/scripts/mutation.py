@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Mutates a small program and runs it: each kind of mutation, and what is left out. Then judges mutants with a program of tests.
+"""Mutates a small program and runs it: each kind of mutation, and what is left out. Then judges
+mutants with a program of tests.
 
 usage: mutation.py FOLDER_OF_SCRIPTS
 """
@@ -72,7 +73,9 @@ class Mutation(unittest.TestCase):
         cls.text = mutate.mutated(SAMPLE, cls.sites)
         (cls.folder / "mutated.cpp").write_text(cls.text)
         (cls.folder / "mutant.h").write_text(mutate.header(cls.sites))
-        subprocess.run(["c++", "-std=c++17", "-include", "mutant.h", "mutated.cpp", "-o", "sample"], cwd=cls.folder, check=True)
+        subprocess.run(
+            ["c++", "-std=c++17", "-include", "mutant.h", "mutated.cpp", "-o", "sample"], cwd=cls.folder, check=True
+        )
 
     def site(self, kind, original, mutation):
         found = [s for s in self.sites if (s.kind, s.original, s.mutation) == (kind, original, mutation)]
@@ -81,21 +84,27 @@ class Mutation(unittest.TestCase):
 
     def output(self, site, **variables):
         number = str(site.number) if site else "0"
-        return subprocess.run([self.folder / "sample"], env={**os.environ, "QTPLC_MUTANT": number, **variables}, capture_output=True,
-                              text=True, check=True).stdout
+        return subprocess.run(
+            [self.folder / "sample"],
+            env={**os.environ, "QTPLC_MUTANT": number, **variables},
+            capture_output=True,
+            text=True,
+            check=True,
+        ).stdout
 
     def test_no_choice_is_the_original(self):
         self.assertEqual(self.output(None), ORIGINAL)
 
     def test_each_kind_is_chosen_at_run_time(self):
         for kind, original, mutation, expected in (
-                ("comparison", "a < 3", "a <= 3", "small a < b eight 100"),
-                ("condition", "isSmall(2)", "negated", "large eight 000"),
-                ("operand", "b > 0", "left out of &&", "small a < b eight 010"),
-                ("comparison", "a == 9", "a != 9", "small a < b eight 001"),
-                ("return", "false", "return true", "small a < b eight 001"),
-                ("arithmetic", "b", "- instead of +", "small a < b other 000"),
-                ("call", 'note("eight");', "left out", "small a < b 000")):
+            ("comparison", "a < 3", "a <= 3", "small a < b eight 100"),
+            ("condition", "isSmall(2)", "negated", "large eight 000"),
+            ("operand", "b > 0", "left out of &&", "small a < b eight 010"),
+            ("comparison", "a == 9", "a != 9", "small a < b eight 001"),
+            ("return", "false", "return true", "small a < b eight 001"),
+            ("arithmetic", "b", "- instead of +", "small a < b other 000"),
+            ("call", 'note("eight");', "left out", "small a < b 000"),
+        ):
             with self.subTest(kind=kind, original=original):
                 self.assertEqual(self.output(self.site(kind, original, mutation)), expected)
 
@@ -117,7 +126,10 @@ class Mutation(unittest.TestCase):
 
     def test_a_survivor_is_shown_with_its_tests(self):
         site = self.site("comparison", "a < 3", "a <= 3")
-        text = mutate.table([site], {site.identity: {"killer": "", "how": "survived", "tests": ["tst_Small"], "unsteady": [], "cpu": 1.0}})
+        text = mutate.table(
+            [site],
+            {site.identity: {"killer": "", "how": "survived", "tests": ["tst_Small"], "unsteady": [], "cpu": 1.0}},
+        )
         self.assertIn("sample.cpp:9: comparison", text)
         self.assertIn("reached by: tst_Small", text)
         self.assertIn("1 of 1 mutants survived", text)
@@ -128,7 +140,9 @@ class Mutation(unittest.TestCase):
         self.assertNotEqual([s.identity for s in drawn], [s.identity for s in mutate.drawn(self.sites, 2, 5)])
         (self.folder / "sample.cpp").write_text("int before(int a)\n{\n    return a + 1;\n}\n" + SAMPLE)
         later = mutate.drawn(mutate.find_sites(self.folder, ["sample.cpp"]), 1, 5)
-        self.assertGreaterEqual(len({s.identity for s in drawn} & {s.identity for s in later}), 4)  # the new one may be among them
+        self.assertGreaterEqual(
+            len({s.identity for s in drawn} & {s.identity for s in later}), 4
+        )  # the new one may be among them
 
 
 # A program that looks like Qt Test from outside. It notes each function that it runs.
@@ -213,7 +227,9 @@ class Tests(unittest.TestCase):
 
     def test_a_program_runs_once_at_a_time(self):
         one = tests.Batch([tests.Function(self.program, "fine", 0.0, 0.0, b"")])
-        two = tests.Batch([tests.Function(tests.Program("tst_Other", self.program.path, "tst_Other"), "fine", 0.0, 0.0, b"")])
+        two = tests.Batch(
+            [tests.Function(tests.Program("tst_Other", self.program.path, "tst_Other"), "fine", 0.0, 0.0, b"")]
+        )
         locks = tests.Locks()
         self.assertIs(locks.take_first([one, two]), one)
         self.assertIs(locks.take_first([one, two]), two)
@@ -225,4 +241,5 @@ if __name__ == "__main__":
     sys.path.insert(0, str(Path(sys.argv.pop(1)) / "lib"))
     import mutate
     import mutation_tests as tests
+
     unittest.main()

@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Runs the scripts with slow programs in the place of cmake and apt-get, and looks at what a person sees while he waits: at least every 2 s a line that says which step of how many it is, how far it is, and
-how long it takes. A log has plain lines, a terminal one line that is written again and again.
+"""Runs the scripts with slow programs in the place of cmake and apt-get, and looks at what a person
+sees while he waits: at least every 2 s a line that says which step of how many it is, how far it
+is, and how long it takes. A log has plain lines, a terminal one line that is written again and
+again.
 
 usage: progress.py FOLDER_OF_SCRIPTS
 """
@@ -21,14 +23,16 @@ ATTEMPTS = 3  # on a machine that has stopped for a second, the next attempt tel
 
 SLOW_CMAKE = """#!/bin/sh
 case "$*" in
-    *--build*) for i in 1 2 3; do echo "[$i/4] Building CXX object $i"; sleep 0.3; done; sleep 3; echo "[4/4] Linking" ;;
+    *--build*) for i in 1 2 3; do echo "[$i/4] Building CXX object $i"; sleep 0.3; done
+        sleep 3; echo "[4/4] Linking" ;;
     *) echo "-- The CXX compiler identification is GNU" ;;
 esac
 """
 BROKEN_CMAKE = """#!/bin/sh
 case "$*" in *--build*) echo "[1/4] Building CXX object 1"; echo "winch.cpp:7: error: expected ';'"; exit 3 ;; esac
 """
-# Like the real one, it closes the descriptor of its status for the script of a package, which ends at an echo that fails.
+# Like the real one, it closes the descriptor of its status for the script of a package, which ends
+# at an echo that fails.
 SLOW_APT = """#!/bin/bash
 [[ "$*" =~ APT::Status-Fd=([0-9]+) ]]
 status=${BASH_REMATCH[1]}
@@ -143,8 +147,14 @@ class Progress(unittest.TestCase):
         shown = self.run_script("run", "--text")
         self.assertEqual(shown.code, 0, shown.text)
         self.assertIn("[1/4] Packages: [1/2] Read the lists of packages: ", shown.text)
-        self.assertRegex(shown.text, r"\[1/4\] Packages: \[2/2\] Install \d+ packages and what they need: 20 %, Retrieving file 1 of 5, \d s\n")
-        self.assertRegex(shown.text, r"\[1/4\] Packages: \[2/2\] Install \d+ packages and what they need: 60 %, Unpacking cmake, \d s\n")
+        self.assertRegex(
+            shown.text,
+            r"\[1/4\] Packages: \[2/2\] Install \d+ packages and what they need: 20 %, Retrieving file 1 of 5, \d s\n",
+        )
+        self.assertRegex(
+            shown.text,
+            r"\[1/4\] Packages: \[2/2\] Install \d+ packages and what they need: 60 %, Unpacking cmake, \d s\n",
+        )
 
     def test_what_a_step_says_is_shown_when_it_fails(self):
         self.program("bin/cmake", BROKEN_CMAKE)
@@ -163,7 +173,9 @@ class Progress(unittest.TestCase):
     def test_every_script_that_builds_or_installs_shows_its_progress(self):
         for script in sorted(self.scripts.iterdir()):
             if script.is_file():
-                self.assertRegex(script.read_text(), r"(?m)^\. .*lib/progress", f"{script.name} does not use scripts/lib/progress")
+                self.assertRegex(
+                    script.read_text(), r"(?m)^\. .*lib/progress", f"{script.name} does not use scripts/lib/progress"
+                )
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Checks the units of systemd: systemd-analyze finds nothing wrong with them, their sandbox is as tight as it was, and every program takes the options that its service gives it.
+"""Checks the units of systemd: systemd-analyze finds nothing wrong with them, their sandbox is as
+tight as it was, and every program takes the options that its service gives it.
 
 The return code is 77 where systemd-analyze is missing: the rest was checked then.
 """
@@ -13,7 +14,8 @@ import sys
 import tempfile
 from pathlib import Path
 
-# Classes of devices that come with a module: systemd allows none that the kernel does not know when the service starts.
+# Classes of devices that come with a module: systemd allows none that the kernel does not know when
+# the service starts.
 MODULES = {"char-i2c": "i2c_dev", "char-spi": "spidev", "char-ttyUSB": "usbserial", "char-ttyACM": "cdc_acm"}
 MOST_EXPOSED = 35  # tenths, as systemd-analyze security counts; "OK" begins at 50, "MEDIUM" above it
 errors = []
@@ -36,7 +38,8 @@ def environment(defaults, unit):
 
 
 def check_options(unit, programs, defaults):
-    """A program that is asked for help reads its options before, and refuses those that it does not know."""
+    """A program that is asked for help reads its options before, and refuses those that it does not
+    know."""
     values = environment(defaults, unit)
     for command in lines_of(unit, "ExecStart"):
         unknown = set(re.findall(r"\$(\w+)", command)) - set(values)
@@ -54,8 +57,16 @@ def check_options(unit, programs, defaults):
 
 def check_real_time(unit):
     """What the cycle needs, and the watchdog."""
-    for key, wanted in {"Type": "notify", "LimitRTPRIO": "99", "LimitMEMLOCK": "infinity", "CPUSchedulingPolicy": "fifo", "NoNewPrivileges": "yes",
-                        "ProtectSystem": "strict", "PrivateTmp": "yes", "DevicePolicy": "closed"}.items():
+    for key, wanted in {
+        "Type": "notify",
+        "LimitRTPRIO": "99",
+        "LimitMEMLOCK": "infinity",
+        "CPUSchedulingPolicy": "fifo",
+        "NoNewPrivileges": "yes",
+        "ProtectSystem": "strict",
+        "PrivateTmp": "yes",
+        "DevicePolicy": "closed",
+    }.items():
         if lines_of(unit, key) != [wanted]:
             errors.append(f"{unit.name}: {key} is {lines_of(unit, key)}, not {wanted}")
     for key in ("WatchdogSec", "Restart", "RestrictAddressFamilies"):
@@ -64,7 +75,8 @@ def check_real_time(unit):
 
 
 def check_modules(unit):
-    """What brings the devices of a service is loaded before it starts, also where the computer has not been started since it was installed."""
+    """What brings the devices of a service is loaded before it starts, also where the computer has
+    not been started since it was installed."""
     for device in lines_of(unit, "DeviceAllow"):
         module = MODULES.get(device.split()[0])
         for key in ("Wants", "After"):
@@ -73,7 +85,9 @@ def check_modules(unit):
 
 
 def verify(units):
-    return subprocess.run(["systemd-analyze", "verify", "--man=no", *units], capture_output=True, text=True, timeout=120)
+    return subprocess.run(
+        ["systemd-analyze", "verify", "--man=no", *units], capture_output=True, text=True, timeout=120
+    )
 
 
 def check_with_systemd(options, folder):
@@ -82,18 +96,32 @@ def check_with_systemd(options, folder):
     for unit in sorted(options.units.iterdir()):
         copy = folder / unit.name
         text = unit.read_text().replace(f"ExecStart={options.installed}/", f"ExecStart={options.programs}/")
-        copy.write_text(text if (options.programs / "qtplc_hardware").is_file() else text.replace("/qtplc_hardware ", "/qtplc "))
+        copy.write_text(
+            text if (options.programs / "qtplc_hardware").is_file() else text.replace("/qtplc_hardware ", "/qtplc ")
+        )
         units.append(copy)
     run = verify(units)
     if run.returncode != 0 or any(unit.name in run.stderr for unit in units):
         errors.append(f"systemd-analyze verify: {run.stderr.strip()}")
     for unit in units:
         if unit.suffix == ".service":
-            run = subprocess.run(["systemd-analyze", "security", "--offline=yes", f"--threshold={MOST_EXPOSED}", "--no-pager", unit], capture_output=True, text=True, timeout=120)
+            run = subprocess.run(
+                ["systemd-analyze", "security", "--offline=yes", f"--threshold={MOST_EXPOSED}", "--no-pager", unit],
+                capture_output=True,
+                text=True,
+                timeout=120,
+            )
             if run.returncode != 0:
-                errors.append(f"systemd-analyze security: {unit.name}: {run.stdout.strip().splitlines()[-1:]} {run.stderr.strip()}")
+                errors.append(
+                    f"systemd-analyze security: {unit.name}: "
+                    f"{run.stdout.strip().splitlines()[-1:]} {run.stderr.strip()}"
+                )
     broken = folder / "broken.service"
-    broken.write_text((folder / "qtplc-awe-master.service").read_text().replace("CPUSchedulingPolicy=fifo", "CPUSchedulingPolicy=fifth"))
+    broken.write_text(
+        (folder / "qtplc-awe-master.service")
+        .read_text()
+        .replace("CPUSchedulingPolicy=fifo", "CPUSchedulingPolicy=fifth")
+    )
     if "broken.service" not in verify([broken]).stderr:
         errors.append("systemd-analyze verify finds nothing in a unit that is wrong")
 

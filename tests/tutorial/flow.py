@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Types docs/tutorial in order, from an installed package, in an empty folder: creates its files and runs its commands as written. A file that a later step introduces is not there yet.
+"""Types docs/tutorial in order, from an installed package, in an empty folder: creates its files
+and runs its commands as written. A file that a later step introduces is not there yet.
 
 usage: flow.py SOURCE_FOLDER BUILD_FOLDER
 """
@@ -15,7 +16,9 @@ from typed import ANY, Broken, Expectation, Reader, Terminal, await_that, in_own
 
 NOT_TYPED = {
     "scripts/setup": "tests/scripts runs it with a slow apt-get",
-    "cmake --preset release && cmake --build --preset release --target programs": "builds QtPLC; what the test installs was built like that",
+    "cmake --preset release && cmake --build --preset release --target programs": (
+        "builds QtPLC; what the test installs was built like that"
+    ),
 }
 
 
@@ -27,7 +30,9 @@ class Winch:
 
     def qtplc(self, command):
         """Beside what the page types, so that its terminal shows only that."""
-        run = subprocess.run([self.program, *command.split()], env=self.terminal.environment, capture_output=True, text=True)
+        run = subprocess.run(
+            [self.program, *command.split()], env=self.terminal.environment, capture_output=True, text=True
+        )
         require(run.returncode == 0, f"qtplc {command} gives {run.returncode}: {run.stderr}")
         return run.stdout
 
@@ -36,13 +41,17 @@ class Winch:
 
     def await_nodes(self, count):
         """Each node of the shell says that it has registered."""
+
         def registered():
             self.terminal.take(0.1)
             return self.terminal.shown.count("registered at") >= count
+
         await_that(registered, lambda: f"{count} nodes never register: {self.terminal.shown[-2000:]}")
 
     def await_value(self, signal, condition, text):
-        await_that(lambda: condition(self.value(signal)), lambda: f"{signal} {text} never comes, it is {self.value(signal)}")
+        await_that(
+            lambda: condition(self.value(signal)), lambda: f"{signal} {text} never comes, it is {self.value(signal)}"
+        )
 
     def cycles_both_ways(self):
         self.await_value("tetherLength", lambda length: length >= 309.0, ">= 309")
@@ -69,7 +78,9 @@ def expected(winch):
         "qtplc state": Expectation(shows=r"(?s)(?=.*\bWinch\b)(?=.*\bOperator\b)", before=lambda: winch.await_nodes(2)),
         "qtplc start": Expectation(after=winch.cycles_both_ways),
         "qtplc list": Expectation(shows=r"(?s)tetherSpeed.*tetherLength"),
-        "qtplc echo tetherLength": Expectation(keys=(r"(?s)(.*tetherLength.*\n){3}|(.*\d\.\d.*\n){3}", b"\x03"), code=ANY),
+        "qtplc echo tetherLength": Expectation(
+            keys=(r"(?s)(.*tetherLength.*\n){3}|(.*\d\.\d.*\n){3}", b"\x03"), code=ANY
+        ),
         "kill %2": Expectation(after=winch.safe_length),
         "build/winch &": Expectation(),
         "build/winch": Expectation(shows=r"(?i)winch.*(in use|already)", code=ANY, before=winch.moves_again),
@@ -83,7 +94,10 @@ def same_files(created, code):
     """What the reader has at the end is what is in the repository."""
     for path in sorted(code.glob("[!.]*")):
         text = re.sub(r"\A.*SPDX.*\n+", "", path.read_text())
-        require((created / path.name).is_file() and (created / path.name).read_text() == text, f"the reader's {path.name} is not that of {code}")
+        require(
+            (created / path.name).is_file() and (created / path.name).read_text() == text,
+            f"the reader's {path.name} is not that of {code}",
+        )
 
 
 def main():
@@ -96,7 +110,13 @@ def main():
         terminal = Terminal(home)
         try:
             terminal.type("cd QtPLC")
-            reader = Reader(source / "docs" / "tutorial" / "README.md", home / "winch", terminal, expected(Winch(terminal, home / "qtplc" / "bin" / "qtplc")), NOT_TYPED)
+            reader = Reader(
+                source / "docs" / "tutorial" / "README.md",
+                home / "winch",
+                terminal,
+                expected(Winch(terminal, home / "qtplc" / "bin" / "qtplc")),
+                NOT_TYPED,
+            )
             reader.follow()
             same_files(home / "winch", source / "docs" / "tutorial" / "code")
         finally:

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Types the commands of README.md, and builds its programs with the installed package, as written. A block that this test does not know fails it.
+"""Types the commands of README.md, and builds its programs with the installed package, as written.
+A block that this test does not know fails it.
 
 usage: readme.py SOURCE_FOLDER BUILD_FOLDER
 """
@@ -16,7 +17,9 @@ NOT_TYPED = {
     "scripts/run": "the test progress_of_scripts runs it, with a slow compiler in the place of the true one",
     "scripts/test": "runs this test",
     "sudo chrt -f 49 ./awe_autopilot --master udp://192.168.1.5": "needs root and a second computer",
-    "sudo ./awe_autopilot --master udp://192.168.1.5 --priority 49 --cpu 3 --lock-memory": "needs root, four processors and a second computer",
+    "sudo ./awe_autopilot --master udp://192.168.1.5 --priority 49 --cpu 3 --lock-memory": (
+        "needs root, four processors and a second computer"
+    ),
 }
 INTERRUPT = b"\x03"
 WINDOW_IS_THERE = None  # Ctrl-C as soon as the program can be ended by it
@@ -31,8 +34,10 @@ def expected(terminal):
         "awe_control_center": Expectation(keys=(WINDOW_IS_THERE, INTERRUPT)),
         "awe_control_center --master 192.168.1.5:50000": Expectation(keys=(WINDOW_IS_THERE, INTERRUPT)),
         "./awe_master &": Expectation(after=lambda: terminal.await_text("port 50000")),
-        "./qtplc state": Expectation(shows=r"(?s)(?=.*\bModel\b)(?=.*\bAutopilot\b)",
-                                     before=lambda: await_that(registered, lambda: f"the nodes never register: {terminal.shown[-2000:]}")),
+        "./qtplc state": Expectation(
+            shows=r"(?s)(?=.*\bModel\b)(?=.*\bAutopilot\b)",
+            before=lambda: await_that(registered, lambda: f"the nodes never register: {terminal.shown[-2000:]}"),
+        ),
         "./qtplc watch 'tether*' power": Expectation(shows="tetherLength", keys=("power", b"q")),
         "./qtplc get tetherLength --plain": Expectation(shows=r"(?m)^\d+(\.\d+)?$"),
         "./qtplc hz": Expectation(shows=r"\d Hz", keys=(r"\d Hz", INTERRUPT), code=ANY),
@@ -43,7 +48,8 @@ def expected(terminal):
 
 
 class Programs:
-    """Builds each CMake part of the page as a project of its own, with the source that the page has shown."""
+    """Builds each CMake part of the page as a project of its own, with the source that the page has
+    shown."""
 
     def __init__(self, folder, prefix):
         self.folder, self.prefix = folder, prefix
@@ -55,14 +61,18 @@ class Programs:
         project = self.folder / program
         project.mkdir()
         (self.folder / source).rename(project / source)
-        (project / "CMakeLists.txt").write_text(f"cmake_minimum_required(VERSION 3.23)\nproject(Readme LANGUAGES CXX)\n{text}")
+        (project / "CMakeLists.txt").write_text(
+            f"cmake_minimum_required(VERSION 3.23)\nproject(Readme LANGUAGES CXX)\n{text}"
+        )
         self.run("cmake", "-S", project, "-B", project / "build", f"-DCMAKE_PREFIX_PATH={self.prefix}")
         self.run("cmake", "--build", project / "build")
         print(f"built: {program}", flush=True)
         return True
 
     def run(self, *command):
-        result = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        result = subprocess.run(
+            [str(word) for word in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+        )
         require(result.returncode == 0, f"{' '.join(map(str, command))} fails:\n{result.stdout[-4000:]}")
 
 

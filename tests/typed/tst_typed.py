@@ -22,7 +22,11 @@ class Typed(unittest.TestCase):
         Reader(page, self.folder, self.terminal, **how).follow()
 
     def test_files_are_created_and_commands_are_typed_in_order(self):
-        self.follow("<!-- begin of: code/a.txt -->\n```text\none\n```\n<!-- end of: code/a.txt -->\n```text\ntwo\n```\n\n```sh\ncp a.txt b.txt  # a copy\n```\n")
+        self.follow(
+            "<!-- begin of: code/a.txt -->\n```text\none\n```\n"
+            "<!-- end of: code/a.txt -->\n```text\ntwo\n```\n\n"
+            "```sh\ncp a.txt b.txt  # a copy\n```\n"
+        )
         self.assertEqual((self.folder / "b.txt").read_text(), "one\n\ntwo\n")
 
     def test_a_file_that_comes_later_is_missed(self):
@@ -45,10 +49,15 @@ class Typed(unittest.TestCase):
             self.follow("```sh\necho 4\n```\n", not_typed={"reboot": "a good reason"})
 
     def test_keys_are_pressed_when_the_pattern_is_seen(self):
-        self.follow("```sh\nread name; echo \"hello $name\"\n```\n", expected={"read name; echo \"hello $name\"": Expectation(shows="hello kite", keys=("", b"kite\n"))})
+        self.follow(
+            '```sh\nread name; echo "hello $name"\n```\n',
+            expected={'read name; echo "hello $name"': Expectation(shows="hello kite", keys=("", b"kite\n"))},
+        )
 
     def test_commands_are_cut_at_lines_and_comments(self):
-        self.assertEqual(list(commands("# nothing\n\none # two\nthree \\\n    four\n")), ["one # two", "three \\\n    four"])
+        self.assertEqual(
+            list(commands("# nothing\n\none # two\nthree \\\n    four\n")), ["one # two", "three \\\n    four"]
+        )
         self.assertEqual(without_comment("qtplc list   # all 'signals'"), "qtplc list")
 
 

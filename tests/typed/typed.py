@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Does what a page tells its reader: creates the files that it shows and types the commands that it shows, in order, as written, in a terminal of its own.
+"""Does what a page tells its reader: creates the files that it shows and types the commands that it
+shows, in order, as written, in a terminal of its own.
 
-The terminal has a network of its own, so that the commands may use the ports that the pages name, while other tests run.
+The terminal has a network of its own, so that the commands may use the ports that the pages name,
+while other tests run.
 
 A block of a page is
     commands      ```sh
@@ -24,7 +26,10 @@ from pathlib import Path
 
 SKIPPED = 77
 PATIENCE = 60.0  # [s]
-BLOCK = re.compile(r"(?:^<!-- (?P<kind>file|begin of|end of): (?P<path>\S+) -->\n)?^```(?P<language>\w*)\n(?P<text>.*?)^```\n", re.M | re.S)
+BLOCK = re.compile(
+    r"(?:^<!-- (?P<kind>file|begin of|end of): (?P<path>\S+) -->\n)?^```(?P<language>\w*)\n(?P<text>.*?)^```\n",
+    re.M | re.S,
+)
 ANY = None  # exit code of a command that ends by a signal, or in more than one way
 PROMPT = re.compile(r"<<<(\d+)>>>")
 
@@ -87,8 +92,17 @@ class Terminal:
     def __init__(self, folder, environment=None):
         self.shown, self.read = "", 0
         keep = {name: os.environ[name] for name in ("LANG", "CXX", "CCACHE_DIR") if name in os.environ}
-        self.environment = {**keep, "HOME": str(folder), "PATH": "/usr/local/bin:/usr/bin:/bin:/usr/sbin:/sbin", "TERM": "xterm", "PS1": "<<<$?>>>", "PS2": "",
-                            "XDG_RUNTIME_DIR": str(folder), "QT_QPA_PLATFORM": "offscreen", **(environment or {})}
+        self.environment = {
+            **keep,
+            "HOME": str(folder),
+            "PATH": "/usr/local/bin:/usr/bin:/bin:/usr/sbin:/sbin",
+            "TERM": "xterm",
+            "PS1": "<<<$?>>>",
+            "PS2": "",
+            "XDG_RUNTIME_DIR": str(folder),
+            "QT_QPA_PLATFORM": "offscreen",
+            **(environment or {}),
+        }
         self.pid, self.terminal = pty.fork()
         if self.pid == 0:
             os.chdir(folder)
@@ -107,15 +121,18 @@ class Terminal:
             raise Broken(f"the shell has ended:\n{self.shown[-2000:]}") from None
 
     def await_prompt(self, answer, command):
-        """What the command shows, and its exit code. answer: the pattern that is awaited, None: until the command can be interrupted; and the keys that are pressed then."""
+        """What the command shows, and its exit code. answer: the pattern that is awaited, None:
+        until the command can be interrupted; and the keys that are pressed then."""
         end = time.monotonic() + 10 * PATIENCE
         while True:
             found = PROMPT.search(self.shown, self.read)
             if found:
-                text = self.shown[self.read:found.start()]
+                text = self.shown[self.read : found.start()]
                 self.read = found.end()
                 return text, int(found[1])
-            if answer and (self.is_interruptible() if answer[0] is None else re.search(answer[0], self.shown[self.read:])):
+            if answer and (
+                self.is_interruptible() if answer[0] is None else re.search(answer[0], self.shown[self.read :])
+            ):
                 os.write(self.terminal, answer[1])
                 answer = None
             require(time.monotonic() < end, f"'{command}' does not end; it shows:\n{self.shown[self.read:][-2000:]}")
@@ -140,6 +157,7 @@ class Terminal:
         def seen():
             self.take(0.1)
             return text in self.shown
+
         await_that(seen, lambda: f"'{text}' is never shown, but:\n{self.shown[-2000:]}")
 
     def close(self):
@@ -154,14 +172,16 @@ class Terminal:
 
 
 class Expectation:
-    """What the reader of a page waits for before a command, which keys he presses, and what he sees."""
+    """What the reader of a page waits for before a command, which keys he presses, and what he
+    sees."""
 
     def __init__(self, shows="", code=0, before=None, keys=None, after=None):
         self.shows, self.code, self.before, self.keys, self.after = shows, code, before, keys, after
 
 
 class Reader:
-    """Follows a page in a folder. expected: what is seen at some of its commands. not_typed: commands that are left out, and why."""
+    """Follows a page in a folder. expected: what is seen at some of its commands. not_typed:
+    commands that are left out, and why."""
 
     def __init__(self, page, folder, terminal, expected=None, not_typed=None, part=None):
         self.page, self.folder, self.terminal = page, folder, terminal
@@ -173,10 +193,13 @@ class Reader:
             try:
                 self.follow_block(block)
             except Broken as broken:
-                line = self.page.read_text()[:block.start()].count("\n") + 1
+                line = self.page.read_text()[: block.start()].count("\n") + 1
                 raise Broken(f"{self.page}:{line}: {broken}") from None
         unknown = set(self.expected) | set(self.not_typed)
-        require(unknown <= self.seen, f"{self.page}: the page does not show {sorted(unknown - self.seen)}, which the test expects")
+        require(
+            unknown <= self.seen,
+            f"{self.page}: the page does not show {sorted(unknown - self.seen)}, which the test expects",
+        )
 
     def follow_block(self, block):
         if block["kind"]:
@@ -191,7 +214,9 @@ class Reader:
             for command in commands(block["text"]):
                 self.follow_command(without_comment(command))
         else:
-            require(self.part is not None and self.part(block["language"], block["text"]), "this block is run by no test")
+            require(
+                self.part is not None and self.part(block["language"], block["text"]), "this block is run by no test"
+            )
 
     def follow_command(self, command):
         self.seen.add(command)

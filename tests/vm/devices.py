@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Devices of the virtual machine, made of test drivers of the kernel, each of them tried with the tools of Debian before our library sees it."""
+"""Devices of the virtual machine, made of test drivers of the kernel, each of them tried with the
+tools of Debian before our library sees it."""
 import ctypes
 import fcntl
 import glob
@@ -58,7 +59,9 @@ class Bench:
         command("ip", "link", "set", "vcan0", "mtu", 72)
         command("ip", "link", "set", "vcan0", "up")
         with Process("candump", "-L", "-n", "2", "vcan0") as dump:
-            wait_until(lambda: re.search(r"vcan0\s+\d", Path("/proc/net/can/rcvlist_all").read_text()), "candump listens")
+            wait_until(
+                lambda: re.search(r"vcan0\s+\d", Path("/proc/net/can/rcvlist_all").read_text()), "candump listens"
+            )
             command("cansend", "vcan0", "123#11223344")
             command("cansend", "vcan0", "124##1AABBCC")
             dump.wait()
@@ -105,7 +108,9 @@ class Bench:
     def make_i2c(self):
         command("modprobe", "i2c-dev")
         command("modprobe", "i2c-stub", f"chip_addr={','.join(I2C_ADDRESSES)}")
-        names = {Path(path).read_text().strip(): path.split("/")[-2] for path in glob.glob("/sys/bus/i2c/devices/i2c-*/name")}
+        names = {
+            Path(path).read_text().strip(): path.split("/")[-2] for path in glob.glob("/sys/bus/i2c/devices/i2c-*/name")
+        }
         bus = next(bus for name, bus in names.items() if name.startswith("SMBus stub"))
         wait_until(Path(f"/dev/{bus}").exists, f"/dev/{bus}")
         number = bus.split("-")[1]
@@ -139,10 +144,14 @@ class Bench:
 
 
 class GpioRecord:
-    """What the kernel tells the chip, with its own time stamps: probes in the functions of gpio-sim."""
+    """What the kernel tells the chip, with its own time stamps: probes in the functions of
+    gpio-sim."""
 
     TRACING = Path("/sys/kernel/debug/tracing")
-    PROBES = ("p:qtplc/set gpio_sim_set offset=%si:u32 value=%dx:s32", "p:qtplc/set_multiple gpio_sim_set_multiple mask=+0(%si):x64 bits=+0(%dx):x64")
+    PROBES = (
+        "p:qtplc/set gpio_sim_set offset=%si:u32 value=%dx:s32",
+        "p:qtplc/set_multiple gpio_sim_set_multiple mask=+0(%si):x64 bits=+0(%dx):x64",
+    )
 
     def __enter__(self):
         (self.TRACING / "kprobe_events").write_text("\n".join(self.PROBES) + "\n")
@@ -158,7 +167,8 @@ class GpioRecord:
         (self.TRACING / "kprobe_events").write_text("")
 
     def low_since(self, line):
-        """Since when the line has been set low [s, monotonic clock]; None: it is not, or it was before the record."""
+        """Since when the line has been set low [s, monotonic clock]; None: it is not, or it was
+        before the record."""
         since = None
         for entry in (self.TRACING / "trace").read_text().splitlines():
             time = re.search(r"\s(\d+\.\d+): (set|set_multiple): ", entry)

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""What scripts/test-vm runs in its virtual machine: makes the devices, tests with them, and writes /run/vm/report.json.
+"""What scripts/test-vm runs in its virtual machine: makes the devices, tests with them, and writes
+/run/vm/report.json.
 
 usage: guest.py [--prepare-only]
 """
@@ -20,7 +21,8 @@ REPORT = Path("/run/vm/report.json")
 
 
 def steps(bench):
-    """Name and function of each step. A function returns what is worth reading, or None; it raises when something is wrong."""
+    """Name and function of each step. A function returns what is worth reading, or None; it raises
+    when something is wrong."""
     yield "kernel with PREEMPT_RT", devices.kernel_is_real_time
     yield "CAN of the kernel: vcan, classic and FD", bench.make_can
     yield "GPIO of the kernel: gpio-sim", bench.make_gpio
@@ -55,7 +57,11 @@ def main():
             function()
         return 0
     done = [run(name, function) for name, function in steps(bench)]
-    REPORT.write_text(json.dumps({"kernel": platform.release(), "version": platform.version(), "booted": booted, "steps": done}, indent=1))
+    REPORT.write_text(
+        json.dumps(
+            {"kernel": platform.release(), "version": platform.version(), "booted": booted, "steps": done}, indent=1
+        )
+    )
     failed = [step for step in done if step["result"] == "FAILED"]
     return 1 if failed else 0
 

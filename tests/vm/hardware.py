@@ -12,7 +12,9 @@ SKIP_CODE = 77
 def steps(bench):
     for name in CORE_TESTS:
         yield f"core: {name}", lambda name=name: test(name)
-    yield "hardware: conformance of the drivers on devices of the kernel", lambda: test("tst_DriverConformance", bench.environment())
+    yield "hardware: conformance of the drivers on devices of the kernel", lambda: test(
+        "tst_DriverConformance", bench.environment()
+    )
     yield "hardware: 20 CAN frames a cycle on vcan", lambda: can_frames(bench)
 
 
@@ -28,8 +30,13 @@ def test(name, environment=None):
 def can_frames(bench):
     if not bench.can:
         raise Skipped("there is no CAN")
-    output = command(program("qtplc_can_cycle"), "--device", bench.can, "--period-us", "20000", "--seconds", "20", seconds=240)
+    output = command(
+        program("qtplc_can_cycle"), "--device", bench.can, "--period-us", "20000", "--seconds", "20", seconds=240
+    )
     result = json.loads(output.strip().splitlines()[-1])
     faults = {name: result[name] for name in ("lost", "reordered", "unsent", "wrong_ages")}
     assert not any(faults.values()), f"frames went wrong: {faults}"
-    return f"{result['frames_in']:.0f} frames in, {result['frames_out']:.0f} out, none lost, reordered or unsent, {result['judged_ages']:.0f} ages right"
+    return (
+        f"{result['frames_in']:.0f} frames in, {result['frames_out']:.0f} out, none lost, reordered or unsent, "
+        f"{result['judged_ages']:.0f} ages right"
+    )

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Master and nodes under real-time priorities, and what becomes of a GPIO line when something fails."""
+"""Master and nodes under real-time priorities, and what becomes of a GPIO line when something
+fails."""
 import json
 import re
 import signal
@@ -21,9 +22,15 @@ PRIORITY = ("chrt", "-f", "49")
 def steps(bench):
     yield "qtplc doctor", doctor
     yield "master, model and autopilot under SCHED_FIFO 49", fly
-    for name, action in (("kill -9 of the master", kill_master), ("the master hangs (SIGSTOP)", stop_master), ("SIGTERM to the master", end_master),
-                         ("exception in the code of the node that switches", throw_in_switch), ("kill -9 of the node that switches", kill_switch),
-                         ("exception in the code of the hardware node", throw_in_lamp), ("SIGTERM to the hardware node", end_lamp)):
+    for name, action in (
+        ("kill -9 of the master", kill_master),
+        ("the master hangs (SIGSTOP)", stop_master),
+        ("SIGTERM to the master", end_master),
+        ("exception in the code of the node that switches", throw_in_switch),
+        ("kill -9 of the node that switches", kill_switch),
+        ("exception in the code of the hardware node", throw_in_lamp),
+        ("SIGTERM to the hardware node", end_lamp),
+    ):
         yield f"GPIO line is safe after: {name}", lambda action=action: lamp_is_safe(bench, action)
     yield "GPIO line after kill -9 of the hardware node", lambda: lamp_after_kill(bench)
 
@@ -42,10 +49,25 @@ def doctor():
 def fly():
     """Half as fast as the real clock: a cycle each 20 ms."""
     report = Path("/run/flight.json")
-    with Process(*PRIORITY, program("awe_master"), "--port", "0", "--scale", "0.5", "--duration", "5", "--start-with", "Model,Autopilot", "--report", report) as master:
+    with Process(
+        *PRIORITY,
+        program("awe_master"),
+        "--port",
+        "0",
+        "--scale",
+        "0.5",
+        "--duration",
+        "5",
+        "--start-with",
+        "Model,Autopilot",
+        "--report",
+        report,
+    ) as master:
         master.wait_for("port ")
         place = "localhost:" + re.search(r"port (\d+)", master.output())[1]
-        with Process(*PRIORITY, program("awe_model"), "--master", f"udp://{place}"), Process(*PRIORITY, program("awe_autopilot"), "--master", f"udp://{place}"):
+        with Process(*PRIORITY, program("awe_model"), "--master", f"udp://{place}"), Process(
+            *PRIORITY, program("awe_autopilot"), "--master", f"udp://{place}"
+        ):
             code = master.wait(90)
         assert code == 0, f"exit code {code}\n{master.output()}"
     return f"{len(report.read_text())} byte of report"
@@ -65,8 +87,12 @@ class LampPlant:
     def __enter__(self):
         plant = program("vm_plant")
         file = Path("/run/lamp.ini")
-        file.write_text(f"[node]\nname = Lamp\n[board]\ndriver = gpio\ndevice = {self.bench.gpio}\noutput.lamp = {LAMP}\n[board.write]\nlamp = lamp\n[board.safe]\nlamp = 0\n")
-        # Who lets the line go leaves it to its pull: a line that is safe because of that is seen as high.
+        file.write_text(
+            f"[node]\nname = Lamp\n[board]\ndriver = gpio\ndevice = {self.bench.gpio}\n"
+            f"output.lamp = {LAMP}\n[board.write]\nlamp = lamp\n[board.safe]\nlamp = 0\n"
+        )
+        # Who lets the line go leaves it to its pull: a line that is safe because of that is seen as
+        # high.
         self.bench.set_input(LAMP, True)
         self.processes = []
         try:
@@ -127,7 +153,8 @@ def end_lamp(plant):
 
 
 class Stalls(threading.Thread):
-    """How long the computer below did not let this machine run: its programs can do nothing about that."""
+    """How long the computer below did not let this machine run: its programs can do nothing about
+    that."""
 
     LOOK = 0.010  # [s]
     USUAL = 0.050  # [s] that a look may come late here
@@ -162,13 +189,18 @@ def lamp_is_safe(bench, action):
         low = record.low_since(LAMP)
         assert low, "the line is high again"
         fall = low - start
-        assert fall <= WATCHDOG + PERIOD + SLACK + stalls.seconds, f"the line was low after {fall * 1e3:.0f} ms, and the watchdog is {WATCHDOG * 1e3:.0f} ms"
+        assert (
+            fall <= WATCHDOG + PERIOD + SLACK + stalls.seconds
+        ), f"the line was low after {fall * 1e3:.0f} ms, and the watchdog is {WATCHDOG * 1e3:.0f} ms"
         assert action is end_lamp or plant.level() == 0, "the line is high again"
-        return f"low after {fall * 1e3:.0f} ms" + (f", of which the machine stood still up to {stalls.seconds * 1e3:.0f} ms" if stalls.seconds else "")
+        return f"low after {fall * 1e3:.0f} ms" + (
+            f", of which the machine stood still up to {stalls.seconds * 1e3:.0f} ms" if stalls.seconds else ""
+        )
 
 
 def lamp_after_kill(bench):
-    """Nobody can write a safe value any more: the line falls back to its pull, which is what the wiring has to be safe with."""
+    """Nobody can write a safe value any more: the line falls back to its pull, which is what the
+    wiring has to be safe with."""
     with LampPlant(bench) as plant:
         plant.lamp.kill()
         plant.lamp.wait()

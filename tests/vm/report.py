@@ -11,7 +11,9 @@ from pathlib import Path
 
 
 def rows(cells):
-    return "\n".join("| " + " | ".join(str(cell).replace("|", "\\|").replace("\n", " ") for cell in row) + " |" for row in cells)
+    return "\n".join(
+        "| " + " | ".join(str(cell).replace("|", "\\|").replace("\n", " ") for cell in row) + " |" for row in cells
+    )
 
 
 def main():
@@ -24,11 +26,16 @@ def main():
     report = json.loads(file.read_text())
     results = [step["result"] for step in report["steps"]]
     verdict = "passed" if "FAILED" not in results else f"FAILED: {results.count('FAILED')} of {len(results)} steps"
-    print(f"""# The virtual machine
+    print(
+        f"""# The virtual machine
 
-`scripts/test-vm` boots the kernel of Debian with PREEMPT_RT in QEMU, on emulated processors, with the test devices of the kernel: CAN (`vcan`), GPIO (`gpio-sim`), I2C (`i2c-stub`), SPI (`spidev` on a bus without wires, `tests/vm/spi_loop`).
-It tests the hardware library with these devices, and a master with nodes under `SCHED_FIFO`. It needs root and Debian 12 on x86-64, but no rights for virtualisation and no CAN, GPIO or I2C of the computer. It is a separate job: it takes three minutes to more than fifteen, depending on the computer that emulates.
-`scripts/test-vm --run COMMAND` runs your command there.
+`scripts/test-vm` boots the kernel of Debian with PREEMPT_RT in QEMU, on emulated processors, with
+the test devices of the kernel: CAN (`vcan`), GPIO (`gpio-sim`), I2C (`i2c-stub`), SPI (`spidev` on
+a bus without wires, `tests/vm/spi_loop`). It tests the hardware library with these devices, and a
+master with nodes under `SCHED_FIFO`. It needs root and Debian 12 on x86-64, but no rights for
+virtualisation and no CAN, GPIO or I2C of the computer. It is a separate job: it takes three minutes
+to more than fifteen, depending on the computer that emulates. `scripts/test-vm --run COMMAND` runs
+your command there.
 
 The times do not show performance, because the processors are emulated. The script writes this page.
 
@@ -53,7 +60,8 @@ Packages, downloads and builds are kept, so a repeated run needs little time for
 
 | s | |
 |---|---|
-{rows(host)}""")
+{rows(host)}"""
+    )
     return 0
 
 

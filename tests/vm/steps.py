@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What all steps of the virtual machine need: programs with an end, and conditions that are waited for."""
+"""What all steps of the virtual machine need: programs with an end, and conditions that are waited
+for."""
 import os
 import signal
 import subprocess
@@ -13,10 +14,18 @@ class Skipped(Exception):
 
 
 def command(*words, seconds=60, text=None, environment=None):
-    """Runs a program to its end. \\return what it printed; raises when it failed or took too long"""
+    """Runs a program to its end. \\return what it printed; raises when it failed or took too
+    long"""
     words = [str(word) for word in words]
-    result = subprocess.run(words, input=text, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=seconds,
-                            env={**os.environ, **(environment or {})})
+    result = subprocess.run(
+        words,
+        input=text,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        timeout=seconds,
+        env={**os.environ, **(environment or {})},
+    )
     if result.returncode != 0:
         raise RuntimeError(f"{' '.join(words)}: exit code {result.returncode}\n{result.stdout[-4000:]}")
     return result.stdout
@@ -41,7 +50,8 @@ def program(name):
 
 
 class Process:
-    """A program that runs beside the test, and is gone when the block is left. Its output is in a file."""
+    """A program that runs beside the test, and is gone when the block is left. Its output is in a
+    file."""
 
     def __init__(self, *words, environment=None):
         self.words = [str(word) for word in words]
@@ -50,7 +60,9 @@ class Process:
 
     def __enter__(self):
         with open(self.log, "w") as log:
-            self.process = subprocess.Popen(self.words, stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.STDOUT, env=self.environment)
+            self.process = subprocess.Popen(
+                self.words, stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.STDOUT, env=self.environment
+            )
         return self
 
     def __exit__(self, kind, error, trace):

@@ -4,8 +4,10 @@
 
 usage: canmatrix_oracle.py FILE.dbc < QUESTIONS > ANSWERS
 
-A question is a line of JSON: {"frame": NAME, "raw": {SIGNAL: TEXT, ...}}, an answer {"bytes": HEX, "raw": {SIGNAL: TEXT, ...}, "physical": {SIGNAL: TEXT, ...}}, of the
-signals that canmatrix finds in the bytes. A raw value is a decimal integer; that of a float is "f" and the number as Python writes it. Exit code 77: there is no canmatrix.
+A question is a line of JSON: {"frame": NAME, "raw": {SIGNAL: TEXT, ...}}, an answer {"bytes": HEX,
+"raw": {SIGNAL: TEXT, ...}, "physical": {SIGNAL: TEXT, ...}}, of the signals that canmatrix finds in
+the bytes. A raw value is a decimal integer; that of a float is "f" and the number as Python writes
+it. Exit code 77: there is no canmatrix.
 """
 import json
 import logging
@@ -35,8 +37,11 @@ def answer(frame, question):
         values[name] = raw if signal.is_float else signal.phys2raw(signal.raw2phys(raw))
     data = bytes(frame.encode(values))
     decoded = frame.decode(data)
-    return {"bytes": data.hex(), "raw": {name: text_of(one.signal, one.raw_value) for name, one in decoded.items()},
-            "physical": {name: repr(float(one.phys_value)) for name, one in decoded.items()}}
+    return {
+        "bytes": data.hex(),
+        "raw": {name: text_of(one.signal, one.raw_value) for name, one in decoded.items()},
+        "physical": {name: repr(float(one.phys_value)) for name, one in decoded.items()},
+    }
 
 
 def main():
