@@ -10,7 +10,9 @@ include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(MuParser
     REQUIRED_VARS MuParser_LIBRARY MuParser_INCLUDE_DIR
     VERSION_VAR MuParser_VERSION
-    REASON_FAILURE_MESSAGE "the Control Center calculates formulas with it. Debian has it as libmuparser-dev, and scripts/setup installs it. Without the window: -DQTPLC_BUILD_GUI=OFF")
+    REASON_FAILURE_MESSAGE
+    "the Control Center calculates formulas with it. Debian has it as libmuparser-dev, and \
+scripts/setup installs it. Without the window: -DQTPLC_BUILD_GUI=OFF")
 mark_as_advanced(MuParser_INCLUDE_DIR MuParser_LIBRARY)
 if(MuParser_FOUND AND NOT TARGET MuParser::MuParser)
     add_library(MuParser::MuParser UNKNOWN IMPORTED)

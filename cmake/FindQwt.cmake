@@ -11,7 +11,8 @@ find_package_handle_standard_args(Qwt REQUIRED_VARS Qwt_LIBRARY Qwt_INCLUDE_DIR 
 mark_as_advanced(Qwt_INCLUDE_DIR Qwt_LIBRARY)
 if(Qwt_FOUND AND NOT TARGET Qwt::Qwt)
     add_library(Qwt::Qwt UNKNOWN IMPORTED)
-    set_target_properties(Qwt::Qwt PROPERTIES IMPORTED_LOCATION ${Qwt_LIBRARY} INTERFACE_INCLUDE_DIRECTORIES ${Qwt_INCLUDE_DIR})
+    set_target_properties(Qwt::Qwt PROPERTIES IMPORTED_LOCATION ${Qwt_LIBRARY}
+        INTERFACE_INCLUDE_DIRECTORIES ${Qwt_INCLUDE_DIR})
     # Its headers use what Qt 5.15 deprecates, a zero as flags.
     set_target_properties(Qwt::Qwt PROPERTIES INTERFACE_COMPILE_OPTIONS
         "-UQT_DISABLE_DEPRECATED_BEFORE;-DQT_DISABLE_DEPRECATED_BEFORE=0x050E00")

@@ -14,7 +14,8 @@ include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(Sodium
     REQUIRED_VARS Sodium_LIBRARY Sodium_INCLUDE_DIR
     VERSION_VAR Sodium_VERSION
-    REASON_FAILURE_MESSAGE "cyclic frames are sealed with it. Debian has it as libsodium-dev, and scripts/setup installs it")
+    REASON_FAILURE_MESSAGE
+    "cyclic frames are sealed with it. Debian has it as libsodium-dev, and scripts/setup installs it")
 mark_as_advanced(Sodium_INCLUDE_DIR Sodium_LIBRARY)
 if(Sodium_FOUND AND NOT TARGET Sodium::Sodium)
     add_library(Sodium::Sodium UNKNOWN IMPORTED)

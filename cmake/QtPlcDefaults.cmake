@@ -13,7 +13,8 @@ set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 if(NOT CMAKE_RUNTIME_OUTPUT_DIRECTORY)
     set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
 endif()
-# Installed programs find the library beside them, wherever the tree is put; those of the build folder find it there.
+# Installed programs find the library beside them, wherever the tree is put; those of the build
+# folder find it there.
 if(NOT CMAKE_INSTALL_RPATH)
     set(CMAKE_INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
 endif()
@@ -21,16 +22,20 @@ if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
     set(CMAKE_BUILD_TYPE Release)
 endif()
 
-# Sums are rounded where the code says so, on every processor: results of a flight are compared bit by bit.
+# Sums are rounded where the code says so, on every processor: results of a flight are compared bit
+# by bit.
 add_compile_options(-ffp-contract=off)
-add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual)
-# The library calls its own functions directly: nobody replaces them, and a detour per call costs the cycle two per cent.
+add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
+    -Woverloaded-virtual)
+# The library calls its own functions directly: nobody replaces them, and a detour per call costs
+# the cycle two per cent.
 add_link_options($<$<PLATFORM_ID:Linux>:LINKER:-Bsymbolic-functions>)
 # Qt's logging macros without arguments are an extension to clang's -Wpedantic.
 add_compile_options($<$<CXX_COMPILER_ID:Clang>:-Wno-gnu-zero-variadic-macro-arguments>)
 add_compile_definitions(QT_NO_KEYWORDS QT_NO_CAST_TO_ASCII QT_DISABLE_DEPRECATED_BEFORE=0x050F00)
 if(CMAKE_UNITY_BUILD)
-    add_compile_options(-Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)  # sources are headers of each other: a build that compiles each alone looks at these
+    # Sources are headers of each other: a build that compiles each alone looks at these.
+    add_compile_options(-Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endif()
 if(QTPLC_WARNINGS_AS_ERRORS)
     add_compile_options(-Werror)

@@ -2,7 +2,8 @@
 # The shared libraries export the public API alone. A program of this repository that calls more of
 # them has the property QTPLC_INSIDE (or the variable of that name, for all programs of a folder).
 # It contains the objects of the libraries that it links: docs/design/abi.md.
-# Where one library has all symbols for everybody (a static one, or QTPLC_EXPORT_ALL), it is that one.
+# Where one library has all symbols for everybody (a static one, or QTPLC_EXPORT_ALL), it is that
+# one.
 set(QTPLC_INSIDE_ARCHIVES ${BUILD_SHARED_LIBS})
 if(QTPLC_EXPORT_ALL)
     set(QTPLC_INSIDE_ARCHIVES OFF)
@@ -27,8 +28,8 @@ function(qtplc_use_common library objects)
     endif()
 endfunction()
 
-# qtplc_add_inside(Name), when the library QtPlcName is complete: QtPlc::Name, which is for a program
-# the library, or the archive QtPlcNameInside of the same objects.
+# qtplc_add_inside(Name), when the library QtPlcName is complete: QtPlc::Name, which is for a
+# program the library, or the archive QtPlcNameInside of the same objects.
 function(qtplc_add_inside name)
     set(library QtPlc${name})
     add_library(${library}Choice INTERFACE)
@@ -41,7 +42,8 @@ function(qtplc_add_inside name)
     get_target_property(public ${library} INTERFACE_LINK_LIBRARIES)
     get_target_property(all ${library} LINK_LIBRARIES)
     add_library(${library}Inside STATIC $<TARGET_OBJECTS:${library}> ${objects})
-    set_target_properties(${library}Inside PROPERTIES EXPORT_NAME ${name}Inside LINKER_LANGUAGE CXX AUTOMOC OFF AUTORCC OFF)
+    set_target_properties(${library}Inside PROPERTIES EXPORT_NAME ${name}Inside LINKER_LANGUAGE CXX
+        AUTOMOC OFF AUTORCC OFF)
     target_include_directories(${library}Inside INTERFACE $<TARGET_PROPERTY:${library},INTERFACE_INCLUDE_DIRECTORIES>)
     target_compile_definitions(${library}Inside INTERFACE $<TARGET_PROPERTY:${library},INTERFACE_COMPILE_DEFINITIONS>)
     foreach(item IN LISTS all)

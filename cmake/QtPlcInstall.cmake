@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# What `cmake --install` puts where, and the package that find_package(QtPlc) finds there. Components are called like the Debian packages that they become (QtPlcPackages.cmake).
+# What `cmake --install` puts where, and the package that find_package(QtPlc) finds there.
+# Components are called like the Debian packages that they become (QtPlcPackages.cmake).
 include(CMakePackageConfigHelpers)
 
 set(package_directory ${CMAKE_INSTALL_LIBDIR}/cmake/QtPlc)
@@ -25,13 +26,17 @@ if(TARGET QtPlcHardware)
     if(NOT BUILD_SHARED_LIBS)
         get_target_property(dependencies QtPlcHardware QTPLC_STATIC_DEPENDENCIES)
         list(TRANSFORM dependencies REPLACE "(.+)" "    find_dependency(\\1)\n")
-        string(CONCAT QTPLC_HARDWARE_DEPENDENCIES "    list(PREPEND CMAKE_MODULE_PATH \${CMAKE_CURRENT_LIST_DIR})\n" ${dependencies} "    list(POP_FRONT CMAKE_MODULE_PATH)\n")
-        install(FILES ${CMAKE_CURRENT_LIST_DIR}/FindModbus.cmake DESTINATION ${package_directory} COMPONENT libqtplc-dev)
+        string(CONCAT QTPLC_HARDWARE_DEPENDENCIES
+            "    list(PREPEND CMAKE_MODULE_PATH \${CMAKE_CURRENT_LIST_DIR})\n"
+            ${dependencies} "    list(POP_FRONT CMAKE_MODULE_PATH)\n")
+        install(FILES ${CMAKE_CURRENT_LIST_DIR}/FindModbus.cmake DESTINATION ${package_directory}
+            COMPONENT libqtplc-dev)
     endif()
 endif()
 if(QTPLC_BUILD_GUI)
     qtplc_install_library(QtPlcGui QtPlcGuiTargets libqtplc-gui)
-    install(FILES ${CMAKE_CURRENT_LIST_DIR}/FindMuParser.cmake ${CMAKE_CURRENT_LIST_DIR}/FindQwt.cmake DESTINATION ${package_directory} COMPONENT libqtplc-gui-dev)
+    install(FILES ${CMAKE_CURRENT_LIST_DIR}/FindMuParser.cmake ${CMAKE_CURRENT_LIST_DIR}/FindQwt.cmake
+        DESTINATION ${package_directory} COMPONENT libqtplc-gui-dev)
 endif()
 if(TARGET QtPlcTest)
     qtplc_install_library(QtPlcTest QtPlcTestTargets libqtplc-test)
@@ -47,11 +52,12 @@ endif()
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/QtPlcConfig.cmake.in ${PROJECT_BINARY_DIR}/QtPlcConfig.cmake
     INSTALL_DESTINATION ${package_directory})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/QtPlcConfigVersion.cmake COMPATIBILITY SameMinorVersion)
-install(FILES ${PROJECT_BINARY_DIR}/QtPlcConfig.cmake ${PROJECT_BINARY_DIR}/QtPlcConfigVersion.cmake ${CMAKE_CURRENT_LIST_DIR}/FindSodium.cmake
-    ${CMAKE_CURRENT_LIST_DIR}/QtPlcComponents.cmake
+install(FILES ${PROJECT_BINARY_DIR}/QtPlcConfig.cmake ${PROJECT_BINARY_DIR}/QtPlcConfigVersion.cmake
+    ${CMAKE_CURRENT_LIST_DIR}/FindSodium.cmake ${CMAKE_CURRENT_LIST_DIR}/QtPlcComponents.cmake
     DESTINATION ${package_directory} COMPONENT libqtplc-dev)
 # The documents with all that they link to; the menu Help of windows shows them.
-install(FILES LICENSE README.md CHANGELOG.md CONTRIBUTING.md SECURITY.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT qtplc-doc)
+install(FILES LICENSE README.md CHANGELOG.md CONTRIBUTING.md SECURITY.md DESTINATION ${CMAKE_INSTALL_DOCDIR}
+    COMPONENT qtplc-doc)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT qtplc-doc
     PATTERN "build" EXCLUDE
     PATTERN "__pycache__" EXCLUDE

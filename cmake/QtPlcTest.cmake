@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-# qtplc_add_test(tst_name SOURCES a.cpp ... [LIBRARIES target ...] [LABELS label ...] [TIMEOUT seconds])
-# Label not-emulated: an emulator of another processor cannot run it (it starts programs, asks the scheduler, ...), which a comment beside it says. Nor does it run what is labelled programs.
-# One Qt Test program, one CTest entry; it may use the headers of every room of src/. Target tests_LABEL builds the tests of a label.
+# qtplc_add_test(tst_name SOURCES a.cpp ... [LIBRARIES target ...] [LABELS label ...] [TIMEOUT s])
+# Label not-emulated: an emulator of another processor cannot run it (it starts programs, asks the
+# scheduler, ...), which a comment beside it says. Nor does it run what is labelled programs. One Qt
+# Test program, one CTest entry; it may use the headers of every room of src/. Target tests_LABEL
+# builds the tests of a label.
 find_package(Qt5 5.15 REQUIRED COMPONENTS Test)
 
-# To read the headers of Qt takes longer than to compile most tests: tests without windows, with windows, and with plots do it once each.
+# To read the headers of Qt takes longer than to compile most tests: tests without windows, with
+# windows, and with plots do it once each.
 function(qtplc_precompile_headers test)
     get_target_property(libraries ${test} LINK_LIBRARIES)
     if(libraries MATCHES "Qwt")
@@ -19,11 +22,13 @@ function(qtplc_precompile_headers test)
     endif()
     set(headers ${kind}_test_headers)
     if(NOT TARGET ${headers})
-        file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/${headers}.cpp CONTENT "int main() { return 0; }\n") # written once only
+        # Written once only.
+        file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/${headers}.cpp CONTENT "int main() { return 0; }\n")
         add_executable(${headers} EXCLUDE_FROM_ALL ${CMAKE_BINARY_DIR}/${headers}.cpp)
         set_target_properties(${headers} PROPERTIES AUTOMOC OFF)
         target_link_libraries(${headers} PRIVATE Qt5::Test ${needs})
-        target_precompile_headers(${headers} PRIVATE <QtNetwork/QtNetwork> <QtTest/QtTest> <functional> <memory> <thread>)
+        target_precompile_headers(${headers} PRIVATE <QtNetwork/QtNetwork> <QtTest/QtTest> <functional>
+            <memory> <thread>)
         if(NOT kind STREQUAL core)
             target_precompile_headers(${headers} PRIVATE <QtWidgets/QtWidgets>)
         endif()
@@ -31,7 +36,8 @@ function(qtplc_precompile_headers test)
     target_precompile_headers(${test} REUSE_FROM ${headers})
 endfunction()
 
-# What has no header of its own needs moc for one file only: AUTOMOC begins CMake anew, and compiles a file, for each program.
+# What has no header of its own needs moc for one file only: AUTOMOC begins CMake anew, and compiles
+# a file, for each program.
 function(qtplc_moc_test name)
     get_target_property(sources ${name} SOURCES)
     if(NOT sources MATCHES "[.]h(;|$)")
@@ -64,8 +70,11 @@ function(qtplc_add_test name)
     endforeach()
 endfunction()
 
-# qtplc_add_screen_test(name target [VARIABLE=VALUE ...]) runs a test program on the screen of a laptop, with OpenGL in software. Pictures that it makes are kept in the folder
-# "screenshots" of the build (QTPLC_SCREENSHOTS). The variable QTPLC_SCREEN of the caller names another size of the screen: 1920x1080. Servers and drivers keep memory until the end, and take texts without an end: leaks of ours are looked for by the tests without a screen.
+# qtplc_add_screen_test(name target [VARIABLE=VALUE ...]) runs a test program on the screen of a
+# laptop, with OpenGL in software. Pictures that it makes are kept in the folder "screenshots" of
+# the build (QTPLC_SCREENSHOTS). The variable QTPLC_SCREEN of the caller names another size of the
+# screen: 1920x1080. Servers and drivers keep memory until the end, and take texts without an end:
+# leaks of ours are looked for by the tests without a screen.
 find_program(XVFB_RUN xvfb-run)
 function(qtplc_add_screen_test name target)
     if(NOT XVFB_RUN)
@@ -77,8 +86,9 @@ function(qtplc_add_screen_test name target)
         set(screen ${QTPLC_SCREEN})
     endif()
     add_test(NAME ${name} COMMAND ${XVFB_RUN} -a -s "-screen 0 ${screen}x24" $<TARGET_FILE:${target}>)
-    set_tests_properties(${name} PROPERTIES TIMEOUT 300
-        ENVIRONMENT "QT_QPA_PLATFORM=xcb;QT_FONT_DPI=96;LIBGL_ALWAYS_SOFTWARE=1;XDG_STATE_HOME=${CMAKE_BINARY_DIR}/state;ASAN_OPTIONS=detect_leaks=0;QTPLC_SCREENSHOTS=${CMAKE_BINARY_DIR}/screenshots;${ARGN}")
+    set(environment QT_QPA_PLATFORM=xcb QT_FONT_DPI=96 LIBGL_ALWAYS_SOFTWARE=1 XDG_STATE_HOME=${CMAKE_BINARY_DIR}/state
+        ASAN_OPTIONS=detect_leaks=0 QTPLC_SCREENSHOTS=${CMAKE_BINARY_DIR}/screenshots ${ARGN})
+    set_tests_properties(${name} PROPERTIES TIMEOUT 300 ENVIRONMENT "${environment}")
     file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/screenshots)
 endfunction()
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# arm64 (Raspberry Pi 3 and later with a 64-bit system, most boards of today) on a Debian computer, with the libraries of Debian's multiarch: scripts/test-arm64 --setup installs what is needed.
+# arm64 (Raspberry Pi 3 and later with a 64-bit system, most boards of today) on a Debian computer,
+# with the libraries of Debian's multiarch: scripts/test-arm64 --setup installs what is needed.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
 set(CMAKE_C_COMPILER aarch64-linux-gnu-gcc)

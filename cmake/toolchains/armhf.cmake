@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# armhf (BeagleBone, Raspberry Pi 2 and all later ones with a 32-bit system) on a Debian computer, with the libraries of a folder that scripts/sysroot armhf makes: build/sysroot-armhf, or what
+# armhf (BeagleBone, Raspberry Pi 2 and all later ones with a 32-bit system) on a Debian computer,
+# with the libraries of a folder that scripts/sysroot armhf makes: build/sysroot-armhf, or what
 # QTPLC_SYSROOT says.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR armv7l)
@@ -12,7 +13,8 @@ if(NOT QTPLC_SYSROOT)
 endif()
 list(APPEND CMAKE_TRY_COMPILE_PLATFORM_VARIABLES QTPLC_SYSROOT)
 if(NOT EXISTS ${QTPLC_SYSROOT}/usr/include)
-    message(FATAL_ERROR "there is no sysroot in ${QTPLC_SYSROOT}; remedy: scripts/sysroot armhf, or -DQTPLC_SYSROOT=FOLDER")
+    message(FATAL_ERROR
+        "there is no sysroot in ${QTPLC_SYSROOT}; remedy: scripts/sysroot armhf, or -DQTPLC_SYSROOT=FOLDER")
 endif()
 set(CMAKE_SYSROOT ${QTPLC_SYSROOT})
 set(CMAKE_FIND_ROOT_PATH ${QTPLC_SYSROOT})

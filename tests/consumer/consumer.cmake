@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Run by CTest, or by hand: cmake -DSOURCE=... -DBUILD=... -DWORK=... -DBUILD_TYPE=Release -P tests/consumer/consumer.cmake
+# Run by CTest, or by hand:
+# cmake -DSOURCE=... -DBUILD=... -DWORK=... -DBUILD_TYPE=Release -P tests/consumer/consumer.cmake
 cmake_policy(VERSION 3.23)
 set(prefix ${WORK}/prefix)
 if(NOT GENERATOR)
@@ -36,8 +37,8 @@ endfunction()
 
 # A project that knows nothing but where QtPLC is installed.
 function(build_project name folder)
-    run(${CMAKE_COMMAND} -S ${folder} -B ${WORK}/${name} -G ${GENERATOR} -DCMAKE_BUILD_TYPE=${BUILD_TYPE} -DCMAKE_PREFIX_PATH=${prefix}
-        ${compiler} -DCMAKE_INSTALL_PREFIX=${prefix} ${ARGN})
+    run(${CMAKE_COMMAND} -S ${folder} -B ${WORK}/${name} -G ${GENERATOR} -DCMAKE_BUILD_TYPE=${BUILD_TYPE}
+        -DCMAKE_PREFIX_PATH=${prefix} ${compiler} -DCMAKE_INSTALL_PREFIX=${prefix} ${ARGN})
     run(${CMAKE_COMMAND} --build ${WORK}/${name} --parallel 2)
     message(STATUS "${name}: built against the installed package")
 endfunction()
@@ -64,9 +65,12 @@ endif()
 set(window ${SOURCE}/tests/consumer/window)
 if(EXISTS ${prefix}/include/QtPlc/QPlcControlCenter.h)
     build_project(window ${window})
-    run_failing(${CMAKE_COMMAND} -S ${window} -B ${WORK}/window_without_component -DCMAKE_PREFIX_PATH=${prefix} -DCOMPONENTS= ${compiler})
-    expect("The target 'window' links QtPlc::Gui.*Remedy:[ \n]+find_package\\(QtPlc[ \n]+REQUIRED[ \n]+COMPONENTS[ \n]+Gui\\)")
-    run(${CMAKE_COMMAND} -S ${window} -B ${WORK}/window_of_core -DCMAKE_PREFIX_PATH=${prefix} -DCOMPONENTS= -DLIBRARY=QtPlc::Core ${compiler})
+    run_failing(${CMAKE_COMMAND} -S ${window} -B ${WORK}/window_without_component -DCMAKE_PREFIX_PATH=${prefix}
+        -DCOMPONENTS= ${compiler})
+    expect("The target 'window' links QtPlc::Gui.*\
+Remedy:[ \n]+find_package\\(QtPlc[ \n]+REQUIRED[ \n]+COMPONENTS[ \n]+Gui\\)")
+    run(${CMAKE_COMMAND} -S ${window} -B ${WORK}/window_of_core -DCMAKE_PREFIX_PATH=${prefix}
+        -DCOMPONENTS= -DLIBRARY=QtPlc::Core ${compiler})
     run_failing(${CMAKE_COMMAND} --build ${WORK}/window_of_core)
     expect("find_package\\(QtPlc REQUIRED COMPONENTS Gui\\)")
 
@@ -112,7 +116,8 @@ if(EXAMPLES)
         expect("winchSpeed")
     endif()
     # From the installed tree, with the installed table, in one process and in three.
-    set(flight ${prefix}/bin/awe_sil --lockstep --duration 30 --signals ${prefix}/share/qtplc/signals/airborne_wind_energy.ini)
+    set(flight ${prefix}/bin/awe_sil --lockstep --duration 30
+        --signals ${prefix}/share/qtplc/signals/airborne_wind_energy.ini)
     run(${flight})
     string(REGEX MATCH "image digest +[0-9a-f]+" digest "${output}")
     run(${flight} --processes)
