@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-# Completion of bash for qtplc: commands, options, and the signals of the master that the line names.
-# Installed to share/bash-completion/completions/qtplc; from a build: source FOLDER/share/bash-completion/completions/qtplc
+# Completion of bash for qtplc: commands, options, and the signals of the master that the line
+# names. Installed to share/bash-completion/completions/qtplc; from a build:
+# source FOLDER/share/bash-completion/completions/qtplc
 # The words come from "qtplc complete", so that they are those of the program that would run.
 _qtplc() {
     local line=${COMP_LINE:0:COMP_POINT} words word prefix

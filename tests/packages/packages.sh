@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Installs the packages in a clean Debian 12, flies the kite there, builds a foreign program, and purges everything: what is left afterwards was there before.
+# Installs the packages in a clean Debian 12, flies the kite there, builds a foreign program, and
+# purges everything: what is left afterwards was there before.
 #
 # usage: packages.sh FOLDER_OF_PACKAGES CLEAN_ROOT.tar        the archive is made when it is missing
 set -euo pipefail
@@ -12,7 +13,8 @@ source=$(dirname "$(realpath "$0")")/../..
 fail() { echo "packages: $*" >&2; exit 1; }
 
 if [ ! -e "$archive" ]; then
-    step "Make a clean system" mmdebstrap --verbose --variant=apt --include=ca-certificates bookworm "$archive.new.tar" /etc/apt/sources.list.d/debian.sources
+    step "Make a clean system" mmdebstrap --verbose --variant=apt --include=ca-certificates \
+        bookworm "$archive.new.tar" /etc/apt/sources.list.d/debian.sources
     mv "$archive.new.tar" "$archive"
 fi
 
@@ -29,16 +31,23 @@ mount --bind /dev "$root/dev"
 # Nothing that is installed may start a service here.
 printf '#!/bin/sh\nexit 101\n' > "$root/usr/sbin/policy-rc.d"
 chmod 755 "$root/usr/sbin/policy-rc.d"
-inside() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive "$@"; }
+inside() {
+    chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 \
+        DEBIAN_FRONTEND=noninteractive "$@"
+}
 # apt TITLE COMMAND [PACKAGE...]
 apt() {
     local title=$1
     shift
     step "$title" inside "${apt_get[@]}" --yes --no-install-recommends "$@" || fail "apt-get $* failed"
 }
-# All files of the system but what the kernel, apt, dpkg and adduser (copies of its last state) keep about themselves; and all users and groups.
+# All files of the system but what the kernel, apt, dpkg and adduser (copies of its last state) keep
+# about themselves; and all users and groups.
 inventory() {
-    (cd "$root" && find . -xdev \( -path ./proc -o -path ./dev -o -path ./tmp -o -path ./var/cache -o -path ./var/lib/apt -o -path ./var/lib/dpkg -o -path ./var/log -o -path ./root -o -path ./run -o -path "./etc/*shadow-" -o -path "./etc/passwd-" -o -path "./etc/group-" \) -prune -o -print | sort)
+    (cd "$root" && find . -xdev \( -path ./proc -o -path ./dev -o -path ./tmp \
+        -o -path ./var/cache -o -path ./var/lib/apt -o -path ./var/lib/dpkg -o -path ./var/log \
+        -o -path ./root -o -path ./run -o -path "./etc/*shadow-" -o -path "./etc/passwd-" \
+        -o -path "./etc/group-" \) -prune -o -print | sort)
     cut -d: -f1 "$root/etc/passwd" | sed 's/^/user /'
     cut -d: -f1 "$root/etc/group" | sed 's/^/group /'
 }
@@ -48,7 +57,8 @@ apt "Upgrade the clean system" upgrade
 mkdir "$root/tmp/packages"
 cp "$packages"/*.deb "$root/tmp/packages"
 # What the packages need is there before, so that only they make a difference.
-needed=$(for package in "$packages"/*.deb; do dpkg-deb --field "$package" Depends; echo; done | tr ',' '\n' | sed 's/|.*//; s/(.*//; s/ //g' | grep -v '^$' | grep -v qtplc | sort -u)
+needed=$(for package in "$packages"/*.deb; do dpkg-deb --field "$package" Depends; echo; done | tr ',' '\n' \
+    | sed 's/|.*//; s/(.*//; s/ //g' | grep -v '^$' | grep -v qtplc | sort -u)
 # shellcheck disable=SC2086
 apt "Install what the packages need" install $needed cmake g++ make
 inventory > "$root/tmp/before"
@@ -56,7 +66,8 @@ inventory > "$root/tmp/before"
 (cd "$root" && apt "Install the packages" install $(find tmp/packages -name '*.deb' | sed 's|^|/|'))
 inventory > "$root/tmp/installed"
 [ "$(wc -l < "$root/tmp/installed")" -gt "$(wc -l < "$root/tmp/before")" ] || fail "the packages bring nothing"
-inside dpkg --verify $(cd "$packages" && for package in *.deb; do echo "${package%%_*}"; done) || fail "files are not as they were packed"
+inside dpkg --verify $(cd "$packages" && for package in *.deb; do echo "${package%%_*}"; done) \
+    || fail "files are not as they were packed"
 inside id qtplc > /dev/null || fail "there is no user qtplc"
 
 step "Fly" inside awe_sil --lockstep --duration 30 --report /tmp/flight.json || fail "awe_sil fails"
@@ -73,7 +84,8 @@ for package in "$packages"/*.deb; do
     dpkg-deb --extract "$package" "$alone"
     if [ -n "$(find "$alone" -name '*.md')" ]; then
         documented=$((documented + 1))
-        python3 -B "$source/tests/documents/documents.py" --installed "$alone" || fail "links in ${package##*/} lead nowhere"
+        python3 -B "$source/tests/documents/documents.py" --installed "$alone" \
+            || fail "links in ${package##*/} lead nowhere"
     fi
     rm -rf "$alone"
 done
@@ -86,10 +98,12 @@ done
 
 mkdir "$root/tmp/winch"
 cp -r "$source"/tests/consumer/winch "$root/tmp"
-step "Configure a program that uses the packages" inside cmake -S /tmp/winch -B /tmp/winch/build || fail "find_package(QtPlc) fails"
+step "Configure a program that uses the packages" inside cmake -S /tmp/winch -B /tmp/winch/build \
+    || fail "find_package(QtPlc) fails"
 step "Build it" inside cmake --build /tmp/winch/build || fail "the program does not build"
 inside /tmp/winch/build/winch --help | grep -q -- --master || fail "the program does not run"
-[ ! -e "$root/usr/include/QtPlc/QPlcHardwareNode.h" ] || inside qtplc_hardware --drivers > /dev/null || fail "qtplc_hardware fails"
+[ ! -e "$root/usr/include/QtPlc/QPlcHardwareNode.h" ] || inside qtplc_hardware --drivers > /dev/null \
+    || fail "qtplc_hardware fails"
 
 # A service has made these by now.
 install --directory "$root/var/lib/qtplc" "$root/var/log/qtplc" "$root/etc/qtplc"
