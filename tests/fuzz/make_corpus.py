@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Makes the inputs that the fuzzers begin with, and the words that they put into them, out of docs/protocol/vectors, signals, examples and tests/hardware.
+"""Makes the inputs that the fuzzers begin with, and the words that they put into them, out of
+docs/protocol/vectors, signals, examples and tests/hardware.
 
-    make_corpus.py --check    says whether corpus/ and the dictionaries hold what this script makes (exit code 1 when not)
+    make_corpus.py --check    says whether corpus/ and the dictionaries hold what this script makes
+                              (exit code 1 when not)
     make_corpus.py --write    writes them
 """
 import json
@@ -25,13 +27,17 @@ def file_name(text):
     return re.sub(r"[^a-z0-9]+", "_", text.lower().replace("+", "plus").replace("-", " minus ")).strip("_")
 
 
-# ---- signal tables: the text as it is -------------------------------------------------------------------------------
+# ---- signal tables: the text as it is ------------------------------------------------------------
 
 ODD_TABLES = {
-    "every key": '[a]\ntype = Real\nunit = m/s ; of the wind\ndescription = "two\\nlines \\"quoted\\""\nmin = -1e3\nmax = 1e3\ninitial = 0.5\nsafe = 0\nhold = 3\n',
+    "every key": "[a]\ntype = Real\nunit = m/s ; of the wind\n"
+    'description = "two\\nlines \\"quoted\\""\nmin = -1e3\nmax = 1e3\ninitial = 0.5\nsafe = 0\nhold = 3\n',
     "byte order mark and crlf": "\ufeff; winch\r\n[a.b_1]\r\ntype = UInt8\r\nmax = 3\r\n\r\n# end\r\n",
-    "arrays and texts": '[m]\ntype = Real64[9]\ninitial = 1, 0, 0, 0, 1, 0, 0, 0, 1\n[t]\ntype = String(6)\ninitial = "H\u00f6he"\n[n]\ntype = DateTime\ninitial = 2026-01-31T12:00:00.5Z\n',
-    "everything wrong": "[]\n[a\n[a]\ntype\ntype = Reel\n[a]\ntype = Real\ntype = Real\nmin = 2\nmax = 1\ncolour = red\n[\u00e4]\ntype = Real[1]\n[b]\ntype = Int8\ninitial = 300\n",
+    "arrays and texts": "[m]\ntype = Real64[9]\ninitial = 1, 0, 0, 0, 1, 0, 0, 0, 1\n"
+    '[t]\ntype = String(6)\ninitial = "H\u00f6he"\n[n]\n'
+    "type = DateTime\ninitial = 2026-01-31T12:00:00.5Z\n",
+    "everything wrong": "[]\n[a\n[a]\ntype\ntype = Reel\n[a]\ntype = Real\ntype = Real\nmin = 2\nmax = 1\n"
+    "colour = red\n[\u00e4]\ntype = Real[1]\n[b]\ntype = Int8\ninitial = 300\n",
 }
 
 
@@ -42,13 +48,16 @@ def signal_tables():
     return files
 
 
-# ---- manifests: the text as it is -----------------------------------------------------------------------------------
+# ---- manifests: the text as it is ----------------------------------------------------------------
 
 MANIFESTS = {
-    "every key": "; the kite\nprofile = Plant\n\n[Emergency stop]\nneed = critical\ntransport = udp, tcp\nwatchdog = 500 ms ; at most\nidentity = stop-1\n[Camera]\nneed = optional\n",
+    "every key": "; the kite\nprofile = Plant\n\n[Emergency stop]\nneed = critical\ntransport = udp, tcp\n"
+    "watchdog = 500 ms ; at most\nidentity = stop-1\n[Camera]\nneed = optional\n",
     "names alone": "\ufeff[Winch]\r\n[#1; x = y]\r\n[\u00e4]\r\n",
-    "durations": "[a]\nwatchdog = 1e-3 s\n[b]\nwatchdog = 24 h\n[c]\nwatchdog = 1000001 ns\n[d]\nwatchdog = \"0.5 min\"\n",
-    "everything wrong": "need = x\nprofile = y\n[A\n[]\n[A]\nneed = vital\nneed = required\nwatchdog = 0\ntransport = upd,\nidentity = a b\ncolour = red\n[A]\n[Master]\n",
+    "durations": "[a]\nwatchdog = 1e-3 s\n[b]\nwatchdog = 24 h\n[c]\nwatchdog = 1000001 ns\n"
+    '[d]\nwatchdog = "0.5 min"\n',
+    "everything wrong": "need = x\nprofile = y\n[A\n[]\n[A]\nneed = vital\nneed = required\n"
+    "watchdog = 0\ntransport = upd,\nidentity = a b\ncolour = red\n[A]\n[Master]\n",
 }
 
 
@@ -58,7 +67,7 @@ def manifests():
     return files
 
 
-# ---- files with keys and with rights: the text as it is ---------------------------------------------------------------
+# ---- files with keys and with rights: the text as it is ------------------------------------------
 
 KEY = "".join(f"{byte:02x}" for byte in range(32))
 KEY_FILES = {
@@ -75,14 +84,16 @@ KEY_FILES = {
 }
 
 
-# ---- beacons: the datagram as it is ---------------------------------------------------------------------------------
+# ---- beacons: the datagram as it is --------------------------------------------------------------
+
 
 def beacons():
     rows = vectors("beacons")
     return {row["name"]: bytes.fromhex(row["hex"]) for row in rows["good"] + rows["bad"]}
 
 
-# ---- control frames: the stream as it is ----------------------------------------------------------------------------
+# ---- control frames: the stream as it is ---------------------------------------------------------
+
 
 def control_frames():
     rows = vectors("control_frames")
@@ -91,12 +102,21 @@ def control_frames():
     return files
 
 
-# ---- cyclic frames: a channel, then frames --------------------------------------------------------------------------
+# ---- cyclic frames: a channel, then frames -------------------------------------------------------
+
 
 def channel(row, first_cycle=0):
     seal = 0x80 if "key" in row else 0
     sizes = [end - begin for begin, end in zip(row["borders"], row["borders"][1:])]
-    head = struct.pack("<BQHQQB", KINDS[row["kind"]] - 1 | seal, int(row["session"], 16), row["node"], int(row["layoutHash"], 16), first_cycle, len(sizes) - 1)
+    head = struct.pack(
+        "<BQHQQB",
+        KINDS[row["kind"]] - 1 | seal,
+        int(row["session"], 16),
+        row["node"],
+        int(row["layoutHash"], 16),
+        first_cycle,
+        len(sizes) - 1,
+    )
     return head + b"".join(struct.pack("<H", size) for size in sizes)
 
 
@@ -112,17 +132,22 @@ def cyclic_frames():
         rows = vectors(name)
         kind = name.split("_")[0]
         for row in rows["frames"]:
-            files[f"{kind} {row['name']}"] = channel(row["channel"]) + b"".join(frame(f, repairs[0]) for f in row["frames"])
+            files[f"{kind} {row['name']}"] = channel(row["channel"]) + b"".join(
+                frame(f, repairs[0]) for f in row["frames"]
+            )
         refused = rows["refused"]
         for repair in repairs:
-            files[f"{kind} refused {repair}"] = channel(refused["channel"]) + b"".join(frame(row["hex"], repair) for row in refused["frames"])
+            files[f"{kind} refused {repair}"] = channel(refused["channel"]) + b"".join(
+                frame(row["hex"], repair) for row in refused["frames"]
+            )
         for row in rows["sequences"]:
-            files[f"{kind} {row['name']}"] = (channel(row["channel"], int(row["firstCycle"], 16))
-                                              + b"".join(frame(step["hex"], repairs[0]) for step in row["steps"]))
+            files[f"{kind} {row['name']}"] = channel(row["channel"], int(row["firstCycle"], 16)) + b"".join(
+                frame(step["hex"], repairs[0]) for step in row["steps"]
+            )
     return files
 
 
-# ---- sessions: records of what, who, length, bytes ------------------------------------------------------------------
+# ---- sessions: records of what, who, length, bytes -----------------------------------------------
 
 MESSAGE, RAW, CONNECT, CLOSE, ANSWER, ATTACH, TIME_OUT, BECOME, EVENTS = range(9)
 NUMBERS = {row["kindName"]: row["kind"] for row in vectors("control_frames")["good"]}
@@ -138,15 +163,45 @@ def message(who, kind, **fields):
 
 
 def hello(who, name, role="node", **more):
-    return record(CONNECT) + message(who, "Hello", protocol=2, name=name, uuid=f"6f1f6f5a-7a5e-4b57-9d0c-3a2f4cf0b1d{who}", role=role,
-                                     features=["sameCycle", "leases", "events"], **more)
+    return record(CONNECT) + message(
+        who,
+        "Hello",
+        protocol=2,
+        name=name,
+        uuid=f"6f1f6f5a-7a5e-4b57-9d0c-3a2f4cf0b1d{who}",
+        role=role,
+        features=["sameCycle", "leases", "events"],
+        **more,
+    )
 
 
-def register(who, name, cyclic="udp", inputs=(("tetherSpeed", "Real32", "m/s"),), outputs=(("tetherLength", "Real64", "m"),), **more):
+def register(
+    who,
+    name,
+    cyclic="udp",
+    inputs=(("tetherSpeed", "Real32", "m/s"),),
+    outputs=(("tetherLength", "Real64", "m"),),
+    **more,
+):
     def described(rows):
         return [dict(name=n, type=t, unit=u) for n, t, u in rows]
-    return message(who, "Register", **dict(dict(name=name, policy="ErrorZeroOrderHold", listener=False, cyclic=cyclic, udpPort=40000 + who,
-                                                inputs=described(inputs), outputs=described(outputs)), **more))
+
+    return message(
+        who,
+        "Register",
+        **dict(
+            dict(
+                name=name,
+                policy="ErrorZeroOrderHold",
+                listener=False,
+                cyclic=cyclic,
+                udpPort=40000 + who,
+                inputs=described(inputs),
+                outputs=described(outputs),
+            ),
+            **more,
+        ),
+    )
 
 
 def give_outputs(who, values="AAAAAADAckA="):
@@ -155,17 +210,45 @@ def give_outputs(who, values="AAAAAADAckA="):
 
 def sessions():
     winch = hello(0, "Winch") + register(0, "Winch")
-    other = hello(1, "Model") + register(1, "Model", inputs=[("tetherLength", "Real64", "m")], outputs=[("position", "Real32[3]", "")])
+    other = hello(1, "Model") + register(
+        1, "Model", inputs=[("tetherLength", "Real64", "m")], outputs=[("position", "Real32[3]", "")]
+    )
     tool = hello(2, "Anna", "tool")
-    start = message(0, "StartRealTime") + give_outputs(0) + message(0, "Initialized") + message(0, "RealTimeReady") + record(EVENTS)
+    start = (
+        message(0, "StartRealTime")
+        + give_outputs(0)
+        + message(0, "Initialized")
+        + message(0, "RealTimeReady")
+        + record(EVENTS)
+    )
     values = struct.pack("<BIId", 0, 0, 1000, 300.0)
-    commands = (message(2, "GetState") + message(2, "GetSignals") + message(2, "GetSignals", names=["tetherSpeed"]) + message(2, "GetSchedule")
-                + message(2, "GetStatistics", histograms=True) + message(2, "GetEvents", since=1) + message(2, "GetLeases"))
-    settings = (message(2, "SetSignals", values=dict(tetherSpeed="-1.5", mode="2")) + message(2, "SetSignals", values=dict(tetherSpeed="2"), duration=2500000000)
-                + message(2, "SetSignals", values=dict(title="kite", now="2026-01-31T12:00:00Z", position="1, -2.5, 3")))
-    leases = (message(2, "TakeLease", signals=["tetherLength"], values=dict(tetherLength="5"), whoever="Anna at desk 3", timeout=500000000)
-              + message(0, "TakeLease", signals=["tetherLength"], takeOver=True) + message(2, "ReleaseLease", signals=["tetherLength"])
-              + message(0, "ReleaseLease"))
+    commands = (
+        message(2, "GetState")
+        + message(2, "GetSignals")
+        + message(2, "GetSignals", names=["tetherSpeed"])
+        + message(2, "GetSchedule")
+        + message(2, "GetStatistics", histograms=True)
+        + message(2, "GetEvents", since=1)
+        + message(2, "GetLeases")
+    )
+    settings = (
+        message(2, "SetSignals", values=dict(tetherSpeed="-1.5", mode="2"))
+        + message(2, "SetSignals", values=dict(tetherSpeed="2"), duration=2500000000)
+        + message(2, "SetSignals", values=dict(title="kite", now="2026-01-31T12:00:00Z", position="1, -2.5, 3"))
+    )
+    leases = (
+        message(
+            2,
+            "TakeLease",
+            signals=["tetherLength"],
+            values=dict(tetherLength="5"),
+            whoever="Anna at desk 3",
+            timeout=500000000,
+        )
+        + message(0, "TakeLease", signals=["tetherLength"], takeOver=True)
+        + message(2, "ReleaseLease", signals=["tetherLength"])
+        + message(0, "ReleaseLease")
+    )
     good = vectors("control_frames")["good"]
     every = b"".join(record(RAW, 0, bytes.fromhex(row["hex"])) for row in good)
     tools_all = record(CONNECT) + record(CONNECT) + tool
@@ -173,36 +256,77 @@ def sessions():
         "register and leave": winch + record(CLOSE, 0),
         "initialize": winch + message(0, "InitializeAllStates") + give_outputs(0) + message(0, "Initialized"),
         "start and stop": winch + start + message(0, "GetState") + message(0, "Stop"),
-        "answers": winch + record(ANSWER, 0, values) + record(ANSWER, 0, struct.pack("<BIId", 2, 1, 0, float("nan"))) + record(ANSWER, 0, values),
+        "answers": winch
+        + record(ANSWER, 0, values)
+        + record(ANSWER, 0, struct.pack("<BIId", 2, 1, 0, float("nan")))
+        + record(ANSWER, 0, values),
         "tcp": hello(0, "Winch") + register(0, "Winch", "tcp") + record(ATTACH),
-        "auto": hello(0, "Winch") + register(0, "Winch", "auto") + record(ATTACH) + message(0, "AttachCyclicChannel", node=1, token="0" * 16, cyclic="udp"),
+        "auto": hello(0, "Winch")
+        + register(0, "Winch", "auto")
+        + record(ATTACH)
+        + message(0, "AttachCyclicChannel", node=1, token="0" * 16, cyclic="udp"),
         "local": hello(0, "Winch") + register(0, "Winch", "local") + start,
         "multicast": hello(0, "Winch") + register(0, "Winch", "udp-multicast") + start,
         "listener": hello(0, "View") + register(0, "View", listener=True, outputs=[]) + start,
-        "two nodes": winch + other + message(1, "StartRealTime") + give_outputs(0) + give_outputs(1, "AAAAAAAAAAAAAAAA") + message(0, "Initialized")
-                     + message(1, "Initialized") + message(0, "RealTimeReady") + message(1, "RealTimeReady") + message(0, "NodeFault", text="sensor lost"),
-        "joins while others run": winch + start + other + give_outputs(1, "AAAAAAAAAAAAAAAA") + message(1, "Initialized") + message(1, "RealTimeReady"),
+        "two nodes": winch
+        + other
+        + message(1, "StartRealTime")
+        + give_outputs(0)
+        + give_outputs(1, "AAAAAAAAAAAAAAAA")
+        + message(0, "Initialized")
+        + message(1, "Initialized")
+        + message(0, "RealTimeReady")
+        + message(1, "RealTimeReady")
+        + message(0, "NodeFault", text="sensor lost"),
+        "joins while others run": winch
+        + start
+        + other
+        + give_outputs(1, "AAAAAAAAAAAAAAAA")
+        + message(1, "Initialized")
+        + message(1, "RealTimeReady"),
         "a node that does not answer": winch + message(0, "InitializeAllStates") + record(TIME_OUT),
         "outputs of a wrong size": winch + message(0, "InitializeAllStates") + give_outputs(0, "AAAA"),
-        "the same node again": winch + record(CONNECT) + message(1, "Hello", protocol=2, name="Winch", uuid="6f1f6f5a-7a5e-4b57-9d0c-3a2f4cf0b1d0", role="node", features=[])
-                               + register(1, "Winch", uuid="6f1f6f5a-7a5e-4b57-9d0c-3a2f4cf0b1d0"),
+        "the same node again": winch
+        + record(CONNECT)
+        + message(
+            1, "Hello", protocol=2, name="Winch", uuid="6f1f6f5a-7a5e-4b57-9d0c-3a2f4cf0b1d0", role="node", features=[]
+        )
+        + register(1, "Winch", uuid="6f1f6f5a-7a5e-4b57-9d0c-3a2f4cf0b1d0"),
         "the same output": winch + hello(1, "Model") + register(1, "Model"),
-        "a loop": winch + hello(1, "Model") + message(1, "Register", name="Model", policy="SilentWait", listener=False, cyclic="udp", udpPort=4, twoPhase=True,
-                                                      inputs=[dict(name="tetherLength", type="Real64", unit="m", sameCycle=True)],
-                                                      outputs=[dict(name="tetherSpeed", type="Real32", unit="m/s")]),
+        "a loop": winch
+        + hello(1, "Model")
+        + message(
+            1,
+            "Register",
+            name="Model",
+            policy="SilentWait",
+            listener=False,
+            cyclic="udp",
+            udpPort=4,
+            twoPhase=True,
+            inputs=[dict(name="tetherLength", type="Real64", unit="m", sameCycle=True)],
+            outputs=[dict(name="tetherSpeed", type="Real32", unit="m/s")],
+        ),
         "commands": winch + start + tools_all + commands,
         "settings": tools_all + settings + record(CLOSE, 2),
         "leases": winch + tools_all + leases + record(CLOSE, 2),
         "every message before hello": every,
         "every message of a tool": hello(0, "Anna", "tool") + every[:3000],
         "an observer": record(BECOME, 1) + winch + start + commands + settings,
-        "every role": b"".join(record(BECOME, 8 * role + 1) + record(CONNECT) + message(role, "Hello", protocol=2, name="Winch", role="node", features=[])
-                               + message(role, "Stop") + message(role, "SetSignals", values=dict(tetherSpeed="1", mode="2")) for role in range(4)),
+        "every role": b"".join(
+            record(BECOME, 8 * role + 1)
+            + record(CONNECT)
+            + message(role, "Hello", protocol=2, name="Winch", role="node", features=[])
+            + message(role, "Stop")
+            + message(role, "SetSignals", values=dict(tetherSpeed="1", mode="2"))
+            for role in range(4)
+        ),
         "garbage": record(RAW, 0, b"GET / HTTP/1.1\r\n\r\n") + record(CONNECT) + record(RAW, 1, b"\xff" * 64),
     }
 
 
-# ---- local links: what a master passes, then what both ends do ------------------------------------------------------------
+# ---- local links: what a master passes, then what both ends do -----------------------------------
+
 
 def passed(kinds=(0, 1, 2), change=0, length=8, frames=(0, 0)):
     return bytes((*frames, change, length, len(kinds), *kinds))
@@ -215,7 +339,10 @@ def local_links():
     ask = lambda data: struct.pack("<BH", 4, len(data)) + data
     return {
         "frames both ways": passed() + ask(b"question") + node_takes + answer(b"answer") + master_takes,
-        "large rings": passed(frames=(63, 40)) + (ask(bytes(1472)) + node_takes) * 2 + answer(bytes(1472)) + master_takes,
+        "large rings": passed(frames=(63, 40))
+        + (ask(bytes(1472)) + node_takes) * 2
+        + answer(bytes(1472))
+        + master_takes,
         "nothing": passed(kinds=()),
         "too few": passed(kinds=(0, 1)),
         "too many": passed(kinds=(0, 1, 2, 3, 4, 5, 0)),
@@ -226,15 +353,16 @@ def local_links():
         "short": passed(length=7),
         "long": passed(length=9),
         "empty": passed(length=0),
-        "tail far away": passed() + poke(64, 0xffffffff) + node_takes + ask(b"next") + node_takes,
+        "tail far away": passed() + poke(64, 0xFFFFFFFF) + node_takes + ask(b"next") + node_takes,
         "head far away": passed() + poke(0, 0x80000000) + ask(b"question") + node_takes + ask(b"next"),
-        "long block": passed() + ask(b"question") + poke(128, 0xffffffff) + node_takes + ask(b"next") + node_takes,
+        "long block": passed() + ask(b"question") + poke(128, 0xFFFFFFFF) + node_takes + ask(b"next") + node_takes,
         "block beyond the end": passed() + poke(64, 65540) + poke(0, 65530) + node_takes,
         "head of the outputs": passed() + poke(65664, 7) + answer(b"answer") + master_takes,
     }
 
 
-# ---- shared memory: what the other end writes, and what this one does meanwhile -------------------------------------------
+# ---- shared memory: what the other end writes, and what this one does meanwhile ------------------
+
 
 def shared_memory():
     poke = lambda offset, value, head=1: struct.pack("<BBII", 0, head, offset, value)
@@ -245,18 +373,26 @@ def shared_memory():
     return {
         "frames": (push(b"question") + pop) * 3,
         "full": push(bytes(2047)) * 33 + pop * 34,
-        "tail far away": poke(64, 0xffffffff) + pop + push(b"next") + pop,
+        "tail far away": poke(64, 0xFFFFFFFF) + pop + push(b"next") + pop,
         "tail in front of the head": push(b"question") + poke(0, 100) + pop + push(b"next"),
         "head far away": poke(0, 0x80000000) + push(b"question") + pop,
-        "long block": push(b"question") + poke(128, 0xffffffff) + pop + pop,
-        "block beyond the end": poke(64, 65540) + poke(0, 65530) + pop + poke(65650, 0x7fffffff, 0) + pop,
+        "long block": push(b"question") + poke(128, 0xFFFFFFFF) + pop + pop,
+        "block beyond the end": poke(64, 65540) + poke(0, 65530) + pop + poke(65650, 0x7FFFFFFF, 0) + pop,
         "block of nothing": push(b"question") + poke(128, 0) + pop,
         "bell": want(2) + ring + ring + want(1) + ring,
-        "bell of a stranger": want(2) + knock(0, 0xffffffff) + ring + knock(4, 0x80000000) + ring + knock(8, 7) + want(0) + ring,
+        "bell of a stranger": want(2)
+        + knock(0, 0xFFFFFFFF)
+        + ring
+        + knock(4, 0x80000000)
+        + ring
+        + knock(8, 7)
+        + want(0)
+        + ring,
     }
 
 
-# ---- layouts: the text as it is ---------------------------------------------------------------------------------------
+# ---- layouts: the text as it is ------------------------------------------------------------------
+
 
 def layouts():
     def panel(name, share=1, **more):
@@ -266,10 +402,19 @@ def layouts():
         return dict(share=share, split=orientation, children=list(children))
 
     def layout(tree, **more):
-        return dict(dict(format="QtPLC layout", version=1, currentTab="a", windows=[], tabs=[dict(id="a", name="A", tree=tree)]), **more)
+        return dict(
+            dict(
+                format="QtPLC layout", version=1, currentTab="a", windows=[], tabs=[dict(id="a", name="A", tree=tree)]
+            ),
+            **more,
+        )
 
-    window = dict(id="w", geometry=dict(x=1, y=-2, width=300, height=200), tree=panel("q"),
-                  home=dict(tab="a", first="p", last="p", side="below", share=0.3333))
+    window = dict(
+        id="w",
+        geometry=dict(x=1, y=-2, width=300, height=200),
+        tree=panel("q"),
+        home=dict(tab="a", first="p", last="p", side="below", share=0.3333),
+    )
     deep = panel("p")
     for level in range(40):
         deep = split("horizontal" if level % 2 else "vertical", panel(f"p{level}", 0.5), dict(deep, share=0.5))
@@ -286,11 +431,14 @@ def layouts():
         "a newer version": layout(panel("p"), version=2),
         "no tabs": layout(panel("p"), tabs=[]),
     }
-    return dict({name: json.dumps(value, indent=1).encode() for name, value in files.items()},
-                **{"no json": b"{\"format\": \"QtPLC layout\"", "an array": b"[1, 2]", "text": "\u00e4".encode("latin-1")})
+    return dict(
+        {name: json.dumps(value, indent=1).encode() for name, value in files.items()},
+        **{"no json": b'{"format": "QtPLC layout"', "an array": b"[1, 2]", "text": "\u00e4".encode("latin-1")},
+    )
 
 
-# ---- sentences of NMEA 0183: what comes from a serial line ------------------------------------------------------------
+# ---- sentences of NMEA 0183: what comes from a serial line ---------------------------------------
+
 
 def sentence(body):
     total = 0
@@ -300,34 +448,54 @@ def sentence(body):
 
 
 def nmea():
-    good = ["WIMWV,214.8,R,5.1,M,A", "WIMWV,045,T,36,N,A", "WIMWV,0,R,,K,V", "IIMWV,359.9,R,100,S,A", "IIVWR,45,L,10.1,N,5.2,M,18.7,K", "IIVWT,45,R,36,N,,M,,K",
-            "WIMDA,29.92,I,1.0132,B,21.5,C,,C,55,,12.1,C,90,T,87,M,10,N,5.14,M", "WIXDR,C,21.5,C,AIR,H,55,P,0,P,1.0132,B,0", "GPGGA,120000,5130.0,N,00007.0,W,1,08,0.9,10,M,47,M,,",
-            "PGRMZ,93,f,3"]
+    good = [
+        "WIMWV,214.8,R,5.1,M,A",
+        "WIMWV,045,T,36,N,A",
+        "WIMWV,0,R,,K,V",
+        "IIMWV,359.9,R,100,S,A",
+        "IIVWR,45,L,10.1,N,5.2,M,18.7,K",
+        "IIVWT,45,R,36,N,,M,,K",
+        "WIMDA,29.92,I,1.0132,B,21.5,C,,C,55,,12.1,C,90,T,87,M,10,N,5.14,M",
+        "WIXDR,C,21.5,C,AIR,H,55,P,0,P,1.0132,B,0",
+        "GPGGA,120000,5130.0,N,00007.0,W,1,08,0.9,10,M,47,M,,",
+        "PGRMZ,93,f,3",
+    ]
     every = b"".join(map(sentence, good))
     files = {body: sentence(body) for body in good}
-    files.update({
-        "several": every,
-        "without checksum": b"$WIMWV,214.8,R,5.1,M,A\r\n!AIVDM,1,1,,A,15,0\n",
-        "wrong checksum": every.replace(b"*", b"*0"),
-        "cut off": every[7:40] + every[60:],
-        "wrong rate": bytes((b * 37 + 11) % 256 for b in every),
-        "without end": b"$WIMWV," + b"1" * 600 + every,
-        "odd numbers": sentence("WIMWV,-0,R,1e5,M,A") + sentence("WIMWV,+.5,R,999999999999999999999,N,A") + sentence("WIMWV,--1,R,1.2.3,K,A"),
-    })
+    files.update(
+        {
+            "several": every,
+            "without checksum": b"$WIMWV,214.8,R,5.1,M,A\r\n!AIVDM,1,1,,A,15,0\n",
+            "wrong checksum": every.replace(b"*", b"*0"),
+            "cut off": every[7:40] + every[60:],
+            "wrong rate": bytes((b * 37 + 11) % 256 for b in every),
+            "without end": b"$WIMWV," + b"1" * 600 + every,
+            "odd numbers": sentence("WIMWV,-0,R,1e5,M,A")
+            + sentence("WIMWV,+.5,R,999999999999999999999,N,A")
+            + sentence("WIMWV,--1,R,1.2.3,K,A"),
+        }
+    )
     return files
 
 
-# ---- DBC files: the text as it is -----------------------------------------------------------------------------------
+# ---- DBC files: the text as it is ----------------------------------------------------------------
 
 DBC_HEAD = 'VERSION ""\nNS_ :\n\tCM_\n\tBA_\nBS_:\nBU_: A B\n'
 ODD_DBC_FILES = {
     "one message": 'BO_ 1 A: 8 X\n SG_ S : 0|16@1- (0.1,0) [0|0] "" X\n',
-    "multiplexed": 'BO_ 1 A: 8 X\n SG_ P M : 0|8@1+ (1,0) [0|0] "" X\n SG_ Q m3 : 15|16@0- (0.5,-1) [-1|1] "m" X\nSG_MUL_VAL_ 1 Q P 3-3;\n',
-    "extended multiplexing": 'BO_ 1 A: 8 X\n SG_ P M : 0|8@1+ (1,0) [0|0] "" X\n SG_ Q m0M : 8|8@1+ (1,0) [0|0] "" X\nSG_MUL_VAL_ 1 Q P 0-2, 5-7;\n',
-    "attributes": DBC_HEAD + 'BO_ 2566840318 A: 64 X\n SG_ F : 0|32@1- (1,0) [0|0] "" X\nBA_DEF_ BO_ "GenMsgCycleTime" INT 0 9;\nBA_DEF_DEF_ "GenMsgCycleTime" 5;\n'
-                             'BA_ "GenMsgCycleTime" BO_ 2566840318 10;\nBA_ "GenSigStartValue" SG_ 2566840318 F 1e3;\nBA_ "VFrameFormat" BO_ 2566840318 15;\n'
-                             'BA_ "CANFD_BRS" BO_ 2566840318 "0";\nSIG_VALTYPE_ 2566840318 F : 1;\nVAL_ 2566840318 F -1 "off" 1 "on";\n',
-    "independent signals": 'BO_ 3221225472 VECTOR__INDEPENDENT_SIG_MSG: 0 Vector__XXX\n SG_ S : 0|8@1- (1,0) [0|0] "" X\nBO_ 7 B: 39 X\n',
+    "multiplexed": 'BO_ 1 A: 8 X\n SG_ P M : 0|8@1+ (1,0) [0|0] "" X\n'
+    ' SG_ Q m3 : 15|16@0- (0.5,-1) [-1|1] "m" X\nSG_MUL_VAL_ 1 Q P 3-3;\n',
+    "extended multiplexing": 'BO_ 1 A: 8 X\n SG_ P M : 0|8@1+ (1,0) [0|0] "" X\n'
+    ' SG_ Q m0M : 8|8@1+ (1,0) [0|0] "" X\nSG_MUL_VAL_ 1 Q P 0-2, 5-7;\n',
+    "attributes": DBC_HEAD
+    + 'BO_ 2566840318 A: 64 X\n SG_ F : 0|32@1- (1,0) [0|0] "" X\nBA_DEF_ BO_ "GenMsgCycleTime" INT 0 9;\n'
+    'BA_DEF_DEF_ "GenMsgCycleTime" 5;\n'
+    'BA_ "GenMsgCycleTime" BO_ 2566840318 10;\n'
+    'BA_ "GenSigStartValue" SG_ 2566840318 F 1e3;\nBA_ "VFrameFormat" BO_ 2566840318 15;\n'
+    'BA_ "CANFD_BRS" BO_ 2566840318 "0";\n'
+    'SIG_VALTYPE_ 2566840318 F : 1;\nVAL_ 2566840318 F -1 "off" 1 "on";\n',
+    "independent signals": "BO_ 3221225472 VECTOR__INDEPENDENT_SIG_MSG: 0 Vector__XXX\n"
+    ' SG_ S : 0|8@1- (1,0) [0|0] "" X\nBO_ 7 B: 39 X\n',
     "everything wrong": 'BO_ x\nBO_ 1 A: 8 X\n SG_ S : 60|8@1+ (0,x) [0|0\nSG_ S\nCM_ "no end\n',
 }
 
@@ -338,24 +506,34 @@ def dbc_files():
     return files
 
 
-DBC_WORDS = ["BO_ ", "SG_ ", "VAL_ ", "SIG_VALTYPE_ ", "SG_MUL_VAL_ ", "BA_ ", "BA_DEF_DEF_ ", "CM_ ", "NS_", "BS_:", "BU_:", "VERSION", "VAL_TABLE_", "EV_ ",
-             " M : ", " m1 : ", " m0M : ", "0|8@1+ ", "7|16@0- ", "(1,0) ", "[0|0] ", "\"\" ", "GenMsgCycleTime", "GenSigStartValue", "VFrameFormat", "CANFD_BRS",
-             "1e308", "18446744073709551615", "2147483648"]
+# fmt: off
+DBC_WORDS = ["BO_ ", "SG_ ", "VAL_ ", "SIG_VALTYPE_ ", "SG_MUL_VAL_ ", "BA_ ", "BA_DEF_DEF_ ", "CM_ ", "NS_", "BS_:",
+             "BU_:", "VERSION", "VAL_TABLE_", "EV_ ", " M : ", " m1 : ", " m0M : ", "0|8@1+ ", "7|16@0- ", "(1,0) ",
+             "[0|0] ", "\"\" ", "GenMsgCycleTime", "GenSigStartValue", "VFrameFormat", "CANFD_BRS", "1e308",
+             "18446744073709551615", "2147483648"]
+# fmt: on
 
 
-# ---- words that inputs are made of ----------------------------------------------------------------------------------
+# ---- words that inputs are made of ---------------------------------------------------------------
 
-KEYS = ["type", "unit", "description", "min", "max", "initial", "safe", "hold", "Bool", "Byte", "Int", "Int64", "UInt16", "Real", "Real64", "RealTriple",
-        "String", "String(", "DateTime", " = ", " ; ", "\\n", "\\\"", "1e308", "2026-01-31T12:00:00Z"]
-
-
-MANIFEST_WORDS = ["profile", "need", "transport", "watchdog", "identity", "critical", "required", "optional", "Plant", "Simulation", "Automatic", "udp", "tcp", "local",
-                  "udp-multicast", "inprocess", "Master", " ms", " h", " = ", " ; "]
+# fmt: off
+KEYS = ["type", "unit", "description", "min", "max", "initial", "safe", "hold", "Bool", "Byte", "Int", "Int64",
+        "UInt16", "Real", "Real64", "RealTriple", "String", "String(", "DateTime", " = ", " ; ", "\\n", "\\\"",
+        "1e308", "2026-01-31T12:00:00Z"]
 
 
-RIGHTS_WORDS = ["key", "role", "writes", "Observer", "Operator", "Node", "Engineer", "tether*", "[a-z]", " = ", " ; ", KEY]
-LAYOUT_WORDS = ["format", "QtPLC layout", "version", "currentTab", "tabs", "windows", "id", "name", "tree", "type", "settings", "share", "split", "children", "horizontal",
-                "vertical", "geometry", "width", "height", "home", "first", "last", "side", "below", "above", "left", "right", "maximized", "1e308", "null", "{}", "[]"]
+MANIFEST_WORDS = ["profile", "need", "transport", "watchdog", "identity", "critical", "required", "optional", "Plant",
+                  "Simulation", "Automatic", "udp", "tcp", "local", "udp-multicast", "inprocess", "Master", " ms",
+                  " h", " = ", " ; "]
+
+
+RIGHTS_WORDS = ["key", "role", "writes", "Observer", "Operator", "Node", "Engineer", "tether*", "[a-z]", " = ", " ; ",
+                KEY]
+LAYOUT_WORDS = ["format", "QtPLC layout", "version", "currentTab", "tabs", "windows", "id", "name", "tree", "type",
+                "settings", "share", "split", "children", "horizontal", "vertical", "geometry", "width", "height",
+                "home", "first", "last", "side", "below", "above", "left", "right", "maximized", "1e308", "null", "{}",
+                "[]"]
+# fmt: on
 
 
 def texts_of(value):
@@ -374,29 +552,50 @@ def dictionary(words):
 
 def dictionaries():
     fields = set().union(*(texts_of(row["fields"]) for row in vectors("control_frames")["good"]))
-    return {"keys.dict": dictionary(KEYS), "dbc.dict": dictionary(DBC_WORDS), "manifest.dict": dictionary(MANIFEST_WORDS),
-            "rights.dict": dictionary(RIGHTS_WORDS), "layout.dict": dictionary(LAYOUT_WORDS), "fields.dict": dictionary(sorted(word for word in fields if word.isascii()))}
+    return {
+        "keys.dict": dictionary(KEYS),
+        "dbc.dict": dictionary(DBC_WORDS),
+        "manifest.dict": dictionary(MANIFEST_WORDS),
+        "rights.dict": dictionary(RIGHTS_WORDS),
+        "layout.dict": dictionary(LAYOUT_WORDS),
+        "fields.dict": dictionary(sorted(word for word in fields if word.isascii())),
+    }
 
 
-# ---- files ----------------------------------------------------------------------------------------------------------
+# ---- files ---------------------------------------------------------------------------------------
+
 
 def main():
     if sys.argv[1:] not in (["--check"], ["--write"]):
         sys.exit(__doc__)
     wanted = {HERE / name: data for name, data in dictionaries().items()}
-    for folder, files in (("signal_table", signal_tables()), ("manifest", manifests()), ("control_frames", control_frames()), ("cyclic_frames", cyclic_frames()),
-                          ("session", sessions()), ("local_link", local_links()), ("dbc_file", dbc_files()), ("nmea", nmea()),
-                          ("key_file", {name: text.encode() for name, text in KEY_FILES.items()}), ("beacon", beacons()), ("shared_memory", shared_memory()),
-                          ("layout", layouts())):
+    for folder, files in (
+        ("signal_table", signal_tables()),
+        ("manifest", manifests()),
+        ("control_frames", control_frames()),
+        ("cyclic_frames", cyclic_frames()),
+        ("session", sessions()),
+        ("local_link", local_links()),
+        ("dbc_file", dbc_files()),
+        ("nmea", nmea()),
+        ("key_file", {name: text.encode() for name, text in KEY_FILES.items()}),
+        ("beacon", beacons()),
+        ("shared_memory", shared_memory()),
+        ("layout", layouts()),
+    ):
         for name, data in files.items():
             path = HERE / "corpus" / folder / file_name(name)
             assert path not in wanted, f"two inputs are called {path}"
             wanted[path] = data
     found = {path: path.read_bytes() for path in [*HERE.glob("*.dict"), *HERE.glob("corpus/*/*")] if path.is_file()}
     if sys.argv[1] == "--check":
-        different = sorted(str(path.relative_to(HERE)) for path in wanted.keys() | found.keys() if wanted.get(path) != found.get(path))
+        different = sorted(
+            str(path.relative_to(HERE)) for path in wanted.keys() | found.keys() if wanted.get(path) != found.get(path)
+        )
         if different:
-            sys.exit(f"{', '.join(different[:10])}: not what this script makes; remedy: tests/fuzz/make_corpus.py --write")
+            sys.exit(
+                f"{', '.join(different[:10])}: not what this script makes; " "remedy: tests/fuzz/make_corpus.py --write"
+            )
         return
     for path in found.keys() - wanted.keys():
         path.unlink()
