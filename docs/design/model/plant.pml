@@ -91,7 +91,8 @@
 #define Queue        4      /* messages that a connection holds; one that is full ends */
 
 /* What is promised, in cycles. */
-#define MostWithout  (BucketLimit / LateCosts + 1)   /* cycles of node 1 without the critical one: late ones, and one on the way */
+/* Cycles of node 1 without the critical one: late ones, and one on the way. */
+#define MostWithout  (BucketLimit / LateCosts + 1)
 #define MostMotion   (2 * WatchdogTime + 1)   /* of a node without a master: one frame may be delayed */
 #define MostLease    (LeaseTime + 1)
 
@@ -355,9 +356,11 @@ inline startCycles()
     event = ME_CyclesStarted
 }
 
-#define hasAnswered(n) (!awaited[n] || stage[n] >= (step == Collect -> OutputsGiven : (step == Start -> Running : IsInitialized)))
+#define hasAnswered(n) (!awaited[n] || stage[n] >= (step == Collect -> OutputsGiven \
+                                                    : (step == Start -> Running : IsInitialized)))
 
-/* NeededNodes::missingText(), as QPlcMasterNodePrivate asks before an initialization, before a start, and between both */
+/* NeededNodes::missingText(), as QPlcMasterNodePrivate asks before an initialization, before a
+   start, and between both. */
 #if MANIFEST
 #define isComplete (stage[0] >= IsInitialized)
 #define mayBegin (attached[0] && (master != M_Ready || isComplete))
@@ -626,7 +629,8 @@ inline set(what)
 
 #if HELPFUL
 /* Time is long compared with messages: a timer ends when nothing else can happen at the node that it waits for. */
-#define isSlow(n) (awaited[n] && stage[n] < (step == Collect -> OutputsGiven : (step == Start -> Running : IsInitialized)) \
+#define isSlow(n) (awaited[n] && stage[n] < (step == Collect -> OutputsGiven \
+                                             : (step == Start -> Running : IsInitialized)) \
                    && (!runs(n) || !linked[n] || halfOpen[n] || (empty(toNode[n]) && empty(toMaster[n]) && !closing[n] \
                        && !toldSafe[n] && !watchdogReport[n] && !codeReport[n])))
 #define timeIsUp (step != NoStep && !isGone(0) && !isGone(1) && (isSlow(0) || isSlow(1)))
@@ -867,7 +871,8 @@ inline nodeCycle(n)
         if
         :: heard[n] && quiet[n] == WatchdogTime && !safe[n] ->
             safe[n] = true; mayNotMove[n] = true; watchdogReport[n] = true
-        :: heard[n] && quiet[n] == WatchdogTime && safe[n] && !closing[n] && !watchdogReport[n] -> watchdogReport[n] = true
+        :: heard[n] && quiet[n] == WatchdogTime && safe[n] && !closing[n] && !watchdogReport[n] ->
+            watchdogReport[n] = true
         :: else
         fi
     fi;
@@ -1052,13 +1057,15 @@ active proctype Operator()
 {
     do
 #if HELPFUL
-    :: atomic { masterRuns && empty(toOperatorPort) && master == M_SafeStop && !causeRemains -> toOperatorPort ! C_Reset, true }
+    :: atomic { masterRuns && empty(toOperatorPort) && master == M_SafeStop && !causeRemains ->
+        toOperatorPort ! C_Reset, true }
     :: atomic { (masterRuns && empty(toOperatorPort) && (master == M_Off || master == M_Ready)
                  && attached[0] && attached[1] && !isGone(0) && !isGone(1)) ->
         toOperatorPort ! C_Start, false }
     :: atomic { masterRuns && empty(toOperatorPort) && master == M_Fault -> toOperatorPort ! C_Reset, true }
 #else
-    :: atomic { masterAlive && !holderGone && commands > 0 && len(toOperatorPort) < Typed && !(SINGLE_STOP && stopSent) ->
+    :: atomic { masterAlive && !holderGone && commands > 0 && len(toOperatorPort) < Typed
+                && !(SINGLE_STOP && stopSent) ->
         commands--;
         flag = (master == M_SafeStop);
         if

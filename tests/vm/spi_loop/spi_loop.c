@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0 OR GPL-2.0-only
-// An SPI bus without wires, for tests in a virtual machine: what a program sends comes back, as if MOSI were tied to MISO. With the parameter "answer" (bytes, may be changed in
-// /sys/module/spi_loop/parameters) a chip answers these in each transfer instead, and zeros behind them. Chip select 0 has no driver: bind it to spidev by driver_override. Chip
-// select 1 is for the kernel's own spi-loopback-test.
+// An SPI bus without wires, for tests in a virtual machine: what a program sends comes back, as if
+// MOSI were tied to MISO. With the parameter "answer" (bytes, may be changed in
+// /sys/module/spi_loop/parameters) a chip answers these in each transfer instead, and zeros behind
+// them. Chip select 0 has no driver: bind it to spidev by driver_override. Chip select 1 is for the
+// kernel's own spi-loopback-test.
 #include <linux/delay.h>
 #include <linux/module.h>
 #include <linux/platform_device.h>
@@ -15,7 +17,8 @@ MODULE_PARM_DESC(answer, "bytes that the chip answers; none: it sends back what 
 static struct platform_device *parent;
 static struct spi_controller *bus;
 
-static int spi_loop_transfer(struct spi_controller *controller, struct spi_device *device, struct spi_transfer *transfer)
+static int spi_loop_transfer(struct spi_controller *controller, struct spi_device *device,
+			     struct spi_transfer *transfer)
 {
 	unsigned long duration = DIV_ROUND_UP_ULL((u64)transfer->len * 8 * 1000000, transfer->speed_hz);
 
@@ -52,7 +55,8 @@ static int spi_loop_register_bus(void)
 static int __init spi_loop_init(void)
 {
 	struct spi_board_info free_chip = {.modalias = "qtplc-loop", .max_speed_hz = 1000 * 1000};
-	struct spi_board_info tested_chip = {.modalias = "spi-loopback-test", .max_speed_hz = 50 * 1000 * 1000, .chip_select = 1};
+	struct spi_board_info tested_chip = {.modalias = "spi-loopback-test", .max_speed_hz = 50 * 1000 * 1000,
+					     .chip_select = 1};
 	int error;
 
 	parent = platform_device_register_simple("spi_loop", PLATFORM_DEVID_NONE, NULL, 0);
