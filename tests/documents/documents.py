@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Checks the documents: code blocks are what the files hold that they are said to show, links lead
 somewhere, tests that are named (`tst_X::aSentence`) exist, functions that
-docs/design/architecture.md names (`Class::function`) too, prose wraps at 100 columns, and indexes
-name all rooms and pages.
+docs/design/architecture.md names (`Class::function`) too, and indexes name all rooms and pages.
 
 A block that stands behind the line <!-- file: PATH --> (from the root of the repository) shows that
 file without its licence line; with "begin of" or "end of" in the place of "file", lines at its
@@ -22,7 +21,6 @@ BLOCK = re.compile(
 MARK = re.compile(r"<!-- (?:file|begin of|end of): ")
 TEST = re.compile(r"`(tst_\w+)::(\w+)`")
 LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)\s]*)?\)")
-WIDTH = 100
 
 
 def shown(path):
@@ -89,21 +87,6 @@ def check_headings(root, document, errors):
         for heading in sorted(set(headings))
         if headings.count(heading) > 1
     ]
-
-
-def check_width(root, document, errors):
-    """Prose wraps at WIDTH columns. Code, rows of tables and single long words are as long as they
-    are."""
-    text = re.sub(
-        r"^ *```.*?^ *```$", lambda block: "\n" * block[0].count("\n"), document.read_text(), flags=re.S | re.M
-    )
-    for number, line in enumerate(text.split("\n"), 1):
-        if (
-            len(line) > WIDTH
-            and not re.match(r" *\||#", line)
-            and " " in re.sub(r"`[^`]*`|\[[^]]*\]\([^)]*\)", "", line).strip()[:WIDTH]
-        ):
-            errors.append(f"{document.relative_to(root)}:{number}: {len(line)} columns; wrap prose at {WIDTH}")
 
 
 def check_tests(root, document, sources, errors):
@@ -188,7 +171,6 @@ def main():
         check_blocks(root, document, "--write" in sys.argv, errors)
         check_links(root, document, errors)
         check_headings(root, document, errors)
-        check_width(root, document, errors)
         check_tests(root, document, sources, errors)
     check_rooms(root, errors)
     check_functions(root, errors)

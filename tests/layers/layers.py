@@ -263,10 +263,6 @@ OF_MACHINE = (
 EXCUSED = {(file, what) for _, kinds, names in OF_MACHINE for file in names.split() for what in kinds.split(", ")}
 # A table of data may be longer: rows of a test, or one constant that is returned.
 TABLE = r"_data\(\)$|^\s*static const\b"
-# Columns. A text behind #error cannot be wrapped. A formula or a drawing, three spaces behind its
-# ///, may take those of code.
-CODE_COLUMNS, COMMENT_COLUMNS = 120, 100
-
 SOURCES = ("include", "src", "examples", "tests", "benchmarks", "docs")
 
 
@@ -303,17 +299,6 @@ def code_of(text, has_texts=True):
     if not has_texts:
         text = re.sub(r"^[ \t]*#[ \t]*include\b.*", "", text, flags=re.M)
     return list(enumerate(text.split("\n"), 1))
-
-
-@functools.lru_cache(maxsize=None)
-def long_lines(text):
-    """Number and length of each line that is too long."""
-    found = []
-    for number, line in enumerate(text.split("\n"), 1):
-        most = COMMENT_COLUMNS if re.match(r"\s*//(?!/<? {3})", line) else CODE_COLUMNS
-        if len(line) > most and not line.startswith("#error"):
-            found.append((number, len(line)))
-    return found
 
 
 @functools.lru_cache(maxsize=None)
@@ -475,13 +460,6 @@ class Check:
             ):
                 self.error(path, 1, f"is missing in the umbrella header {umbrella}")
 
-    def columns(self):
-        for path in (path for folder in SOURCES for path in files(self.root / folder)):
-            for number, length in long_lines(path.read_text()):
-                self.error(
-                    path, number, f"{length} columns: wrap comments at {COMMENT_COLUMNS} and code at {CODE_COLUMNS}"
-                )
-
     def lengths_and_licences(self):
         lengths = []
         for folder in SOURCES:
@@ -511,7 +489,6 @@ def errors_of(root):
     check.panels()
     check.kernel()
     check.public_headers()
-    check.columns()
     check.lengths_and_licences()
     return check.errors
 

@@ -156,16 +156,6 @@ class Faults(unittest.TestCase):
         self.plant("include/QtPlc/QPlcValue.h", '#include "QPlcSlaveNode.h"\n')
         self.assert_named("include/QtPlc/QPlcValue.h:", "QPlcSlaveNode.h")
 
-    def test_comments_and_code_are_wrapped(self):
-        self.plant("include/QtPlc/QPlcValue.h", f"// {'long ' * 20}\n")
-        self.assert_named("include/QtPlc/QPlcValue.h:", "103 columns: wrap comments at 100")
-        self.plant("src/signals/Fnv1a.h", f"int a; // {'long ' * 24}\n")
-        self.assert_named("src/signals/Fnv1a.h:", "130 columns")
-
-    def test_code_of_a_public_header_is_wrapped(self):
-        self.plant("include/QtPlc/QPlcValue.h", f"constexpr int long{'er' * 60} = 1;\n")
-        self.assert_named("include/QtPlc/QPlcValue.h:", "and code at 120")
-
     def test_realtime_knows_no_qobject(self):
         self.plant("src/realtime/CycleThread.h", "class Worker : public QObject {};\n")
         self.assert_named("src/realtime/CycleThread.h:", "event loop")
