@@ -138,6 +138,7 @@ def example_messages():
                              inputs=[dict(name="tetherSpeed", type="Real32", unit="m/s")], outputs=[])),
         (31, "State", dict(state="SafeStop", reason="critical node 'Winch' has left: it closed the connection",
                            remains="node 'Winch' is not back; start it again",
+                           evicted=[dict(name="Winch", by="'anna'", time=hex64(1767225601000000000))],
                            armed=False, armingRequired=True, cycle=hex64(4711), period=10000000, clock="RealTime",
                            scale=1, session=hex64(SESSION), counters=dict(cycles=4711), digest=hex64(1),
                            nodes=[dict(name="Model", id=8, inputs=1, outputs=1, listener=False, critical=False,

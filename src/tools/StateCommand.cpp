@@ -2,6 +2,9 @@
 #include "Commands.h"
 #include "TerminalText.h"
 #include "node/state/StateText.h"
+#include "realtime/TimeSource.h"
+
+#include <QtCore/QDateTime>
 
 #include <algorithm>
 
@@ -151,8 +154,9 @@ int showState(const CommandCall &call)
         printField("remains", state.remains);
     if (!state.missing.isEmpty())
         printField("missing", state.missing, Tone::Caution);
-    if (!state.evicted.isEmpty())
-        printField("evicted", state.evicted.join(QStringLiteral(", ")), Tone::Caution);
+    const QDate today = QDateTime::fromMSecsSinceEpoch(qplc::wallClockNow() / 1'000'000).date();
+    for (const messages::EvictedEntry &entry : qAsConst(state.evicted))
+        printField("evicted", QStringLiteral("%1: %2").arg(entry.name, qplc::evictedText(entry, today)), Tone::Caution);
     printField("cycle",
                QStringLiteral("%1 (%2 s)").arg(state.cycle.number).arg(double(state.cycle.number) * period, 0, 'f', 3));
     printField("period", QStringLiteral("%1 ms").arg(period * 1e3));

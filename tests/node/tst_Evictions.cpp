@@ -355,11 +355,17 @@ void tst_Evictions::evictionIsInTheEventLogAndInTheState()
     QVERIFY(master.admit(winch, datagrams()));
     ScriptedTool tool("anna");
     QVERIFY(tool.greetAt(master.serverPort()));
+    const qint64 before = qplc::wallClockNow();
     QCOMPARE(tool.ask(QPlcMessage::Evict, {{"name", "Winch"}}).kind(), QPlcMessage::Done);
     QCOMPARE(log.matching("'Winch' is evicted by 'anna'").size(), 1);
     QCOMPARE(tool.ask(QPlcMessage::Evict, {{"name", "Winch"}}).kind(), QPlcMessage::Done);
     QCOMPARE(log.matching("'Winch' is evicted by 'anna'").size(), 1);
-    QCOMPARE(tool.ask(QPlcMessage::GetState).fields().value("evicted").toArray(), QJsonArray{"Winch"});
+    const auto state = qplc::messages::readAs<qplc::messages::State>(tool.ask(QPlcMessage::GetState));
+    QVERIFY(state && state->evicted.size() == 1);
+    const qplc::messages::EvictedEntry entry = state->evicted.first();
+    QCOMPARE(entry.name, QString("Winch"));
+    QCOMPARE(entry.by, QString("'anna'"));
+    QVERIFY(before <= qint64(entry.time) && qint64(entry.time) <= qplc::wallClockNow());
     QCOMPARE(tool.ask(QPlcMessage::Admit, {{"name", "Winch"}}).kind(), QPlcMessage::Done);
     QCOMPARE(log.matching("'Winch' is admitted again by 'anna'").size(), 1);
     QVERIFY(!tool.ask(QPlcMessage::GetState).fields().contains("evicted"));

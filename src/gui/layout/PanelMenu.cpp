@@ -25,6 +25,7 @@ void PanelFrame::addOwnActions(QMenu *menu)
     if (actions.isEmpty())
         return;
     QMenu *place = actions.size() > most ? menu->addMenu(m_type) : menu;
+    place->setToolTipsVisible(true);  // why an action is not possible
     for (QAction *action : actions)
         action->setShortcutVisibleInContextMenu(true);
     place->addActions(actions);

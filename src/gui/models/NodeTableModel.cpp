@@ -90,12 +90,20 @@ QString NodeTableModel::nameOf(const Row &row) const
     return m_plants->size() > 1 ? row.plant->name() + QLatin1Char('/') + row.node.info.name : row.node.info.name;
 }
 
-/// Whoever is missed keeps his row: nodes of a master that is lost, and nodes that have left in the
-/// middle of the work.
+/// Whoever is missed keeps his row: who is evicted, nodes of a master that is lost, and nodes that
+/// have left in the middle of the work.
 void NodeTableModel::appendLost(Plant *plant, QVector<Row> *rows) const
 {
     NodeStatus lost;
+    for (const messages::EvictedEntry &entry : plant->status().master.evicted) {
+        if (plant->status().node(entry.name))
+            continue;  // for a moment: its connections are ending
+        lost.info.name = entry.name;
+        rows->append({plant, false, lost, evictedText(entry, QDate::currentDate()), {}, false});
+    }
     for (const QString &name : plant->status().gone) {
+        if (plant->status().evicted(name))
+            continue;
         lost.info.name = name;
         rows->append({plant, false, lost, tr("gone"), {}, false});
     }
@@ -103,7 +111,7 @@ void NodeTableModel::appendLost(Plant *plant, QVector<Row> *rows) const
     if (isAnswered)
         return;
     for (const Row &row : m_rows) {
-        if (row.plant != plant || row.isMaster || row.node.info.listener)
+        if (row.plant != plant || row.isMaster || row.node.info.listener || plant->status().evicted(row.node.info.name))
             continue;
         lost.info.name = row.node.info.name;
         rows->append({plant, false, lost, tr("not known"), {}, false});
@@ -180,6 +188,15 @@ void NodeTableModel::update(Plant *plant)
         endInsertRows();
         ++before;
     }
+}
+
+NodeEviction NodeTableModel::evictionOf(const QModelIndex &index) const
+{
+    if (!index.isValid())
+        return {};
+    const Row &row = m_rows.at(index.row());
+    const QString person = PlantConnection::personOf(row.node.info);
+    return {row.plant, row.isMaster ? QString() : person.isEmpty() ? row.node.info.name : person};
 }
 
 int NodeTableModel::rowCount(const QModelIndex &parent) const

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "NodeEviction.h"
 #include "gui/plant/PlantList.h"
 
 #include <QtCore/QAbstractTableModel>
@@ -44,6 +45,8 @@ public:
 
     explicit NodeTableModel(PlantList *plants, QObject *parent = nullptr);
 
+    /// What a person can do about the row of \a index; nothing if it is not valid.
+    NodeEviction evictionOf(const QModelIndex &index) const;
     int rowCount(const QModelIndex &parent = QModelIndex()) const override;
     int columnCount(const QModelIndex &parent = QModelIndex()) const override;
     QVariant data(const QModelIndex &index, int role = Qt::DisplayRole) const override;

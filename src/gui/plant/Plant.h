@@ -118,6 +118,12 @@ public:
     /// \param how  what the person did, for people: "Esc Esc"
     int stop(const QString &how = QString());
     int perform(Action action);
+    /// Ends all connections of a node or person, and keeps it out until admit().
+    int evict(const QString &name);
+    /// Lets the node or person in again.
+    int admit(const QString &name);
+    /// Whether the role of this window allows commands of \a kind.
+    bool may(QPlcMessage::Kind kind) const { return m_connection.control().may(kind); }
     /// Sets signals that no node writes, all or none. \param duration 0 for good; else the values
     /// from before come back after it
     int setValues(const QHash<QString, QPlcValue> &values,

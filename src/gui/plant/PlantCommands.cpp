@@ -104,6 +104,16 @@ int Plant::perform(Action action)
     return stop();
 }
 
+int Plant::evict(const QString &name)
+{
+    return command(messages::Evict{name});
+}
+
+int Plant::admit(const QString &name)
+{
+    return command(messages::Admit{name});
+}
+
 int Plant::setValues(const QHash<QString, QPlcValue> &values, std::chrono::nanoseconds duration)
 {
     messages::SetSignals wish{textsOf(values), std::nullopt};

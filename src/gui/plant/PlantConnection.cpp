@@ -7,6 +7,7 @@
 #include "protocol/messages/Vocabulary.h"
 
 #include <QtCore/QCoreApplication>
+#include <QtCore/QRegularExpression>
 
 #include <algorithm>
 #include <cmath>
@@ -101,6 +102,15 @@ PlantConnection::~PlantConnection()
 {
     m_control.disconnect(this);
     m_listener.disconnect(this);
+}
+
+QString PlantConnection::personOf(const QPlcNodeInfo &node)
+{
+    static const QRegularExpression window(QStringLiteral("^(.+@.*)-[0-9]+$"));  // see defaultName()
+    const QRegularExpressionMatch match = window.match(node.name);
+    if (!node.listener || !match.hasMatch())
+        return {};
+    return node.identity.isEmpty() ? match.captured(1) : node.identity;
 }
 
 int PlantConnection::pauseAfter(int failures)

@@ -46,7 +46,11 @@ public:
     QString reason() const { return m_reason; }
     /// Time until the next attempt [s]; -1 when none waits.
     double nextAttempt() const { return m_retry.isActive() ? m_retry.remainingTime() * 1e-3 : -1.0; }
+    /// The person whose window \a node is, by the name that ends all of its connections; empty: the
+    /// node is no window.
+    static QString personOf(const QPlcNodeInfo &node);
     ControlClient &control() { return m_control; }
+    const ControlClient &control() const { return m_control; }
     Listener &listener() { return m_listener; }
 
     /// Pause before an attempt after so many in vain: 250 ms, doubled each time, at most 5 s.

@@ -26,6 +26,13 @@ const NodeStatus *PlantStatus::node(const QString &name) const
     return found == nodes.end() ? nullptr : &*found;
 }
 
+const messages::EvictedEntry *PlantStatus::evicted(const QString &name) const
+{
+    const auto found = std::find_if(master.evicted.begin(), master.evicted.end(),
+                                    [&](const messages::EvictedEntry &entry) { return entry.name == name; });
+    return found == master.evicted.end() ? nullptr : &*found;
+}
+
 void PlantStatus::handleState(const messages::State &answer)
 {
     const bool wasRunning = isRunning();

@@ -38,6 +38,8 @@ struct PlantStatus
     /// Whether it is SafeStop or Fault: nothing moves until it is reset.
     bool isLatched() const { return messages::isLatched(master.state); }
     const NodeStatus *node(const QString &name) const;
+    /// Null: this name is not evicted.
+    const messages::EvictedEntry *evicted(const QString &name) const;
 
     /// Figures of nodes that were there before stay.
     void handleState(const messages::State &answer);

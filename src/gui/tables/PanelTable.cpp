@@ -150,7 +150,7 @@ void PanelTable::setGrowing(const QVector<int> &columns)
 /// Of texts and title; endless ones are cut.
 int PanelTable::wantedWidth(int column) const
 {
-    constexpr int mostCharacters = 24;
+    constexpr int mostCharacters = 36;
     const QString title = model()->headerData(column, Qt::Horizontal).toString();
     // The hint of a header keeps space for an arrow in each column.
     const int titleWidth = header()->fontMetrics().horizontalAdvance(title) + 8;

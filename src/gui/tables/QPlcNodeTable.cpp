@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "QPlcNodeTable.h"
 
+#include "EvictionQuestion.h"
 #include "PanelTable.h"
 #include "QPlcPanelContext.h"
 #include "gui/models/NodeTableModel.h"
@@ -67,8 +68,33 @@ QVector<int> growingColumns()
 
 struct QPlcNodeTable::Private
 {
+    NodeEviction eviction() const
+    {
+        const auto *nodes = qobject_cast<const NodeTableModel *>(sorted->sourceModel());
+        return nodes ? nodes->evictionOf(sorted->mapToSource(table->currentIndex())) : NodeEviction();
+    }
+
+    void followRow()
+    {
+        const NodeEviction now = eviction();
+        const QString obstacle = now.obstacle();
+        const QString dots = QStringLiteral(" ...");
+        QAction *const possible = now.isAdmission() ? admit : evict;
+        for (QAction *action : {evict, admit}) {
+            action->setVisible(action == possible);
+            action->setEnabled(action == possible && obstacle.isEmpty());
+        }
+        evict->setText(NodeEviction::titleOf(now.isAdmission() ? QString() : now.name(), false) + dots);
+        admit->setText(NodeEviction::titleOf(now.isAdmission() ? now.name() : QString(), true) + dots);
+        possible->setToolTip(obstacle);
+        question->follow();
+    }
+
     PanelTable *table = nullptr;
     QSortFilterProxyModel *sorted = nullptr;
+    EvictionQuestion *question = nullptr;
+    QAction *evict = nullptr;
+    QAction *admit = nullptr;
     PanelSettings settings{"columns", "sort", "descending"};
 };
 
@@ -84,13 +110,24 @@ QPlcNodeTable::QPlcNodeTable(QWidget *parent)
     auto *column = new QVBoxLayout(this);
     column->setContentsMargins(0, 0, 0, 0);
     column->addWidget(d->table);
+    d->question = new EvictionQuestion(this);
+    column->addWidget(d->question);
     setFocusProxy(d->table);
+    connect(d->question, &EvictionQuestion::ended, d->table, [this] { d->table->setFocus(Qt::OtherFocusReason); });
     connect(d->table, &PanelTable::settingsEdited, this, [this] {
         d->table->writeSettings(&d->settings);
         Q_EMIT settingsEdited();
     });
     addPanelAction(this, tr("Copy as text"), {QKeySequence::Copy},
                    [this] { QGuiApplication::clipboard()->setText(d->table->toTabSeparated()); });
+    const auto ask = [this] { d->question->ask(d->eviction()); };
+    d->evict = addPanelAction(this, {}, {tr("Ctrl+E")}, ask, "evict");
+    d->admit = addPanelAction(this, {}, {tr("Ctrl+Shift+E")}, ask, "admit");
+    connect(d->table->selectionModel(), &QItemSelectionModel::currentChanged, this, [this] { d->followRow(); });
+    for (const auto changed : {&QAbstractItemModel::rowsInserted, &QAbstractItemModel::rowsRemoved})
+        connect(d->sorted, changed, this, [this] { d->followRow(); });
+    connect(d->sorted, &QAbstractItemModel::dataChanged, this, [this] { d->followRow(); });
+    d->followRow();
 }
 
 QPlcNodeTable::~QPlcNodeTable() = default;

@@ -140,6 +140,7 @@ public:
     void operator()(const messages::GetState &) const
     {
         messages::State reply = qplc::stateReply(*d.q, d.profile(), d.session);
+        reply.evicted = d.evictions.entries();
         reply.latch = d.latch;
         reply.cycleZeroTime = quint64(d.parts->cycle.cycleZeroTime());
         const qplc::AskedStop &stop = d.askedStop;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ControlClient.h"
 
+#include "node/security/AccessRights.h"
 #include "protocol/ControlFrame.h"
 #include "protocol/messages/Vocabulary.h"
 #include "realtime/Host.h"
@@ -168,6 +169,12 @@ void ControlClient::receiveRejection(const messages::Rejected &rejection)
 }
 
 /// Whether a request waits for such a message. Events come unasked, too: then without `more`.
+bool ControlClient::may(QPlcMessage::Kind kind) const
+{
+    const std::optional<Role> role = roleOf(m_master.role);  // nothing: without security everybody may do everything
+    return !role || whoMaySend(kind).contains(*role);
+}
+
 bool ControlClient::isAnswer(const QPlcMessage &message) const
 {
     const auto events = messages::readAs<messages::Events>(message);

@@ -100,6 +100,8 @@ public:
     /// The greeting of the master: its session, table, state, the features of both, our identity
     /// and role.
     const messages::MasterHello &master() const { return m_master; }
+    /// Whether the role of this client, as the master has told it, allows messages of \a kind.
+    bool may(QPlcMessage::Kind kind) const;
     /// The last Rejected of the master.
     const messages::Rejected &rejection() const { return m_rejection; }
     /// What ended the last connection; NoError: none of its errors.

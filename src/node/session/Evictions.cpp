@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Evictions.h"
 
-#include "protocol/messages/Vocabulary.h"
+#include "realtime/TimeSource.h"
 
 namespace qplc {
 
@@ -9,8 +9,16 @@ bool Evictions::add(const QString &name, const QString &by, Role role)
 {
     if (!contains(name) && m_evicted.size() >= Most)
         return false;
-    m_evicted.insert(name, {by, role});
+    m_evicted.insert(name, {by, role, quint64(wallClockNow())});
     return true;
+}
+
+QVector<messages::EvictedEntry> Evictions::entries() const
+{
+    QVector<messages::EvictedEntry> entries;
+    for (auto each = m_evicted.begin(); each != m_evicted.end(); ++each)
+        entries.append({each.key(), each->by, each->time});
+    return entries;
 }
 
 Refusal Evictions::refusalOf(const QString &name, const Peer &peer) const

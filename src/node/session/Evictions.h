@@ -3,6 +3,7 @@
 
 #include "node/cycle/NodeRegistry.h"
 #include "node/security/AccessRights.h"
+#include "protocol/messages/State.h"
 
 #include <QtCore/QMap>
 
@@ -26,6 +27,8 @@ public:
     bool remove(const QString &name) { return m_evicted.remove(name) > 0; }
     bool contains(const QString &name) const { return m_evicted.contains(name); }
     QStringList names() const { return m_evicted.keys(); }
+    /// As State tells them, in the order of names().
+    QVector<messages::EvictedEntry> entries() const;
 
     /// Why somebody may not come in as \a name, or with the identity of \a peer; no error: it may.
     Refusal refusalOf(const QString &name, const Peer &peer) const;
@@ -35,6 +38,7 @@ private:
     {
         QString by;
         Role role;
+        quint64 time;  // [ns] since 1970
     };
 
     QMap<QString, Entry> m_evicted;

@@ -96,7 +96,6 @@ messages::State stateReply(const QPlcMasterNode &master, const ChosenProfile &pr
     reply.reason = master.stateReason();
     reply.remains = master.causeThatRemains();
     reply.missing = master.missingNodes();
-    reply.evicted = master.evictedNames();
     reply.armed = master.isArmed();
     reply.armingRequired = master.isArmingRequired();
     reply.cycle = master.cycle();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "StateText.h"
 
+#include <QtCore/QDateTime>
+
 namespace qplc {
 
 QString stateText(const QString &name)
@@ -29,6 +31,13 @@ QString stateText(messages::ClockKind clock)
 QString transportText(const QPlcNodeInfo &node)
 {
     return node.fallback ? QStringLiteral("%1 (fallback)").arg(node.transport) : node.transport;
+}
+
+QString evictedText(const messages::EvictedEntry &entry, const QDate &today)
+{
+    const QDateTime time = QDateTime::fromMSecsSinceEpoch(qint64(entry.time / 1'000'000));
+    const QString format = time.date() == today ? QStringLiteral("HH:mm:ss") : QStringLiteral("yyyy-MM-dd HH:mm");
+    return QStringLiteral("evicted by %1 at %2").arg(entry.by, time.toString(format));
 }
 
 }  // namespace qplc

@@ -2,7 +2,9 @@
 #pragma once
 
 #include "QPlcNodeInfo.h"
-#include "protocol/messages/Vocabulary.h"
+#include "protocol/messages/State.h"
+
+#include <QtCore/QDate>
 
 namespace qplc {
 
@@ -15,5 +17,7 @@ QString stateText(messages::MasterState state);
 QString stateText(messages::ClockKind clock);
 /// "udp", or "tcp (fallback)" for a node to or from which datagrams do not get through.
 QString transportText(const QPlcNodeInfo &node);
+/// "evicted by 'anna' at 13:04:05"; with the date, unless it is that of \a today.
+QString evictedText(const messages::EvictedEntry &entry, const QDate &today);
 
 }  // namespace qplc

@@ -28,6 +28,17 @@ struct Description<QPlcNodeInfo>
         field("fallback", &N::fallback, Presence::WhenSet));
 };
 
+/// A name that Evict keeps out.
+struct EvictedEntry
+{
+    QString name;
+    QString by;  // for people, as in the refusals: 'anna'
+    Hex64 time;  // [ns] since 1970
+
+    static constexpr auto fields = std::make_tuple(field("name", &EvictedEntry::name, Presence::Required),
+                                                   field("by", &EvictedEntry::by), field("time", &EvictedEntry::time));
+};
+
 /// A Stop that ended the phase that ran last.
 struct StopEntry
 {
@@ -59,7 +70,7 @@ struct State
     QString reason;   // why it is SafeStop or Fault
     QString remains;  // what still keeps Reset from being done
     QString missing;  // nodes that an initialization and a start need
-    QStringList evicted;
+    QVector<EvictedEntry> evicted;
     quint64 latch = 0;  // number of the newest safe stop or fault of this session, from 1; 0: there was none
     bool armed = false;
     bool armingRequired = false;
