@@ -37,9 +37,9 @@ public:
     /// Sends \a request and waits for its answer.
     /// \return false when the master refused or was lost; \a answer is untouched then
     template<typename Request>
-    bool ask(const Request &request, typename qplc::AnswerTo<Request>::Type *answer = nullptr)
+    bool ask(const Request &request, typename Request::Answer *answer = nullptr)
     {
-        using Answer = typename qplc::AnswerTo<Request>::Type;
+        using Answer = typename Request::Answer;
         if (!exchange(qplc::messages::toMessage(request)))
             return false;
         const std::optional<Answer> received = qplc::messages::readAs<Answer>(m_answer);

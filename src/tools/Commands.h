@@ -25,7 +25,7 @@ struct CommandCall
     bool connect(QPlcSignalTable *table) const;
     /// Asks the master. \return false, with the message out; exitCode() then
     template<typename Request>
-    bool ask(const Request &request, typename qplc::AnswerTo<Request>::Type *answer = nullptr) const
+    bool ask(const Request &request, typename Request::Answer *answer = nullptr) const
     {
         return tell(client.ask(request, answer));
     }

@@ -103,7 +103,7 @@ void SignalListener::ask(const Request &request, Take take)
 {
     const auto pass = [listener = QPointer(this), take](const qplc::ControlClient::Reply<Request> &reply) {
         if (listener)
-            take(std::get_if<typename qplc::AnswerTo<Request>::Type>(&reply));
+            take(std::get_if<typename Request::Answer>(&reply));
     };
     m_call.client.control().request(request, pass);
 }

@@ -59,7 +59,7 @@ private:
     {
         m_client->request(request, [this](const ControlClient::Reply<Request> &reply) {
             const auto *failed = std::get_if<messages::Failed>(&reply);
-            m_notes << (failed ? failed->error : QPlcMessage::kindName(qplc::AnswerTo<Request>::Type::kind));
+            m_notes << (failed ? failed->error : QPlcMessage::kindName(Request::Answer::kind));
         });
     }
 

@@ -127,13 +127,6 @@ private:
             }
         }
     }
-    template<typename... Fields>
-    void addOne(const messages::Group<Fields...> &group, const QString &path)
-    {
-        const QString name = path + QLatin1String(group.name);
-        addRow(name, QStringLiteral("object"), presenceText(messages::Presence::Defaulted), QString());
-        addAll(group.fields, name + QLatin1Char('.'));
-    }
     template<typename Owner>
     void addOne(const messages::Rest<Owner> &, const QString &)
     {

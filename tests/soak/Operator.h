@@ -47,7 +47,7 @@ public:
 
 private:
     template<typename Request>
-    bool ask(const Request &request, typename qplc::AnswerTo<Request>::Type *answer = nullptr)
+    bool ask(const Request &request, typename Request::Answer *answer = nullptr)
     {
         if (client().ask(request, answer))
             return true;

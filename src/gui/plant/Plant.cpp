@@ -331,9 +331,9 @@ void Plant::refresh()
 bool Plant::ask(const QPlcMessage &question, const ControlClient::RawHandler &handler)
 {
     ControlClient &control = m_connection.control();
+    const bool isQuestion = messages::useOf(question.kind()).purpose == messages::Purpose::Question;
     // Not greeted, but connected: the connection is about to end, and fails its questions.
-    if (!isConnected() || !control.isGreeted() || !ControlClient::isQuestion(question.kind()) || control.isBusy()
-        || m_questions == MostQuestions)
+    if (!isConnected() || !control.isGreeted() || !isQuestion || control.isBusy() || m_questions == MostQuestions)
         return false;
     ++m_questions;
     control.send(question, [this, handler](const QPlcMessage &answer) {

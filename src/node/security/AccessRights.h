@@ -50,20 +50,12 @@ private:
 /// What a message writes is checked signal by signal besides: see refusalOf().
 constexpr Roles whoMaySend(QPlcMessage::Kind kind)
 {
-    if (messages::OperatorsMaySend::contains(kind))
+    const messages::Use use = messages::useOf(kind);
+    if (use.kind == QPlcMessage::Invalid)
+        return {};
+    if (use.sender == messages::Sender::Operators)
         return Role::Operator | Roles(Role::Engineer);
-    if (messages::EverybodyMaySend::contains(kind))
-        return Role::Observer | Roles(Role::Operator) | Role::Node | Role::Engineer;
-    return {};
-}
-
-/// Whether a message of \a kind does something to the plant, and is written down: what not
-/// everybody may do, Stop and SafeStop.
-constexpr bool isCommand(QPlcMessage::Kind kind)
-{
-    const Roles roles = whoMaySend(kind);
-    return kind == QPlcMessage::Stop || kind == QPlcMessage::SafeStop
-        || (!roles.isEmpty() && !roles.contains(Role::Observer));
+    return Role::Observer | Roles(Role::Operator) | Role::Node | Role::Engineer;
 }
 
 /// Who is at the other end of a control connection, as far as it was proven.

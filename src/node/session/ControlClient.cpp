@@ -15,19 +15,11 @@ namespace qplc {
 
 namespace {
 
-template<typename... Requests>
-bool answersOneOf(messages::List<Requests...>, QPlcMessage::Kind kind)
+bool answersARequest(QPlcMessage::Kind kind)
 {
-    return ((AnswerTo<Requests>::Type::kind == kind) || ...);
-}
-
-/// The kind that answers a request of \a kind; Invalid: it is none.
-template<typename... Requests>
-QPlcMessage::Kind answerTo(messages::List<Requests...>, QPlcMessage::Kind kind)
-{
-    QPlcMessage::Kind answer = QPlcMessage::Invalid;
-    ((Requests::kind == kind ? void(answer = AnswerTo<Requests>::Type::kind) : void()), ...);
-    return answer;
+    const auto &uses = messages::ClientTable::uses;
+    return std::any_of(std::begin(uses), std::end(uses),
+                       [kind](const messages::Use &use) { return use.answer == kind; });
 }
 
 }  // namespace
@@ -179,7 +171,7 @@ bool ControlClient::isAnswer(const QPlcMessage &message) const
 {
     const auto events = messages::readAs<messages::Events>(message);
     return !m_sent.isEmpty() && !(events && !events->more)
-        && (message.kind() == QPlcMessage::Failed || answersOneOf(messages::Requests(), message.kind()));
+        && (message.kind() == QPlcMessage::Failed || answersARequest(message.kind()));
 }
 
 /// The request that this kind answers. The master answers questions while a command waits for
@@ -187,10 +179,8 @@ bool ControlClient::isAnswer(const QPlcMessage &message) const
 int ControlClient::pendingFor(QPlcMessage::Kind answer) const
 {
     const bool isRefusal = answer == QPlcMessage::Failed || answer == QPlcMessage::Rejected;
-    const auto fits = [&](const Pending &pending) {
-        const bool isNeverRefused = pending.message.kind() == QPlcMessage::GetState || pending.isUrgent();
-        return isRefusal ? !isNeverRefused : pending.answer == answer;
-    };
+    const auto fits
+        = [&](const Pending &pending) { return isRefusal ? pending.canBeRefused() : pending.use.answer == answer; };
     const auto found = std::find_if(m_sent.begin(), m_sent.end(), fits);
     return found == m_sent.end() ? 0 : int(found - m_sent.begin());
 }
@@ -199,8 +189,8 @@ int ControlClient::pendingFor(QPlcMessage::Kind answer) const
 /// their requests: the master may answer a Stop before the sequence that it ends.
 bool ControlClient::isSequenceOpenAfter(int dones) const
 {
-    const auto isSequence = [](const Pending &pending) { return pending.isSequence(); };
-    const auto waitsForDone = [](const Pending &pending) { return pending.answer == QPlcMessage::Done; };
+    const auto isSequence = [](const Pending &pending) { return pending.use.outcome == messages::Outcome::Late; };
+    const auto waitsForDone = [](const Pending &pending) { return pending.use.answer == QPlcMessage::Done; };
     return std::any_of(m_sent.begin(), m_sent.end(), isSequence)
         && std::count_if(m_sent.begin(), m_sent.end(), waitsForDone) > dones;
 }
@@ -227,12 +217,6 @@ void ControlClient::deliver(const QPlcMessage &message)
     handler(message);
 }
 
-bool ControlClient::isQuestion(QPlcMessage::Kind kind)
-{
-    const QPlcMessage::Kind answer = answerTo(messages::Requests(), kind);
-    return answer != QPlcMessage::Invalid && answer != QPlcMessage::Done && kind != QPlcMessage::Arm;
-}
-
 messages::Failed ControlClient::failureOf(const QPlcMessage &message, const QString &error)
 {
     if (message.kind() == QPlcMessage::Invalid)
@@ -254,10 +238,10 @@ bool ControlClient::isBusy() const
 
 void ControlClient::send(const QPlcMessage &message, const RawHandler &handler)
 {
-    Pending pending{message, answerTo(messages::Requests(), message.kind()), handler, {}};
+    Pending pending{message, messages::useOf(message.kind()), handler, {}};
     if (!m_isGreeted)
         handler(QPlcMessage());
-    else if (pending.isCommand() && !pending.isUrgent() && isBusy())
+    else if (pending.isCommand() && pending.canBeRefused() && isBusy())
         m_waiting.append(pending);
     else
         sendNow(pending);

@@ -15,18 +15,6 @@
 
 namespace qplc {
 
-/// The struct that answers a request: `Done` unless the request names another one.
-template<typename Request, typename = void>
-struct AnswerTo
-{
-    using Type = messages::Done;
-};
-template<typename Request>
-struct AnswerTo<Request, std::void_t<typename Request::Answer>>
-{
-    using Type = typename Request::Answer;
-};
-
 /// The client side of the control channel (docs/protocol.md, section 5). It never waits: answers go
 /// to functions.
 ///
@@ -71,7 +59,7 @@ public:
     Q_ENUM(Loss)
 
     template<typename Request>
-    using Reply = std::variant<typename AnswerTo<Request>::Type, messages::Failed>;
+    using Reply = std::variant<typename Request::Answer, messages::Failed>;
     /// Gets the answer as it came; Invalid: the connection ended before there was one.
     using RawHandler = std::function<void(const QPlcMessage &answer)>;
 
@@ -116,16 +104,16 @@ public:
     template<typename Request, typename Handler>
     void request(const Request &request, Handler &&handler)
     {
+        static_assert(!std::is_same_v<typename Request::Answer, messages::NoAnswer>,
+                      "a message with NoAnswer is not a request; send it with tell()");
         send(messages::toMessage(request), [handler = std::forward<Handler>(handler)](const QPlcMessage &answer) {
-            handler(replyOf<typename AnswerTo<Request>::Type>(answer));
+            handler(replyOf<typename Request::Answer>(answer));
         });
     }
     /// As request(), for a message that is passed on as it is.
     void send(const QPlcMessage &message, const RawHandler &handler);
     /// Sends \a message, greeted or not, and waits for nothing: an answer comes as unasked().
     void tell(const QPlcMessage &message);
-    /// Whether a message of this kind is a request that changes nothing: it is answered with data.
-    static bool isQuestion(QPlcMessage::Kind kind);
     /// \a message as the answer that was wanted, or why it is not.
     template<typename Answer>
     static std::variant<Answer, messages::Failed> replyOf(const QPlcMessage &message)
@@ -155,17 +143,13 @@ private:
     struct Pending
     {
         QPlcMessage message;
-        QPlcMessage::Kind answer = QPlcMessage::Invalid;
+        messages::Use use;
         RawHandler handler;
         std::int64_t deadline = Never;  // [ns] of monotonicNow()
         std::chrono::milliseconds patience{0};
 
-        bool isCommand() const { return answer == QPlcMessage::Done || message.kind() == QPlcMessage::Arm; }
-        bool isUrgent() const { return message.kind() == QPlcMessage::Stop || message.kind() == QPlcMessage::SafeStop; }
-        bool isSequence() const
-        {
-            return message.kind() == QPlcMessage::InitializeAllStates || message.kind() == QPlcMessage::StartRealTime;
-        }
+        bool isCommand() const { return use.purpose == messages::Purpose::Command; }
+        bool canBeRefused() const { return use.outcome != messages::Outcome::Certain; }
     };
 
     void greet();

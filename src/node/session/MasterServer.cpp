@@ -33,12 +33,6 @@ quint32 longestMessageFor(const QPlcSignalTable &table)
     return quint32(std::min<quint64>(bytes, MaximumControlFrame));
 }
 
-/// What waits behind nothing that anybody has asked.
-bool isUrgent(Message::Kind kind)
-{
-    return kind == Message::Stop || kind == Message::SafeStop || kind == Message::ReleaseLease;
-}
-
 }  // namespace
 
 MasterServer::MasterServer(NodeRegistry &registry, const ProcessImage &image, CyclicHub &hub, quint64 session,
@@ -414,7 +408,7 @@ void MasterServer::lookAhead(MasterConnection *connection)
 {
     Message message;
     while (isThere(connection) && connection->stage != MasterConnection::Silent
-           && PacedReading::takeAhead(*connection->socket, &isUrgent, &message)) {
+           && PacedReading::takeAhead(*connection->socket, &messages::isUrgent, &message)) {
         connection->isAhead = true;
         receive(connection, message);
         if (isThere(connection))
@@ -441,7 +435,7 @@ bool MasterServer::isSettled(MasterConnection *connection, const Message &messag
         }
         return true;
     }
-    if (!PacedReading::isOvertaken(*connection->socket) || !isCommand(message.kind()))
+    if (!PacedReading::isOvertaken(*connection->socket) || !messages::isCommand(message.kind()))
         return false;
     connection->fail(messages::errorWord::wrongState,
                      QStringLiteral("%1 was overtaken by a stop, or by the release of a lease, that was sent after it")
@@ -468,7 +462,7 @@ void MasterServer::carryOut(MasterConnection *connection, const Message &message
         deny(connection, refusal, message.kind() == Message::Register);
         return;
     }
-    if (connection->peer.isSecured && isCommand(message.kind()))
+    if (connection->peer.isSecured && messages::isCommand(message.kind()))
         Q_EMIT commanded(connection, message);
     const bool begins = message.kind() == Message::Hello || message.kind() == Message::AttachCyclicChannel;
     if (connection->stage == MasterConnection::Silent && !begins) {

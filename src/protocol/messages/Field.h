@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "Members.h"
 #include "Wire.h"
 
 #include <limits>
@@ -27,6 +28,7 @@ struct Range
 template<typename Owner, typename Value>
 struct Field
 {
+    using Struct = Owner;
     const char *name;
     Value Owner::*member;
     Presence presence;
@@ -41,20 +43,6 @@ constexpr Field<Owner, Value> field(const char *name, Value Owner::*member, Pres
     return {name, member, presence, range};
 }
 
-/// Members of one struct that are an object of their own on the wire.
-template<typename... Fields>
-struct Group
-{
-    const char *name;
-    std::tuple<Fields...> fields;
-};
-
-template<typename... Fields>
-constexpr Group<Fields...> group(const char *name, Fields... fields)
-{
-    return {name, std::make_tuple(fields...)};
-}
-
 /// The fields of \a Struct: its own `fields`, unless this is specialised for a struct that knows
 /// nothing of messages.
 template<typename Struct>
@@ -62,6 +50,18 @@ struct Description
 {
     static constexpr auto &fields = Struct::fields;
 };
+
+/// The fields of \a Struct. A member that is missing there does not compile.
+template<typename Struct>
+constexpr const auto &fieldsIn()
+{
+    constexpr const auto &fields = Description<Struct>::fields;
+    static_assert(std::is_aggregate_v<Struct>,
+                  "a struct of messages needs public members and no constructor, so that its members can be counted");
+    static_assert(areAllMembers<Struct>(&fields), "a member of this struct of messages is missing in its `fields`");
+    static_assert(isEachOnce(fields), "two entries in `fields` have the same name, or the same member");
+    return fields;
+}
 
 // ---- to the wire ----
 
@@ -121,19 +121,11 @@ void write(const Struct &value, const std::tuple<Fields...> &fields, QJsonObject
     std::apply([&](const auto &...each) { (write(value, each, object), ...); }, fields);
 }
 
-template<typename Struct, typename... Fields>
-void write(const Struct &value, const Group<Fields...> &group, QJsonObject *object)
-{
-    QJsonObject inner;
-    write(value, group.fields, &inner);
-    object->insert(QLatin1String(group.name), inner);
-}
-
 template<typename Struct>
 QJsonObject toObject(const Struct &value)
 {
     QJsonObject object;
-    write(value, Description<Struct>::fields, &object);
+    write(value, fieldsIn<Struct>(), &object);
     return object;
 }
 
@@ -175,19 +167,13 @@ bool read(const QJsonObject &object, const std::tuple<Fields...> &fields, Struct
     return std::apply([&](const auto &...each) { return (read(object, each, value, error) && ...); }, fields);
 }
 
-template<typename Struct, typename... Fields>
-bool read(const QJsonObject &object, const Group<Fields...> &group, Struct *value, QString *error)
-{
-    return read(object.value(QLatin1String(group.name)).toObject(), group.fields, value, error);
-}
-
 /// Reads all fields of \a Struct. Fields that it does not know are ignored.
 /// \return false when a field that is needed cannot be used: \a error says which one, and \a value
 ///         is not to be used
 template<typename Struct>
 bool fromObject(const QJsonObject &object, Struct *value, QString *error)
 {
-    return read(object, Description<Struct>::fields, value, error);
+    return read(object, fieldsIn<Struct>(), value, error);
 }
 
 // ---- fields of somebody else ----
@@ -198,6 +184,8 @@ bool fromObject(const QJsonObject &object, Struct *value, QString *error)
 template<typename Owner>
 struct Rest
 {
+    using Struct = Owner;
+    static constexpr const char *name = "";
     QJsonObject Owner::*member;
 };
 
@@ -239,7 +227,7 @@ Struct fieldsOf(const QJsonObject &object)
 template<typename Struct>
 void addFields(const Struct &value, QJsonObject *object)
 {
-    write(value, Description<Struct>::fields, object);
+    write(value, fieldsIn<Struct>(), object);
 }
 
 // ---- structs in structs ----

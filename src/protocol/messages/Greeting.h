@@ -22,10 +22,17 @@ constexpr QLatin1String hardware = word("hardware");
 constexpr QLatin1String all[] = {sameCycle, leases, events, quality, outputQuality, hardware};
 }  // namespace feature
 
+/// The Answer of a message to a master that its sender does not wait for.
+struct NoAnswer
+{
+    static constexpr QPlcMessage::Kind kind = QPlcMessage::Invalid;
+};
+
 /// A client greets.
 struct ClientHello
 {
     static constexpr QPlcMessage::Kind kind = QPlcMessage::Hello;
+    using Answer = NoAnswer;
     int protocol = 0;
     QString name;
     QString uuid;

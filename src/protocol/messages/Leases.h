@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Field.h"
+#include "Greeting.h"
 #include "QPlcMessage.h"
 
 /// One writer at a time by permission of the master: docs/protocol.md, section 5.7.
@@ -57,6 +58,7 @@ struct GetLeases
 struct TakeLease
 {
     static constexpr QPlcMessage::Kind kind = QPlcMessage::TakeLease;
+    using Answer = Done;
     static constexpr Range timeoutRange{1e7, 3.6e12};  // [ns]
     QStringList signals;
     QMap<QString, QString> values;  // signal -> first value
@@ -75,6 +77,7 @@ struct TakeLease
 struct ReleaseLease
 {
     static constexpr QPlcMessage::Kind kind = QPlcMessage::ReleaseLease;
+    using Answer = Done;
     std::optional<QStringList> signals;  // without it all that the asker holds
 
     static constexpr auto fields = std::make_tuple(field("signals", &ReleaseLease::signals, Presence::Checked));

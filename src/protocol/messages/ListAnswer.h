@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "Field.h"
-#include "QPlcMessage.h"
+#include "MessageTable.h"
 
 #include <QtCore/QByteArray>
 
@@ -55,7 +54,7 @@ std::unique_ptr<ListAnswer> makeListAnswer(const Message &head, std::vector<Elem
     std::apply([&](const auto &...each) { (look(each), ...); }, Message::fields);
     QJsonObject others = toObject(head);
     others.remove(QLatin1String(name));
-    return std::make_unique<ListAnswer>(Message::kind, tooLong, others, name, count,
+    return std::make_unique<ListAnswer>(kindOf<Message>(), tooLong, others, name, count,
                                         [entry](std::size_t i) { return toObject(entry(i)); });
 }
 

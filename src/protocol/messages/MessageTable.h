@@ -90,25 +90,141 @@ template<typename... Messages>
 struct List
 {
     static constexpr bool contains(QPlcMessage::Kind kind) { return ((Messages::kind == kind) || ...); }
+    template<typename Message>
+    static constexpr bool has = (std::is_same_v<Message, Messages> || ...);
 };
 
-/// The messages of two lists.
-template<typename First, typename Second>
-struct JoinedLists;
-template<typename... First, typename... Second>
-struct JoinedLists<List<First...>, List<Second...>>
+/// The messages of all lists.
+template<typename... Lists>
+struct JoinedLists
 {
-    using Type = List<First..., Second...>;
+    using Type = List<>;
 };
+template<typename... Messages>
+struct JoinedLists<List<Messages...>>
+{
+    using Type = List<Messages...>;
+};
+template<typename... First, typename... Second, typename... Others>
+struct JoinedLists<List<First...>, List<Second...>, Others...> : JoinedLists<List<First..., Second...>, Others...>
+{
+};
+
+/// Who may send a message to a master.
+enum class Sender : quint8 {
+    Everybody,  ///< an Observer registers as a listener without outputs
+    Operators   ///< and Engineers
+};
+/// What a message does at a master.
+enum class Purpose : quint8 {
+    Opening,   ///< makes somebody known to a master, or a node of it
+    Report,    ///< tells what a node has done
+    Question,  ///< changes nothing
+    Command    ///< does something to the plant, and is written down
+};
+/// When a master carries a message out.
+enum class Turn : quint8 {
+    InOrder,  ///< after what its sender has sent before
+    Urgent    ///< at once; commands of its sender that still wait are refused
+};
+/// What a sender waits for.
+enum class Outcome : quint8 {
+    None,    ///< nothing: the message has NoAnswer
+    Prompt,  ///< its Answer, or Failed
+    Late,    ///< as Prompt, but after nodes have done their part: later messages are answered before
+    Certain  ///< its Answer, never Failed
+};
+enum class Writes : quint8 {
+    Nothing,
+    Signals  ///< or takes or releases the right to: needs a right to each of them
+};
+
+/// What is known of a message from a node or tool, by its kind.
+struct Use
+{
+    QPlcMessage::Kind kind = QPlcMessage::Invalid;
+    Sender sender = Sender::Operators;
+    Purpose purpose = Purpose::Report;
+    Turn turn = Turn::InOrder;
+    Outcome outcome = Outcome::None;
+    QPlcMessage::Kind answer = QPlcMessage::Invalid;
+};
+
+template<typename Message, typename = void>
+struct HasAnswer : std::false_type
+{
+};
+template<typename Message>
+struct HasAnswer<Message, std::void_t<typename Message::Answer>> : std::true_type
+{
+};
+
+/// All that is known of a message from a node or tool, besides its fields and its answer.
+template<typename Message, Sender sender, Purpose purpose, Turn turn, Outcome outcome, Writes writes>
+struct Row
+{
+    static_assert(HasAnswer<Message>::value,
+                  "a message to a master needs `using Answer = ...;`: Done for a command "
+                  "that has no other answer, NoAnswer for what nobody waits for");
+    static_assert((outcome == Outcome::None) == std::is_same_v<typename Message::Answer, NoAnswer>,
+                  "a message needs Outcome::None with NoAnswer, and another Outcome with any other Answer");
+    static_assert(sender == Sender::Everybody || purpose == Purpose::Command, "only commands can be kept to operators");
+
+    template<bool isListed>
+    using If = std::conditional_t<isListed, List<Message>, List<>>;
+    using All = List<Message>;
+    using Openings = If<purpose == Purpose::Opening>;
+    using Requests = If<purpose != Purpose::Opening>;
+    using WriteSignals = If<writes == Writes::Signals>;
+    static constexpr Use use{Message::kind, sender, purpose, turn, outcome, Message::Answer::kind};
+};
+
+template<typename... Rows>
+struct Table
+{
+    using All = typename JoinedLists<typename Rows::All...>::Type;
+    using Openings = typename JoinedLists<typename Rows::Openings...>::Type;
+    using Requests = typename JoinedLists<typename Rows::Requests...>::Type;
+    using WriteSignals = typename JoinedLists<typename Rows::WriteSignals...>::Type;
+    static constexpr Use uses[] = {Rows::use...};
+};
+
+/// What a node or tool sends to its master, a row each.
+using ClientTable = Table<
+    Row<ClientHello, Sender::Everybody, Purpose::Opening, Turn::InOrder, Outcome::None, Writes::Nothing>,
+    Row<Register, Sender::Everybody, Purpose::Opening, Turn::InOrder, Outcome::None, Writes::Signals>,
+    Row<AttachCyclicChannel, Sender::Everybody, Purpose::Opening, Turn::InOrder, Outcome::None, Writes::Nothing>,
+    Row<InitializeAllStates, Sender::Operators, Purpose::Command, Turn::InOrder, Outcome::Late, Writes::Nothing>,
+    Row<ReceiveMyInitialOutputStates, Sender::Everybody, Purpose::Report, Turn::InOrder, Outcome::None,
+        Writes::Nothing>,
+    Row<Initialized, Sender::Everybody, Purpose::Report, Turn::InOrder, Outcome::None, Writes::Nothing>,
+    Row<StartRealTime, Sender::Operators, Purpose::Command, Turn::InOrder, Outcome::Late, Writes::Nothing>,
+    Row<RealTimeReady, Sender::Everybody, Purpose::Report, Turn::InOrder, Outcome::None, Writes::Nothing>,
+    Row<Stop, Sender::Everybody, Purpose::Command, Turn::Urgent, Outcome::Certain, Writes::Nothing>,
+    Row<SafeStop, Sender::Everybody, Purpose::Command, Turn::Urgent, Outcome::Certain, Writes::Nothing>,
+    Row<Reset, Sender::Operators, Purpose::Command, Turn::InOrder, Outcome::Prompt, Writes::Nothing>,
+    Row<Arm, Sender::Operators, Purpose::Command, Turn::InOrder, Outcome::Prompt, Writes::Nothing>,
+    Row<Evict, Sender::Operators, Purpose::Command, Turn::InOrder, Outcome::Prompt, Writes::Nothing>,
+    Row<Admit, Sender::Operators, Purpose::Command, Turn::InOrder, Outcome::Prompt, Writes::Nothing>,
+    Row<GetState, Sender::Everybody, Purpose::Question, Turn::InOrder, Outcome::Certain, Writes::Nothing>,
+    Row<GetSignals, Sender::Everybody, Purpose::Question, Turn::InOrder, Outcome::Prompt, Writes::Nothing>,
+    Row<SetSignals, Sender::Operators, Purpose::Command, Turn::InOrder, Outcome::Prompt, Writes::Signals>,
+    Row<NodeFault, Sender::Everybody, Purpose::Report, Turn::InOrder, Outcome::None, Writes::Nothing>,
+    Row<GetStatistics, Sender::Everybody, Purpose::Question, Turn::InOrder, Outcome::Prompt, Writes::Nothing>,
+    Row<GetSchedule, Sender::Everybody, Purpose::Question, Turn::InOrder, Outcome::Prompt, Writes::Nothing>,
+    Row<TakeLease, Sender::Operators, Purpose::Command, Turn::InOrder, Outcome::Prompt, Writes::Signals>,
+    Row<ReleaseLease, Sender::Operators, Purpose::Command, Turn::Urgent, Outcome::Prompt, Writes::Signals>,
+    Row<GetLeases, Sender::Everybody, Purpose::Question, Turn::InOrder, Outcome::Prompt, Writes::Nothing>,
+    Row<GetEvents, Sender::Everybody, Purpose::Question, Turn::InOrder, Outcome::Prompt, Writes::Nothing>>;
 
 /// By what somebody becomes known to a master, and a node of it.
-using Openings = List<ClientHello, Register, AttachCyclicChannel>;
-/// What a master answers, or carries out, for those that it knows.
-using Requests = List<InitializeAllStates, ReceiveMyInitialOutputStates, Initialized, StartRealTime, RealTimeReady,
-                      Stop, SafeStop, Reset, Arm, Evict, Admit, GetState, GetSignals, SetSignals, NodeFault,
-                      GetStatistics, GetSchedule, TakeLease, ReleaseLease, GetLeases, GetEvents>;
-/// What a node or tool sends to its master.
-using FromClient = JoinedLists<Openings, Requests>::Type;
+using Openings = ClientTable::Openings;
+/// What a master carries out for those that it knows.
+using Requests = ClientTable::Requests;
+/// What writes signals, or takes or releases the right to.
+using WriteSignals = ClientTable::WriteSignals;
+using FromClient = ClientTable::All;
+
 /// How a master begins and ends a connection.
 using Greetings = List<MasterHello, Rejected, MasterEnds>;
 /// By what a master leads a node through its registration and its phases.
@@ -117,48 +233,47 @@ using ToNode = List<Registered, CyclicChannelAttached, SendYourInitialOutputStat
 /// What a master answers, and tells who wants to know.
 using Replies = List<Armed, State, Signals, Done, Failed, Statistics, Schedule, Leases, LeasesChanged, Events>;
 /// What a master sends to a node or tool.
-using FromMaster = JoinedLists<Greetings, JoinedLists<ToNode, Replies>::Type>::Type;
+using FromMaster = JoinedLists<Greetings, ToNode, Replies>::Type;
 
 static_assert(isEveryKind([](QPlcMessage::Kind kind) {
                   return FromClient::contains(kind) || FromMaster::contains(kind);
               }),
-              "a kind of QPlcMessage has no struct in FromClient or FromMaster");
+              "a kind of QPlcMessage has no struct in ClientTable or FromMaster");
 
-/// What every role may send to a master; an Observer registers as a listener without outputs.
-using EverybodyMaySend
-    = List<ClientHello, Register, AttachCyclicChannel, ReceiveMyInitialOutputStates, Initialized, RealTimeReady, Stop,
-           SafeStop, GetState, GetSignals, NodeFault, GetStatistics, GetSchedule, GetLeases, GetEvents>;
-/// What Operators and Engineers may send.
-using OperatorsMaySend
-    = List<InitializeAllStates, StartRealTime, Reset, Arm, Evict, Admit, SetSignals, TakeLease, ReleaseLease>;
-
-/// Whether each message of FromClient, and no other one, is in exactly one of two lists.
-template<typename First, typename Second>
-constexpr bool isFromClientSplitInto(First, Second)
+/// The row of a kind. `kind` is Invalid: a node or tool does not send it, or this version does not
+/// know it.
+constexpr Use useOf(QPlcMessage::Kind kind)
 {
-    return isEveryKind([](QPlcMessage::Kind kind) {
-        const bool isListed = First::contains(kind) != Second::contains(kind);
-        return isListed ? FromClient::contains(kind) : FromMaster::contains(kind);
-    });
+    for (const Use &use : ClientTable::uses) {
+        if (use.kind == kind)
+            return use;
+    }
+    return {};
 }
 
-static_assert(isFromClientSplitInto(EverybodyMaySend(), OperatorsMaySend()),
-              "a message of FromClient is in neither of EverybodyMaySend and OperatorsMaySend, or in both");
+constexpr bool isCommand(QPlcMessage::Kind kind)
+{
+    return useOf(kind).purpose == Purpose::Command;
+}
 
-/// What writes signals, or takes or releases the right to: needs a right to each of them.
-using WriteSignals = List<Register, SetSignals, TakeLease, ReleaseLease>;
-/// All others of FromClient.
-using WriteNoSignals = List<ClientHello, AttachCyclicChannel, InitializeAllStates, ReceiveMyInitialOutputStates,
-                            Initialized, StartRealTime, RealTimeReady, Stop, SafeStop, Reset, Arm, Evict, Admit,
-                            GetState, GetSignals, NodeFault, GetStatistics, GetSchedule, GetLeases, GetEvents>;
+constexpr bool isUrgent(QPlcMessage::Kind kind)
+{
+    return useOf(kind).turn == Turn::Urgent;
+}
 
-static_assert(isFromClientSplitInto(WriteSignals(), WriteNoSignals()),
-              "a message of FromClient is in neither of WriteSignals and WriteNoSignals, or in both");
+/// The kind of a struct that is sent. One without a row does not compile.
+template<typename Message>
+constexpr QPlcMessage::Kind kindOf()
+{
+    static_assert(FromClient::has<Message> || FromMaster::has<Message>,
+                  "a message that is sent needs a row in ClientTable, or a place in the lists of FromMaster");
+    return Message::kind;
+}
 
 template<typename Message>
 QPlcMessage toMessage(const Message &message)
 {
-    return {Message::kind, toObject(message)};
+    return {kindOf<Message>(), toObject(message)};
 }
 
 /// Reads \a message. Nothing where it is of another kind, or a field that is needed cannot be used.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Field.h"
+#include "Greeting.h"
 #include "QPlcMessage.h"
 #include "Vocabulary.h"
 
@@ -11,6 +12,7 @@ namespace qplc::messages {
 struct InitializeAllStates
 {
     static constexpr QPlcMessage::Kind kind = QPlcMessage::InitializeAllStates;
+    using Answer = Done;
     static constexpr auto fields = std::make_tuple();
 };
 
@@ -26,6 +28,7 @@ struct SendYourInitialOutputStates
 struct ReceiveMyInitialOutputStates
 {
     static constexpr QPlcMessage::Kind kind = QPlcMessage::ReceiveMyInitialOutputStates;
+    using Answer = NoAnswer;
     QByteArray values;    // packed output payload
     bool goesOn = false;  // the node has kept its state
 
@@ -45,6 +48,7 @@ struct InitializeWithValues
 struct Initialized
 {
     static constexpr QPlcMessage::Kind kind = QPlcMessage::Initialized;
+    using Answer = NoAnswer;
     static constexpr auto fields = std::make_tuple();
 };
 
@@ -61,6 +65,7 @@ struct StatesInitialized
 struct StartRealTime
 {
     static constexpr QPlcMessage::Kind kind = QPlcMessage::StartRealTime;
+    using Answer = Done;
     std::optional<quint64> cycles;  // the master stops by itself after so many
     std::optional<Hex64> token;     // of Armed
 
@@ -107,12 +112,14 @@ struct RealTimeStarted
 struct RealTimeReady
 {
     static constexpr QPlcMessage::Kind kind = QPlcMessage::RealTimeReady;
+    using Answer = NoAnswer;
     static constexpr auto fields = std::make_tuple();
 };
 
 struct Stop
 {
     static constexpr QPlcMessage::Kind kind = QPlcMessage::Stop;
+    using Answer = Done;
     QString whoever;  // the person
     QString how;      // "Esc Esc"
 
@@ -135,6 +142,7 @@ struct RealTimeStopped
 struct SafeStop
 {
     static constexpr QPlcMessage::Kind kind = QPlcMessage::SafeStop;
+    using Answer = Done;
     QString reason;
 
     static constexpr auto fields = std::make_tuple(field("reason", &SafeStop::reason, Presence::WhenSet));
@@ -143,6 +151,7 @@ struct SafeStop
 struct Reset
 {
     static constexpr QPlcMessage::Kind kind = QPlcMessage::Reset;
+    using Answer = Done;
     quint64 latch = 0;  // as in State: the safe stop or fault that the sender has seen
 
     static constexpr auto fields = std::make_tuple(field("latch", &Reset::latch, Presence::Required));
@@ -152,6 +161,7 @@ struct Reset
 struct Evict
 {
     static constexpr QPlcMessage::Kind kind = QPlcMessage::Evict;
+    using Answer = Done;
     QString name;  // of a node or person
 
     static constexpr auto fields = std::make_tuple(field("name", &Evict::name, Presence::Required));
@@ -160,6 +170,7 @@ struct Evict
 struct Admit
 {
     static constexpr QPlcMessage::Kind kind = QPlcMessage::Admit;
+    using Answer = Done;
     QString name;
 
     static constexpr auto fields = std::make_tuple(field("name", &Admit::name, Presence::Required));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Field.h"
+#include "Greeting.h"
 #include "QPlcMessage.h"
 #include "Vocabulary.h"
 
@@ -27,6 +28,7 @@ struct DeclaredSignal
 struct Register
 {
     static constexpr QPlcMessage::Kind kind = QPlcMessage::Register;
+    using Answer = NoAnswer;
     static constexpr int longestInterval = 1'000'000;   // [cycles]
     static constexpr double longestWatchdog = 86400e9;  // [ns]
     QString name;
@@ -107,6 +109,7 @@ struct Registered
 struct AttachCyclicChannel
 {
     static constexpr QPlcMessage::Kind kind = QPlcMessage::AttachCyclicChannel;
+    using Answer = NoAnswer;
     quint16 node = 0;
     Hex64 token;
     QString cyclic;  // the transport that the node has chosen; empty: that of its Register
@@ -126,6 +129,7 @@ struct CyclicChannelAttached
 struct NodeFault
 {
     static constexpr QPlcMessage::Kind kind = QPlcMessage::NodeFault;
+    using Answer = NoAnswer;
     QString text;
     std::optional<Hex64> phase;  // cycleZero of the phase in whose cycles the node failed
 

@@ -48,6 +48,7 @@ struct GetSignals
 struct SetSignals
 {
     static constexpr QPlcMessage::Kind kind = QPlcMessage::SetSignals;
+    using Answer = Done;
     static constexpr Range durationRange{1, 1e15};  // [ns]
     QMap<QString, QString> values;                  // signal -> value
     std::optional<std::chrono::nanoseconds> duration;

@@ -14,12 +14,6 @@ void changeTextsOf(Struct *value, const Field<Owner, Value> &field, const Change
     changeTexts(&(value->*field.member), change);
 }
 
-template<typename Struct, typename... Fields, typename Change>
-void changeTextsOf(Struct *value, const Group<Fields...> &group, const Change &change)
-{
-    std::apply([&](const auto &...each) { (changeTextsOf(value, each, change), ...); }, group.fields);
-}
-
 /// Calls \a change with a pointer to each text of \a value, also of structs, lists and maps in it.
 template<typename Value, typename Change>
 void changeTexts(Value *value, const Change &change)
@@ -30,7 +24,7 @@ void changeTexts(Value *value, const Change &change)
         if (value->has_value())
             changeTexts(&**value, change);
     } else if constexpr (std::is_base_of_v<WireOfStruct<Value>, Wire<Value>>) {
-        std::apply([&](const auto &...each) { (changeTextsOf(value, each, change), ...); }, Description<Value>::fields);
+        std::apply([&](const auto &...each) { (changeTextsOf(value, each, change), ...); }, fieldsIn<Value>());
     } else if constexpr (IsContainer<Value>::value) {
         for (auto &each : *value)
             changeTexts(&each, change);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "QPlcMessage.h"
+#include "protocol/messages/MessageTable.h"
 
 #include <QtCore/QJsonDocument>
 #include <QtCore/QtEndian>
@@ -9,7 +9,6 @@
 #include <QtNetwork/QTcpSocket>
 
 #include <algorithm>
-#include <array>
 #include <memory>
 
 /// Stands between a window and a master, passes all bytes on, and keeps the commands that go to the
@@ -80,23 +79,9 @@ private:
             const QByteArray text = reader->bytes.mid(headerSize, size - 1);
             reader->bytes.remove(0, headerSize - 1 + size);
             reader->isCyclic = kind == QPlcMessage::AttachCyclicChannel;
-            if (isCommand(kind))
+            if (qplc::messages::isCommand(kind))
                 m_commands.append(QPlcMessage(kind, QJsonDocument::fromJson(text).object()));
         }
-    }
-
-    static bool isCommand(QPlcMessage::Kind kind)
-    {
-        constexpr std::array<QPlcMessage::Kind, 9> commands = {QPlcMessage::InitializeAllStates,
-                                                               QPlcMessage::StartRealTime,
-                                                               QPlcMessage::Stop,
-                                                               QPlcMessage::SafeStop,
-                                                               QPlcMessage::Reset,
-                                                               QPlcMessage::Arm,
-                                                               QPlcMessage::SetSignals,
-                                                               QPlcMessage::TakeLease,
-                                                               QPlcMessage::ReleaseLease};
-        return std::find(commands.begin(), commands.end(), kind) != commands.end();
     }
 
     QTcpServer m_server;
