@@ -7,6 +7,7 @@
 
 #include <memory>
 #include <type_traits>
+#include <typeinfo>
 #include <utility>
 
 namespace qplc {
@@ -36,7 +37,12 @@ class SimulatedHost;
 ///
 /// Call all functions of the objects of a program inside of call(): there the thread is on this
 /// host, with its clocks, its network and its random numbers. Functions that only return a value
-/// may be called from outside.
+/// may be called from outside. A master, node or tool that connects, listens or starts cycles
+/// outside ends the test program with a message.
+///
+/// Frames between simulated hosts travel over "sim://", as place() says. A node that connects with
+/// another transport, such as "tcp://", reports QPlcSlaveNode::OptionError and lists those that it
+/// can use.
 ///
 /// As a process does, each program begins without a signal table of its own and without security:
 /// QPlcSignalIndexTable::current() and QPlcSecurity::current() are those of the program.
@@ -57,7 +63,8 @@ public:
     /// Makes a host without a program.
     /// \param simulator  outlives the host
     /// \param name  of the host; its random numbers follow from the seed, the name and the address
-    /// \pre the simulator has fewer than 200 hosts
+    /// \pre the simulator has had fewer than 200 hosts; one more ends the test program with a
+    ///     message
     QPlcSimulatedHost(QPlcSimulator &simulator, const QString &name);
     /// Kills the program, as if power were lost.
     ~QPlcSimulatedHost();
@@ -76,15 +83,16 @@ public:
     Type *start(Arguments &&...arguments)
     {
         std::shared_ptr<Type> program;
-        startProgram([&] { return program = makeProgram<Type>(std::forward<Arguments>(arguments)...); });
+        startProgram(typeid(Type), [&] { return program = makeProgram<Type>(std::forward<Arguments>(arguments)...); });
         return program.get();
     }
     /// Returns what start() has made; null: no program runs.
-    /// \pre start() has made a \a Type
+    /// \pre start() was called with the same \a Type: another one, even a base of it, ends the test
+    ///      program with a message
     template<typename Type>
     Type *program() const
     {
-        return static_cast<Type *>(m_program);
+        return static_cast<Type *>(programOf(typeid(Type)));
     }
     /// Returns true if start() has made a program that was not killed.
     bool isRunning() const { return m_program; }
@@ -96,7 +104,8 @@ public:
     void kill(End end = Program);
     /// Stops the program, as SIGSTOP does, while frames arrive; or lets it run again.
     void setStopped(bool stopped);
-    /// Sets the monotonic clock. Call this before start().
+    /// Sets the monotonic clock. Call this before start(), or after kill(): if the program runs,
+    /// the call ends the test program with a message.
     /// \param offset  difference to QPlcSimulator::now()
     /// \param drift  by how many millionths the clock is fast (more than 0) or slow
     void setClock(std::chrono::nanoseconds offset, double drift);
@@ -121,8 +130,10 @@ private:
         else
             return std::make_shared<Type>(std::forward<Arguments>(arguments)...);
     }
-    void startProgram(const std::function<std::shared_ptr<void>()> &make);
+    void startProgram(const std::type_info &type, const std::function<std::shared_ptr<void>()> &make);
+    void *programOf(const std::type_info &type) const;
 
     std::unique_ptr<qplc::SimulatedHost> m_host;
     void *m_program = nullptr;
+    const std::type_info *m_type = nullptr;  // of the program, if there is one
 };

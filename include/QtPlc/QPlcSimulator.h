@@ -54,11 +54,12 @@ public:
     /// Two runs with the same digest were the same.
     quint64 digest() const;
 
-    /// Lets \a duration of virtual time pass.
+    /// Lets \a duration of virtual time pass: 0 or more. A negative one ends the test program with
+    /// a message.
     void runFor(std::chrono::nanoseconds duration);
     /// Lets virtual time pass until \a isReached returns true. It is called each virtual
     /// millisecond.
-    /// \param longest  longest virtual time to wait
+    /// \param longest  longest virtual time to wait: 0 or more, as in runFor()
     /// \return false when \a longest has passed before
     bool runUntil(const std::function<bool()> &isReached, std::chrono::nanoseconds longest);
 

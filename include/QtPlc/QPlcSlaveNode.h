@@ -357,7 +357,8 @@ public Q_SLOTS:
     /// Returns true if the control connection uses TLS and the master has proven its identity.
     bool isSecured() const;
     /// Begins to connect and to register; connectedToMaster() or errorOccurred() follows. A
-    /// connection that exists is ended before. An invalid address is an OptionError.
+    /// connection that exists is ended before. An address that is invalid, or whose transport this
+    /// host does not have, is an OptionError.
     void connectToMaster(const QPlcUnderlyingProtocol &master);
     /// Ends the cycles of this node, calls safeState() and stopped(), and closes the connection. A
     /// node in the process of its master is removed there. No function of the node is called

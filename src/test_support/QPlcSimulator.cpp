@@ -9,6 +9,14 @@ namespace {
 
 constexpr double longestTime = 3600e9;  // [ns]
 
+/// Ends a test that wants time to go back.
+void needsTime(const char *function, std::chrono::nanoseconds duration)
+{
+    if (duration.count() < 0)
+        qFatal("QPlcSimulator::%s: the time is %lld ns; virtual time does not run back, use 0 or more", function,
+               static_cast<long long>(duration.count()));
+}
+
 /// Ends a test whose road cannot exist.
 void needs(const char *what, double value, double most)
 {
@@ -69,11 +77,13 @@ quint64 QPlcSimulator::digest() const
 
 void QPlcSimulator::runFor(std::chrono::nanoseconds duration)
 {
+    needsTime("runFor()", duration);
     m_simulator.runFor(duration.count());
 }
 
 bool QPlcSimulator::runUntil(const std::function<bool()> &isReached, std::chrono::nanoseconds longest)
 {
+    needsTime("runUntil()", longest);
     return m_simulator.runUntil(isReached, longest.count());
 }
 

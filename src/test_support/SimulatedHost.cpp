@@ -34,7 +34,7 @@ private:
 
 ProgramScope *scopeOfHost()
 {
-    const auto *host = dynamic_cast<SimulatedHost *>(&Host::current());
+    const SimulatedHost *host = SimulatedHost::current();
     return host ? host->scope() : nullptr;
 }
 
@@ -54,6 +54,11 @@ SimulatedHost::~SimulatedHost()
 {
     kill(End::Power);
     m_simulator.frameWire().removePorts(*this);
+}
+
+SimulatedHost *SimulatedHost::current() noexcept
+{
+    return dynamic_cast<SimulatedHost *>(&Host::current());
 }
 
 void SimulatedHost::start(const std::function<std::shared_ptr<void>()> &program)
@@ -142,9 +147,7 @@ void SimulatedHost::wake(int descriptor) noexcept
 
 bool SimulatedHost::consumeWakeUp(int descriptor) noexcept
 {
-    const bool wasReadable = m_simulator.isReadable(descriptor);
-    m_simulator.setReadable(descriptor, false);
-    return wasReadable;
+    return m_simulator.consumeReadable(descriptor);
 }
 
 // ---- cycles, network ----

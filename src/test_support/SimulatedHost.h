@@ -42,6 +42,8 @@ public:
     SimulatedHost(Simulator &simulator, const QString &name, const QHostAddress &address);
     /// Kills.
     ~SimulatedHost() override;
+    /// That of the calling thread. Null: it is on none.
+    static SimulatedHost *current() noexcept;
 
     const QString &name() const noexcept { return m_name; }
     const QHostAddress &address() const noexcept { return m_address; }

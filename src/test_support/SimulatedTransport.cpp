@@ -17,10 +17,13 @@ namespace {
 
 const QString portField = QStringLiteral("simPort");
 
-/// \pre the thread is on a host of a simulator
 SimulatedHost &ownHost()
 {
-    return static_cast<SimulatedHost &>(Host::current());
+    SimulatedHost *host = SimulatedHost::current();
+    if (!host)
+        qFatal("QPlcSimulator: a master is made outside of QPlcSimulatedHost::start(), where no host runs it; make it "
+               "with host.start<QPlcMasterNode>(), or inside of host.call()");
+    return *host;
 }
 
 class Peer final : public HubPeer

@@ -3,6 +3,7 @@
 
 #include "ControlWire.h"
 #include "FrameWire.h"
+#include "OutsideHost.h"
 #include "SimulatedHost.h"
 
 #include <QtCore/QCoreApplication>
@@ -26,11 +27,6 @@ constexpr std::int64_t Shortest = 1000;  // [ns] of a timer with the interval 0,
 constexpr auto isLater = [](const SimulatedEvent &left, const SimulatedEvent &right) {
     return left.time != right.time ? left.time > right.time : left.order > right.order;
 };
-
-SimulatedHost *currentHost()
-{
-    return dynamic_cast<SimulatedHost *>(&Host::current());
-}
 
 class CodeEvent final : public QEvent
 {
@@ -93,7 +89,9 @@ void Simulator::run(std::uint64_t seed, const std::function<void(Simulator &)> &
     std::thread thread([&] {
         auto *simulator = new Simulator(seed);  // the thread owns it
         QThread::currentThread()->setEventDispatcher(simulator);
+        Host::enter(simulator->m_outside.get());
         scenario(*simulator);
+        Host::enter(nullptr);
     });
     thread.join();
 }
@@ -101,6 +99,7 @@ void Simulator::run(std::uint64_t seed, const std::function<void(Simulator &)> &
 Simulator::Simulator(std::uint64_t seed)
     : m_seed(seed)
     , m_fate(~seed)
+    , m_outside(std::make_unique<OutsideHost>(*this))
     , m_controlWire(std::make_unique<ControlWire>(*this))
     , m_frameWire(std::make_unique<FrameWire>(*this))
 {
@@ -169,7 +168,7 @@ bool Simulator::step()
         return true;
     }
     ++m_depth;
-    Host *before = Host::enter(host);
+    Host *before = Host::enter(host ? static_cast<Host *>(host) : m_outside.get());
     slot.target->happen(event.what, event.data);
     QCoreApplication::sendPostedEvents();
     Host::enter(before);
@@ -233,7 +232,7 @@ bool Simulator::hasPendingEvents()
 
 void Simulator::registerTimer(int id, int interval, Qt::TimerType type, QObject *object)
 {
-    SimulatedHost *host = currentHost();
+    SimulatedHost *host = SimulatedHost::current();
     Timer &timer = m_timers[id];
     timer.interval = interval;
     timer.type = type;
@@ -335,10 +334,10 @@ void Simulator::setReadable(int descriptor, bool readable)
     tellOf(descriptor);
 }
 
-bool Simulator::isReadable(int descriptor) const
+bool Simulator::consumeReadable(int descriptor)
 {
     const auto found = m_descriptors.find(descriptor);
-    return found != m_descriptors.end() && found->second.isReadable;
+    return found != m_descriptors.end() && std::exchange(found->second.isReadable, false);
 }
 
 /// Its notifier hears of it once for each time that it looks.

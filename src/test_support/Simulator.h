@@ -15,6 +15,7 @@ namespace qplc {
 
 class ControlWire;
 class FrameWire;
+class OutsideHost;
 class SimulatedHost;
 class Simulator;
 
@@ -129,7 +130,8 @@ public:
     int openDescriptor(SimulatedHost *host);
     void closeDescriptor(int descriptor);
     void setReadable(int descriptor, bool readable);
-    bool isReadable(int descriptor) const;
+    /// From now on \a descriptor is not readable. \return whether it was
+    bool consumeReadable(int descriptor);
 
     // ---- QAbstractEventDispatcher ----
 
@@ -197,6 +199,7 @@ private:
     int m_depth = 0;                                          // of events that happen in nested loops
     std::vector<std::unique_ptr<SimulatedTarget>> m_retired;  // until no event happens
     std::unique_ptr<QObject> m_receiver;
+    std::unique_ptr<OutsideHost> m_outside;
     std::unique_ptr<ControlWire> m_controlWire;
     std::unique_ptr<FrameWire> m_frameWire;
 };

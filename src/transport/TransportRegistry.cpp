@@ -69,8 +69,10 @@ int TransportRegistry::numberOf(const QString &name) const
 QString TransportRegistry::namesText(const QString &behind) const
 {
     QStringList names;
-    for (const auto &kind : m_kinds)
-        names.append(kind->name() + behind);
+    for (const auto &kind : m_kinds) {
+        if (kind->isAtHand())
+            names.append(kind->name() + behind);
+    }
     const QString last = names.takeLast();
     return names.join(QLatin1String(", ")) + QStringLiteral(" or ") + last;
 }

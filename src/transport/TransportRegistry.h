@@ -28,7 +28,7 @@ public:
     /// 0: there is none.
     int numberOf(const QString &name) const;
     const std::vector<std::unique_ptr<const TransportKind>> &kinds() const { return m_kinds; }
-    /// "tcp://, udp:// or local://", with :// behind each name.
+    /// Those that Host::current() has: "tcp://, udp:// or local://", with :// behind each name.
     QString namesText(const QString &behind = QString()) const;
 
 private:

@@ -90,6 +90,19 @@ void QPlcSlaveNodePrivate::setError(QPlcSlaveNode::Error newError, const QString
 
 // ---- connection ----
 
+/// Why there can be no master at \a master; empty: there can.
+static QString refusalOf(const QPlcUnderlyingProtocol &master)
+{
+    const qplc::TransportRegistry &registry = qplc::TransportRegistry::instance();
+    if (!master.isValid())
+        return QStringLiteral("the address of the master is not valid; use QPlcUnderlyingProtocol::automatic() or "
+                              "local(), or fromString(), which says why in its argument error");
+    if (!registry.named(master.kindName())->isAtHand())
+        return QStringLiteral("this host has no transport %1://; use %2")
+            .arg(master.kindName(), registry.namesText(QStringLiteral("://")));
+    return {};
+}
+
 void QPlcSlaveNodePrivate::connectToMaster(const QPlcUnderlyingProtocol &newMaster)
 {
     disconnectFromMaster();
@@ -98,13 +111,11 @@ void QPlcSlaveNodePrivate::connectToMaster(const QPlcUnderlyingProtocol &newMast
     master = newMaster;
     m_wasRegistered = false;
     m_backOff.reset();
-    if (!master.isValid()) {
-        setError(
-            QPlcSlaveNode::OptionError,
-            QStringLiteral("node '%1': no master given; use QPlcUnderlyingProtocol::automatic() or local()").arg(name));
-        return;
-    }
-    apply(SlaveEvent::Connect);
+    const QString unusable = refusalOf(master);
+    if (unusable.isEmpty())
+        apply(SlaveEvent::Connect);
+    else
+        setError(QPlcSlaveNode::OptionError, QStringLiteral("node '%1': %2").arg(name, unusable));
 }
 
 void QPlcSlaveNodePrivate::openConnection()
