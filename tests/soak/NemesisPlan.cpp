@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "NemesisPlan.h"
 
+#include <QtCore/QRegularExpression>
+
 #include <algorithm>
 #include <random>
 
@@ -47,6 +49,14 @@ int amountOf(FaultKind kind)
     default:
         return 1;
     }
+}
+
+QString faultNames()
+{
+    QStringList names;
+    for (const char *name : FaultNames)
+        names << QString::fromLatin1(name);
+    return names.join(QStringLiteral(", "));
 }
 
 }  // namespace
@@ -116,8 +126,34 @@ QString Fault::toString() const
     QString text = QString::fromLatin1(FaultNames[std::size_t(kind)]);
     if (node >= 0)
         text += QStringLiteral(" (%1)").arg(nodeName(node));
-    text += QStringLiteral(", %1").arg(amount);
+    text += QStringLiteral(", %1, seed %2").arg(amount).arg(seed);
     return pause < 0 ? text : text + QStringLiteral("; the next one %1 ms later").arg(pause);
+}
+
+QString Fault::read(const QString &text, int nodes, Fault *fault)
+{
+    static const QRegularExpression form(QRegularExpression::anchoredPattern(QStringLiteral(
+        "([^(),;]+)(?: \\((\\w+)\\))?, (\\d{1,9}), seed (\\d{1,20})(?:; the next one (\\d{1,9}) ms later)?")));
+    const QRegularExpressionMatch match = form.match(text);
+    if (!match.hasMatch())
+        return QStringLiteral("'%1' is not a fault; write it as \"stop a node (%2), 300, seed 815\", with "
+                              "\"; the next one 120 ms later\" behind it if the next one does not wait")
+            .arg(text, nodeName(3));
+    const QString name = match.captured(1);
+    const auto kind = std::find(FaultNames.begin(), FaultNames.end(), name);
+    if (kind == FaultNames.end())
+        return QStringLiteral("unknown fault '%1'; use %2").arg(name, faultNames());
+    fault->kind = FaultKind(kind - FaultNames.begin());
+    const QString node = match.captured(2);
+    fault->node = nodeNumber(node);
+    if (!hasNode(fault->kind) && !node.isEmpty())
+        return QStringLiteral("'%1' is not of a single node; leave (%2) out").arg(name, node);
+    if (hasNode(fault->kind) && (fault->node < 0 || fault->node >= nodes))
+        return QStringLiteral("'%1' needs a node from (%2) to (%3)").arg(name, nodeName(0), nodeName(nodes - 1));
+    fault->amount = match.captured(3).toInt();
+    fault->seed = match.captured(4).toULongLong();
+    fault->pause = match.captured(5).isEmpty() ? -1 : match.captured(5).toInt();
+    return {};
 }
 
 QStringList Profile::names()

@@ -102,8 +102,12 @@ struct Fault
     quint64 seed = 0;  // for all that is drawn while it happens
     int pause = -1;    // [ms] until the next one, which does not wait for the plant to recover; -1: it waits
 
-    /// "stop a node (Node3), 300".
+    /// "stop a node (Node3), 300, seed 815; the next one 120 ms later".
     QString toString() const;
+    /// Reads what toString() writes.
+    /// \param nodes  of the plant
+    /// \return what is wrong with \a text; empty: nothing
+    static QString read(const QString &text, int nodes, Fault *fault);
 };
 
 /// What a node is told of the faults of its link: docs/faults.md. What is counted is done to the

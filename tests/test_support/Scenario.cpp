@@ -108,11 +108,12 @@ const Scenario *Scenario::named(const QString &name)
     return found == all().end() ? nullptr : &*found;
 }
 
-std::vector<Fault> planOf(const Scenario &scenario, int seconds, quint64 seed)
+SimulatedPlan planOf(const Scenario &scenario, int seconds, quint64 seed)
 {
-    std::vector<Fault> plan = planOf(scenario.profile, seconds * 1000 / scenario.profile.faultEvery, seed);
+    SimulatedPlan plan{&scenario, seed, seconds,
+                       planOf(scenario.profile, seconds * 1000 / scenario.profile.faultEvery, seed)};
     qplc::SeededRandom random(seed);
-    for (Fault &fault : plan) {
+    for (Fault &fault : plan.faults) {
         if (lasts(fault.kind))
             fault.amount = int(double(fault.amount) * (0.3 + 1.7 * random.fraction()));
         if (mayOverlap(fault.kind) && random.fraction() < scenario.crowding)
@@ -132,37 +133,27 @@ QString SimulatedRun::violation() const
     return report.gates.front().looked > 0 ? QString() : QStringLiteral("no cycle was judged");
 }
 
-SimulatedRun run(const Scenario &scenario, int seconds, quint64 seed, const std::vector<Fault> &plan)
+SimulatedRun run(const SimulatedPlan &plan)
 {
     qplc::SimulatedTransport::install();
+    const Profile &profile = plan.scenario->profile;
     SimulatedRun result;
     SoakReport &report = result.report;
-    report.profile = scenario.profile.name;
-    report.seed = seed;
-    report.seconds = seconds;
-    qplc::Simulator::run(seed, [&](qplc::Simulator &simulator) {
-        SimulatedPlant plant(simulator, scenario.profile);
+    report.profile = profile.name;
+    report.seed = plan.seed;
+    report.seconds = plan.seconds;
+    qplc::Simulator::run(plan.seed, [&](qplc::Simulator &simulator) {
+        SimulatedPlant plant(simulator, profile);
         plant.operatorHost().call([&] {
-            SoakRun soakRun(scenario.profile, seconds, plan, plant, plant.runnerHistory());
+            SoakRun soakRun(profile, plan.seconds, plan.faults, plant, plant.runnerHistory());
             if (!soakRun.run())
                 report.error = soakRun.errorString();
         });
         report.evidence = plant.evidence();
         result.digest = simulator.digest();
     });
-    report.gates = judge(report.evidence, scenario.profile);
+    report.gates = judge(report.evidence, profile);
     return result;
-}
-
-std::vector<Fault> shrunk(std::vector<Fault> plan, const std::function<bool(const std::vector<Fault> &)> &fails)
-{
-    for (std::size_t place = plan.size(); place-- > 0;) {
-        std::vector<Fault> shorter = plan;
-        shorter.erase(shorter.begin() + std::ptrdiff_t(place));
-        if (fails(shorter))
-            plan = shorter;
-    }
-    return plan;
 }
 
 }  // namespace soak

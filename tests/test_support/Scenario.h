@@ -3,6 +3,9 @@
 
 #include "SoakReport.h"
 
+#include <functional>
+#include <optional>
+
 namespace soak {
 
 /// What may happen to a simulated plant.
@@ -16,8 +19,23 @@ struct Scenario
     static const Scenario *named(const QString &name);
 };
 
+/// All that decides what happens in a simulated run.
+struct SimulatedPlan
+{
+    const Scenario *scenario = nullptr;
+    quint64 seed = 0;  // of the network and the hosts
+    int seconds = 0;   // no fault begins later
+    std::vector<Fault> faults;
+
+    /// A line for the scenario, the seed, the time and each fault.
+    QString toText() const;
+    /// Reads what toText() writes. Empty lines and those that begin with '#' say nothing.
+    /// \return nothing when \a text is no plan: \a error begins with the number of the line
+    static std::optional<SimulatedPlan> fromText(const QString &text, QString *error);
+};
+
 /// What happens within about \a seconds because of \a seed.
-std::vector<Fault> planOf(const Scenario &scenario, int seconds, quint64 seed);
+SimulatedPlan planOf(const Scenario &scenario, int seconds, quint64 seed);
 
 /// What came out of a simulated run.
 struct SimulatedRun
@@ -28,11 +46,15 @@ struct SimulatedRun
     /// The first gate that failed, with an example, or why the run ended early. Empty: all gates
     /// hold.
     QString violation() const;
+    /// The name of that gate.
+    QString violatedGate() const { return violation().section(QLatin1Char(':'), 0, 0); }
 };
-SimulatedRun run(const Scenario &scenario, int seconds, quint64 seed, const std::vector<Fault> &plan);
+SimulatedRun run(const SimulatedPlan &plan);
 
-/// The shortest plan that still fails of those that leave faults of \a plan out one after the
-/// other.
-std::vector<Fault> shrunk(std::vector<Fault> plan, const std::function<bool(const std::vector<Fault> &)> &fails);
+/// A plan that still fails, of which no fault can be left out, and no time shortened to its half.
+/// \param plan  fails
+SimulatedPlan shrunk(SimulatedPlan plan, const std::function<bool(const SimulatedPlan &)> &fails);
+/// As above: it violates the same gate as \a plan.
+SimulatedPlan shrunk(const SimulatedPlan &plan);
 
 }  // namespace soak

@@ -5,7 +5,9 @@
 
 #include <QtCore/QCommandLineParser>
 #include <QtCore/QCoreApplication>
+#include <QtCore/QFile>
 #include <QtCore/QLoggingCategory>
+#include <QtCore/QSaveFile>
 
 #include <cstdio>
 #include <limits>
@@ -13,42 +15,67 @@
 
 namespace {
 
-struct Options
+/// At once: a run takes time.
+void print(const QString &text)
 {
-    const soak::Scenario *scenario = nullptr;
-    int seconds = 60;
-    bool isVerbose = false;
-};
+    std::fputs(qPrintable(text), stdout);
+    std::fflush(stdout);
+}
 
-/// \return whether all gates hold
-bool simulate(quint64 seed, const Options &options)
+/// How a plan ends, as comments of its text.
+QString outcomeOf(const soak::SimulatedPlan &plan)
 {
-    const std::vector<soak::Fault> plan = planOf(*options.scenario, options.seconds, seed);
-    const soak::SimulatedRun result = run(*options.scenario, options.seconds, seed, plan);
-    if (options.isVerbose) {
-        std::fputs(qPrintable(result.report.toText()), stdout);
-        for (const soak::DoneFault &fault : result.report.evidence.faults)
-            std::printf("%9.3f ... %.3f s, all well at %.3f s: %s (%d)\n", double(fault.begin) * 1e-9,
-                        double(fault.end) * 1e-9, double(fault.recovered) * 1e-9,
-                        soak::FaultNames[std::size_t(fault.kind)], fault.node);
-        std::printf("digest %016llx\n", qulonglong(result.digest));
-    }
+    const soak::SimulatedRun result = run(plan);
+    return QStringLiteral("# %1\n# digest %2\n")
+        .arg(result.violation().simplified(), QString::number(result.digest, 16).rightJustified(16, QLatin1Char('0')));
+}
+
+/// \return false, with the message out, when \a file cannot be written
+bool write(const QString &text, const QString &file)
+{
+    QSaveFile target(file);
+    if (target.open(QIODevice::WriteOnly) && target.write(text.toUtf8()) >= 0 && target.commit())
+        return true;
+    std::fprintf(stderr, "qtplc_simulate: cannot write %s: %s\n", qPrintable(file), qPrintable(target.errorString()));
+    return false;
+}
+
+void report(const soak::SimulatedRun &result)
+{
+    print(result.report.toText());
+    for (const soak::DoneFault &fault : result.report.evidence.faults)
+        std::printf("%9.3f ... %.3f s, all well at %.3f s: %s (%d)\n", double(fault.begin) * 1e-9,
+                    double(fault.end) * 1e-9, double(fault.recovered) * 1e-9, soak::FaultNames[std::size_t(fault.kind)],
+                    fault.node);
+    std::printf("digest %016llx\n", qulonglong(result.digest));
+}
+
+/// Prints the shortest plan that fails like \a plan, and how to run it again.
+void shrink(const soak::SimulatedPlan &plan, const QString &writePlan)
+{
+    const soak::SimulatedPlan shortest = shrunk(plan);
+    const QString text = outcomeOf(shortest) + shortest.toText();
+    const bool isWritten = !writePlan.isEmpty() && write(text, writePlan);
+    print(QStringLiteral("%1 of %2 faults are enough:\n%3")
+              .arg(shortest.faults.size())
+              .arg(plan.faults.size())
+              .arg(text));
+    print(isWritten
+              ? QStringLiteral("again: qtplc_simulate --plan %1 --report\n").arg(writePlan)
+              : QStringLiteral("again: save the lines above as FILE, then: qtplc_simulate --plan FILE --report\n"));
+}
+
+/// \param origin  of the plan
+/// \return whether all gates hold
+bool simulate(const soak::SimulatedPlan &plan, const QString &origin, const QCommandLineParser &parser, bool isFirst)
+{
+    const soak::SimulatedRun result = run(plan);
+    if (parser.isSet(QStringLiteral("report")))
+        report(result);
     if (result.violation().isEmpty())
         return true;
-    std::printf("seed %llu: %s\n", qulonglong(seed), qPrintable(result.violation()));
-    std::fflush(stdout);
-    const QString gate = result.violation().section(QLatin1Char(':'), 0, 0);
-    const auto fails = [&](const std::vector<soak::Fault> &shorter) {
-        return run(*options.scenario, options.seconds, seed, shorter).violation().startsWith(gate);
-    };
-    const std::vector<soak::Fault> shortest = soak::shrunk(plan, fails);
-    std::printf("%zu of %zu faults are enough: %s\n", shortest.size(), plan.size(),
-                qPrintable(run(*options.scenario, options.seconds, seed, shortest).violation()));
-    for (const soak::Fault &fault : shortest)
-        std::printf("  %s\n", qPrintable(fault.toString()));
-    std::printf("again: qtplc_simulate --scenario %s --seed %llu --seconds %d --report\n",
-                qPrintable(options.scenario->profile.name), qulonglong(seed), options.seconds);
-    std::fflush(stdout);
+    print(QStringLiteral("%1: %2\n").arg(origin, result.violation()));
+    shrink(plan, isFirst ? parser.value(QStringLiteral("write-plan")) : QString());
     return false;
 }
 
@@ -78,6 +105,52 @@ std::optional<quint64> number(const QCommandLineParser &parser, const char *name
     return std::nullopt;
 }
 
+/// \return the exit code
+int simulatePlan(const QString &file, const QCommandLineParser &parser)
+{
+    for (const char *option : {"scenario", "seed", "seeds", "seconds"}) {
+        if (parser.isSet(QString::fromLatin1(option))) {
+            std::fprintf(stderr, "qtplc_simulate: leave --%s out; the file of --plan says it\n", option);
+            return 2;
+        }
+    }
+    QFile source(file);
+    if (!source.open(QIODevice::ReadOnly)) {
+        std::fprintf(stderr, "qtplc_simulate: cannot read %s: %s\n", qPrintable(file),
+                     qPrintable(source.errorString()));
+        return 2;
+    }
+    QString error;
+    const auto plan = soak::SimulatedPlan::fromText(QString::fromUtf8(source.readAll()), &error);
+    if (!plan) {
+        std::fprintf(stderr, "%s:%s\n", qPrintable(file), qPrintable(error));
+        return 2;
+    }
+    const bool isGood = simulate(*plan, QStringLiteral("plan %1").arg(file), parser, true);
+    std::printf("the plan %s\n", isGood ? "violates no gate" : "fails");
+    return isGood ? 0 : 1;
+}
+
+/// \return the exit code
+int simulateSeeds(const QCommandLineParser &parser)
+{
+    const std::optional<quint64> seconds = number(parser, "seconds", 1);
+    const std::optional<quint64> first = number(parser, "seed", 0);
+    const std::optional<quint64> count = number(parser, "seeds", 1);
+    const soak::Scenario *scenario = soak::Scenario::named(parser.value(QStringLiteral("scenario")));
+    if (!scenario)
+        std::fprintf(stderr, "qtplc_simulate: use --scenario %s\n", qPrintable(names().join(QStringLiteral("|"))));
+    if (!seconds || !first || !count || !scenario)
+        return 2;
+    quint64 failed = 0;
+    for (quint64 seed = *first; seed < *first + *count; ++seed) {
+        const QString origin = QStringLiteral("seed %1").arg(seed);
+        failed += simulate(planOf(*scenario, int(*seconds), seed), origin, parser, failed == 0) ? 0 : 1;
+    }
+    std::printf("%llu of %llu seeds fail\n", qulonglong(failed), qulonglong(*count));
+    return failed == 0 ? 0 : 1;
+}
+
 }  // namespace
 
 int main(int argc, char **argv)
@@ -94,6 +167,8 @@ int main(int argc, char **argv)
          option("seconds", QStringLiteral("Virtual time with faults (60)."), "S", QStringLiteral("60")),
          option("scenario", names().join(QStringLiteral(", ")) + QStringLiteral(" (all)."), "NAME",
                 QStringLiteral("all")),
+         option("plan", QStringLiteral("Runs the plan of FILE, and not those of seeds."), "FILE", {}),
+         option("write-plan", QStringLiteral("Writes the shortest plan of the first run that fails."), "FILE", {}),
          {QStringLiteral("list"), QStringLiteral("Lists the scenarios.")},
          {QStringLiteral("report"), QStringLiteral("Prints the report of each run and the digest of its traffic.")},
          {QStringLiteral("log"), QStringLiteral("Shows the log of the plant.")}});
@@ -105,22 +180,10 @@ int main(int argc, char **argv)
     }
     if (!parser.isSet(QStringLiteral("log")))
         QLoggingCategory::setFilterRules(QStringLiteral("*=false"));
-    const std::optional<quint64> seconds = number(parser, "seconds", 1);
-    const std::optional<quint64> first = number(parser, "seed", 0);
-    const std::optional<quint64> count = number(parser, "seeds", 1);
-    Options options;
-    options.isVerbose = parser.isSet(QStringLiteral("report"));
-    options.scenario = soak::Scenario::named(parser.value(QStringLiteral("scenario")));
-    if (!options.scenario)
-        std::fprintf(stderr, "qtplc_simulate: use --scenario %s\n", qPrintable(names().join(QStringLiteral("|"))));
-    if (!parser.positionalArguments().isEmpty())
+    if (!parser.positionalArguments().isEmpty()) {
         std::fprintf(stderr, "qtplc_simulate: '%s' is no option\n", qPrintable(parser.positionalArguments().first()));
-    if (!seconds || !first || !count || !options.scenario || !parser.positionalArguments().isEmpty())
         return 2;
-    options.seconds = int(*seconds);
-    quint64 failed = 0;
-    for (quint64 seed = *first; seed < *first + *count; ++seed)
-        failed += simulate(seed, options) ? 0 : 1;
-    std::printf("%llu of %llu seeds fail\n", qulonglong(failed), qulonglong(*count));
-    return failed == 0 ? 0 : 1;
+    }
+    const QString plan = parser.value(QStringLiteral("plan"));
+    return plan.isEmpty() ? simulateSeeds(parser) : simulatePlan(plan, parser);
 }
