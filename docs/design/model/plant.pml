@@ -1064,8 +1064,8 @@ active proctype Operator()
         toOperatorPort ! C_Start, false }
     :: atomic { masterRuns && empty(toOperatorPort) && master == M_Fault -> toOperatorPort ! C_Reset, true }
 #else
-    :: atomic { masterAlive && !holderGone && commands > 0 && len(toOperatorPort) < Typed
-                && !(SINGLE_STOP && stopSent) ->
+    :: atomic { (masterAlive && !holderGone && commands > 0 && len(toOperatorPort) < Typed
+                 && !(SINGLE_STOP && stopSent)) ->
         commands--;
         flag = (master == M_SafeStop);
         if
