@@ -160,13 +160,13 @@ void ControlClient::receiveRejection(const messages::Rejected &rejection)
         end(Loss::Rejected, m_rejection.text);
 }
 
-/// Whether a request waits for such a message. Events come unasked, too: then without `more`.
 bool ControlClient::may(QPlcMessage::Kind kind) const
 {
     const std::optional<Role> role = roleOf(m_master.role);  // nothing: without security everybody may do everything
     return !role || whoMaySend(kind).contains(*role);
 }
 
+/// Whether a request waits for such a message. Events come unasked, too: then without `more`.
 bool ControlClient::isAnswer(const QPlcMessage &message) const
 {
     const auto events = messages::readAs<messages::Events>(message);
