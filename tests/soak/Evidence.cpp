@@ -59,6 +59,7 @@ bool Evidence::read(const QString &folder, const Profile &profile, Evidence *evi
 {
     evidence->shape = profile.shape;
     evidence->period = profile.periodUs * 1000;
+    evidence->hasManifest = profile.hasManifest;
     const QStringList names = QDir(folder).entryList({QStringLiteral("*.history")}, QDir::Files);
     for (const QString &name : names) {
         History history;

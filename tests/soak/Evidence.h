@@ -49,6 +49,7 @@ struct Evidence
 {
     PlantShape shape;
     qint64 period = 10'000'000;  // [ns]
+    bool hasManifest = false;    // which needs all nodes
     History runner;
     std::vector<History> nodes;    // one for each life, in the order of lives
     std::vector<History> masters;  // likewise

@@ -52,7 +52,7 @@ Gate plantRecovers(const Evidence &evidence);     // within 2 s
 Gate faultsAreCounted(const Evidence &evidence);  // exactly as many as there were
 
 // Who takes part (MemberGates.cpp)
-Gate startsNeedAllNodes(const Evidence &evidence);  // a start without one is refused, and the node is named
+Gate startsHaveTheirNodes(const Evidence &evidence);  // a start without one is refused, and the node is named
 Gate friendsGetIn(const Evidence &evidence);        // while strangers use up their budgets; the plant runs on
 
 // Who does not belong (IntruderGates.cpp)

@@ -201,7 +201,7 @@ std::vector<Gate> judge(const Evidence &evidence, const Profile &profile)
             ofTime(plantRecovers(evidence)),
             ofTime(faultsAreCounted(evidence)),
             ofTime(linkFaultsAreCounted(evidence)),
-            startsNeedAllNodes(evidence),
+            startsHaveTheirNodes(evidence),
             friendsGetIn(evidence),
             attemptsAreRefused(evidence),
             commandsAreDenied(evidence),

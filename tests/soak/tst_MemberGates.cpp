@@ -14,7 +14,8 @@ class tst_MemberGates : public QObject
 private Q_SLOTS:
     void plantWithoutSuchFaultsIsNotJudged();
     void startWithAllNodesPasses();
-    void startWithoutANodeIsFound();
+    void startWithoutANeededNodeIsFound_data();
+    void startWithoutANeededNodeIsFound();
     void triedStartThatIsNotRefusedOrNotNamedIsFound_data();
     void triedStartThatIsNotRefusedOrNotNamedIsFound();
     void nodeThatGetsInBesideStrangersPasses();
@@ -43,17 +44,39 @@ void tst_MemberGates::startWithAllNodesPasses()
     HandMade plant;
     plant.addFault(FaultKind::MissingNode, 1, HandMade::at(20), HandMade::at(60));
     HandMade::add(plant.runner(), Record::Tried, 1, HandMade::at(30), {1, 1});
-    const Gate gate = plant.judge(&soak::startsNeedAllNodes);
+    const Gate gate = plant.judge(&soak::startsHaveTheirNodes);
     QVERIFY2(gate.passed(), textOf(gate));
     QCOMPARE(gate.looked, qint64(2));
 }
 
-void tst_MemberGates::startWithoutANodeIsFound()
+void tst_MemberGates::startWithoutANeededNodeIsFound_data()
 {
+    QTest::addColumn<int>("node");
+    QTest::addColumn<bool>("wasThere");
+    QTest::addColumn<bool>("hasManifest");
+    QTest::addColumn<qint64>("found");
+    QTest::newRow("in the manifest") << 1 << true << true << qint64(1);
+    QTest::newRow("in the manifest, never there") << 3 << false << true << qint64(1);
+    QTest::newRow("critical") << 3 << true << false << qint64(1);
+    QTest::newRow("critical, never there") << 3 << false << false << qint64(0);
+    QTest::newRow("not critical") << 1 << true << false << qint64(0);
+}
+
+void tst_MemberGates::startWithoutANeededNodeIsFound()
+{
+    QFETCH(int, node);
+    QFETCH(bool, wasThere);
+    QFETCH(bool, hasManifest);
+    QFETCH(qint64, found);
     HandMade plant;
-    HandMade::add(plant.master(), Record::Lost, 1, 700 * HandMade::Millisecond);
-    const Gate gate = plant.judge(&soak::startsNeedAllNodes);
-    QVERIFY2(gate.failed == 1, textOf(gate));
+    plant.evidence.shape.nodes = std::max(3, node + 1);
+    plant.evidence.hasManifest = hasManifest;
+    if (wasThere) {
+        HandMade::add(plant.master(), Record::Registered, node, 650 * HandMade::Millisecond);
+        HandMade::add(plant.master(), Record::Lost, node, 700 * HandMade::Millisecond);
+    }
+    const Gate gate = plant.judge(&soak::startsHaveTheirNodes);
+    QVERIFY2(gate.failed == found, textOf(gate));
 }
 
 void tst_MemberGates::triedStartThatIsNotRefusedOrNotNamedIsFound_data()
@@ -71,7 +94,7 @@ void tst_MemberGates::triedStartThatIsNotRefusedOrNotNamedIsFound()
     HandMade plant;
     plant.addFault(FaultKind::MissingNode, 1, HandMade::at(20), HandMade::at(60));
     HandMade::add(plant.runner(), Record::Tried, 1, HandMade::at(30), {isRefused, isNamed});
-    const Gate gate = plant.judge(&soak::startsNeedAllNodes);
+    const Gate gate = plant.judge(&soak::startsHaveTheirNodes);
     QVERIFY2(gate.failed == 1, textOf(gate));
 }
 

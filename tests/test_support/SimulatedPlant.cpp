@@ -101,6 +101,7 @@ Evidence SimulatedPlant::evidence() const
     Evidence evidence;
     evidence.shape = m_profile.shape;
     evidence.period = m_profile.periodUs * 1000;
+    evidence.hasManifest = m_profile.hasManifest;
     evidence.runner = m_runnerHistory.history();
     for (const std::unique_ptr<HistoryMemory> &history : m_histories)
         (history->history().node < 0 ? evidence.masters : evidence.nodes).push_back(history->history());
