@@ -18,7 +18,8 @@ namespace {
 bool answersARequest(QPlcMessage::Kind kind)
 {
     const auto &uses = messages::ClientTable::uses;
-    return std::any_of(std::begin(uses), std::end(uses),
+    return kind != QPlcMessage::Invalid
+        && std::any_of(std::begin(uses), std::end(uses),
                        [kind](const messages::Use &use) { return use.answer == kind; });
 }
 
