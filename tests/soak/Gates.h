@@ -53,7 +53,7 @@ Gate faultsAreCounted(const Evidence &evidence);  // exactly as many as there we
 
 // Who takes part (MemberGates.cpp)
 Gate startsHaveTheirNodes(const Evidence &evidence);  // a start without one is refused, and the node is named
-Gate friendsGetIn(const Evidence &evidence);        // while strangers use up their budgets; the plant runs on
+Gate friendsGetIn(const Evidence &evidence);          // while strangers use up their budgets; the plant runs on
 
 // Who does not belong (IntruderGates.cpp)
 Gate attemptsAreRefused(const Evidence &evidence);  // of strangers: all of them, and each one is counted

@@ -90,30 +90,6 @@ QString registrationRefusal(const Peer &peer, const messages::Register &registra
 
 }  // namespace
 
-QString roleName(Role role)
-{
-    switch (role) {
-    case Role::Observer:
-        return QStringLiteral("Observer");
-    case Role::Operator:
-        return QStringLiteral("Operator");
-    case Role::Node:
-        return QStringLiteral("Node");
-    case Role::Engineer:
-        return QStringLiteral("Engineer");
-    }
-    return {};
-}
-
-std::optional<Role> roleOf(const QString &name)
-{
-    for (Role role : allRoles) {
-        if (name == roleName(role))
-            return role;
-    }
-    return std::nullopt;
-}
-
 QString shownName(const Peer &peer, const QString &called)
 {
     if (!peer.isSecured)
