@@ -88,6 +88,21 @@ DEFECTS = {
         "src/node/session/NeededNodes.cpp",
         [("        if (node.need != QPlcManifest::Optional)\n", "        if (node.need == QPlcManifest::Critical)\n")],
     ),
+    "parameters_unchecked": Defect(
+        "a node takes part with other safety parameters than those of its master",
+        "src/node/cycle/NodeRegistry.cpp",
+        [
+            (
+                "if (signal.safety && *signal.safety != ",
+                "if (signal.safety && !*signal.safety && *signal.safety != ",
+            )
+        ],
+    ),
+    "silent_stays": Defect(
+        "a node that answers nothing ends each start, and is never dropped",
+        "src/node/session/SequenceStep.cpp",
+        [("        node->drop(text);\n", "        (void)node;\n")],
+    ),
 }
 
 

@@ -52,8 +52,10 @@ Gate plantRecovers(const Evidence &evidence);     // within 2 s
 Gate faultsAreCounted(const Evidence &evidence);  // exactly as many as there were
 
 // Who takes part (MemberGates.cpp)
-Gate startsHaveTheirNodes(const Evidence &evidence);  // a start without one is refused, and the node is named
-Gate friendsGetIn(const Evidence &evidence);          // while strangers use up their budgets; the plant runs on
+Gate startsHaveTheirNodes(const Evidence &evidence);     // a start without one is refused, and the node is named
+Gate friendsGetIn(const Evidence &evidence);             // while strangers use up their budgets; the plant runs on
+Gate silentJoinersAreDropped(const Evidence &evidence);  // and the plant starts without them
+Gate safetyParametersAgree(const Evidence &evidence);    // of nodes and their master, also of another one
 
 // Who does not belong (IntruderGates.cpp)
 Gate attemptsAreRefused(const Evidence &evidence);  // of strangers: all of them, and each one is counted

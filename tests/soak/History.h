@@ -14,7 +14,7 @@ struct Record
 {
     enum Kind : quint16 {
         // of a node; subject: its number
-        Born = 1,  // numbers: process
+        Born = 1,  // numbers: see BornNumber
         Reset,     // initial outputs. numbers: see StepNumber, what is written only
         Phase,     // the real-time phase has begun
         Step,      // numbers: see StepNumber
@@ -48,6 +48,8 @@ struct Record
         Tried      // the operator told a plant to begin that lacks a node. numbers: see TryNumber
     };
     enum MasterState { Off, Initializing, Ready, RealTime, WaitingForLateSlaves, SafeStop, Fault, UnknownState };
+    /// The edition of its safety parameters.
+    enum BornNumber { ProcessNumber, Edition };
     enum StepNumber {
         Missed,
         WrittenCounter,
@@ -78,7 +80,7 @@ struct Record
     enum HeapNumber { HeapInUse, HeapTaken, HeapTop };
     enum NodeNumber { NodePhase, Answers, NodeLate, AnswersLost, Duplicated, Reordered, Rejected, Resent };
     /// Wanted: the phase ended. Ordered: the master stops safely.
-    enum SafeNumber { SafeDriveBits, IsWanted, IsOrdered };
+    enum SafeNumber { SafeDriveBits, IsWanted, IsOrdered, SafeLimitBits };
     enum TryNumber { IsRefused, IsNamed };
     enum UsageNumber { Descriptors, Threads, ResidentKb, UsageLife, IsCompared };
     static constexpr quint64 NoQuality = 255;  // of a plant without qualities

@@ -65,7 +65,67 @@ void lookAtTries(const Evidence &evidence, const DoneFault &fault, Gate *gate)
     }
 }
 
+quint64 editionOf(const History &history)
+{
+    const auto born = std::find_if(history.records.begin(), history.records.end(),
+                                   [](const Record &record) { return record.kind == Record::Born; });
+    return born == history.records.end() ? 0 : born->numbers[Record::Edition];
+}
+
+/// A node takes part with the parameters of its master, and its safe values are those.
+void lookAtParameters(const Evidence &evidence, const History &node, Gate *gate)
+{
+    const History *master = nullptr;  // of the phase
+    for (const Record &record : node.records) {
+        if (record.kind == Record::Phase) {
+            master = evidence.masterAt(record.time);
+            ++gate->looked;
+            if (master && hasOwnTable(node.node) && editionOf(node) != editionOf(*master))
+                gate->fail(QStringLiteral("%1 takes part at %2, whose safety parameters are other ones")
+                               .arg(node.name, master->name));
+        }
+        if (record.kind != Record::Safe || !master)
+            continue;
+        const double limit = fromBits(record.numbers[Record::SafeLimitBits]);
+        ++gate->looked;
+        if (limit != safeLimit(editionOf(*master)))
+            gate->fail(QStringLiteral("%1: its safe state has a limit of %2; that of %3 is %4")
+                           .arg(node.name)
+                           .arg(limit)
+                           .arg(master->name)
+                           .arg(safeLimit(editionOf(*master))));
+    }
+}
+
 }  // namespace
+
+Gate silentJoinersAreDropped(const Evidence &evidence)
+{
+    Gate gate("silent joiners are dropped");
+    gate.isAsked = false;
+    for (const DoneFault &fault : evidence.faults) {
+        if (fault.kind != FaultKind::SilentJoiner || !fault.isAlone)
+            continue;
+        gate.isAsked = true;
+        ++gate.looked;
+        if (fault.amount == 0)
+            gate.fail(QStringLiteral("a node that answers nothing keeps the plant from running, from %1 ms on")
+                          .arg(double(fault.begin) * 1e-6));
+    }
+    return gate;
+}
+
+Gate safetyParametersAgree(const Evidence &evidence)
+{
+    Gate gate("safety parameters agree");
+    gate.isAsked = std::any_of(evidence.faults.begin(), evidence.faults.end(),
+                               [](const DoneFault &fault) { return fault.kind == FaultKind::OtherParameters; });
+    if (!gate.isAsked)
+        return gate;
+    for (const History &node : evidence.nodes)
+        lookAtParameters(evidence, node, &gate);
+    return gate;
+}
 
 Gate startsHaveTheirNodes(const Evidence &evidence)
 {

@@ -45,7 +45,10 @@ int amountOf(FaultKind kind)
     case FaultKind::EvictNode:
     case FaultKind::MissingNode:
     case FaultKind::Siege:
+    case FaultKind::OtherParameters:
         return 700;
+    case FaultKind::SilentJoiner:
+        return 100;
     default:
         return 1;
     }

@@ -37,13 +37,15 @@ enum class FaultKind : quint8 {
     DisorderOnRoads,  ///< frames are doubled, and overtake each other
     StepWallClock,    ///< of a node, an hour back
     StepMasterClock,
-    SlowListener,  ///< a tool that asks for much, and reads a little at a time
-    EchoOnRoads,   ///< of all nodes: now and then a copy of a frame arrives seconds later
-    EvictNode,     ///< kept out by the operator, who tries to start without it, and lets it in again
-    MissingNode,   ///< is killed, and comes back later; meanwhile the operator tries to start without it
-    Siege          ///< strangers connect and send datagrams beyond their budgets while a node starts again
+    SlowListener,     ///< a tool that asks for much, and reads a little at a time
+    EchoOnRoads,      ///< of all nodes: now and then a copy of a frame arrives seconds later
+    EvictNode,        ///< kept out by the operator, who tries to start without it, and lets it in again
+    MissingNode,      ///< is killed, and comes back later; meanwhile the operator tries to start without it
+    Siege,            ///< strangers connect and send datagrams beyond their budgets while a node starts again
+    OtherParameters,  ///< the master is killed, and comes back with other safety parameters
+    SilentJoiner      ///< another node registers, and answers nothing
 };
-constexpr int FaultKinds = int(FaultKind::Siege) + 1;
+constexpr int FaultKinds = int(FaultKind::SilentJoiner) + 1;
 constexpr std::array<const char *, FaultKinds> FaultNames{"kill a node",
                                                           "stop a node",
                                                           "kill the master",
@@ -71,7 +73,9 @@ constexpr std::array<const char *, FaultKinds> FaultNames{"kill a node",
                                                           "echo on all roads",
                                                           "evict a node",
                                                           "start without a node",
-                                                          "siege"};
+                                                          "siege",
+                                                          "other safety parameters",
+                                                          "silent joiner"};
 
 constexpr bool isLinkFault(FaultKind kind)
 {
@@ -82,11 +86,13 @@ constexpr bool hasNode(FaultKind kind)
 {
     return kind == FaultKind::KillNode || kind == FaultKind::StopNode || isLinkFault(kind)
         || kind == FaultKind::PowerNode || kind == FaultKind::CutRoad || kind == FaultKind::CutRoadToNode
-        || kind == FaultKind::DelayOnRoad || kind == FaultKind::StepWallClock || kind >= FaultKind::EvictNode;
+        || kind == FaultKind::DelayOnRoad || kind == FaultKind::StepWallClock || kind == FaultKind::EvictNode
+        || kind == FaultKind::MissingNode || kind == FaultKind::Siege;
 }
 constexpr bool isOfMaster(FaultKind kind)
 {
-    return kind == FaultKind::KillMaster || kind == FaultKind::StopMaster || kind == FaultKind::PowerMaster;
+    return kind == FaultKind::KillMaster || kind == FaultKind::StopMaster || kind == FaultKind::PowerMaster
+        || kind == FaultKind::OtherParameters;
 }
 /// Whether it may happen to every node.
 constexpr bool concernsAll(FaultKind kind)

@@ -40,7 +40,7 @@ bool readShapeOptions(QPlcCoreApplication &application, NodeOptions *options, Hi
         || !readInteger(application, "signal-count", GroupHead + 1, 1000, &signalCount)
         || !readInteger(application, "hold", 1, 100, &hold) || !readInteger(application, "life", 1, 1'000'000, &life))
         return false;
-    options->shape = {int(nodes), int(signalCount), int(hold)};
+    options->shape = {int(nodes), int(signalCount), int(hold), 0};
     options->life = quint32(life);
     QString error;
     if (history->open(application.value(QStringLiteral("history")), &error))

@@ -229,6 +229,14 @@ bool Operator::stop()
     return ask(messages::Stop());
 }
 
+bool Operator::sees(const QString &name)
+{
+    messages::State state;
+    return ask(messages::GetState(), &state)
+        && std::any_of(state.nodes.begin(), state.nodes.end(),
+                       [&](const QPlcNodeInfo &info) { return info.name == name; });
+}
+
 QStringList Operator::datagramAddresses()
 {
     messages::State state;

@@ -37,6 +37,8 @@ public:
     void tryToStartWithout(int node);
     /// Does what leads to motion, whoever is missing.
     void tryToStart();
+    /// Whether the master has a node of this name now.
+    bool sees(const QString &name);
     /// "127.0.0.1:40312" of the nodes that have datagrams.
     QStringList datagramAddresses();
     QString errorString() const { return m_errorString; }

@@ -203,6 +203,8 @@ std::vector<Gate> judge(const Evidence &evidence, const Profile &profile)
             ofTime(linkFaultsAreCounted(evidence)),
             startsHaveTheirNodes(evidence),
             friendsGetIn(evidence),
+            silentJoinersAreDropped(evidence),
+            safetyParametersAgree(evidence),
             attemptsAreRefused(evidence),
             commandsAreDenied(evidence),
             ofProcesses(nothingLeaks(evidence), profile),

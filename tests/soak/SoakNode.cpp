@@ -10,8 +10,7 @@ SoakNode::SoakNode(const NodeOptions &options, HistoryWriter &history)
     , m_written(this, options.shape, options.node)
     , m_seen(this, options.shape, (options.node + options.shape.nodes - 1) % options.shape.nodes)
 {
-    // Every eighth gets its table from the master, and no qualities.
-    if (options.node % 8 != 0) {
+    if (hasOwnTable(options.node)) {  // others have no qualities, either
         setSignalTable(table(options.shape));
         setReceivesQuality(true);
     }
@@ -54,8 +53,9 @@ void SoakNode::stopped()
 
 void SoakNode::safeState(SafeStateReason reason)
 {
-    m_history.append(Record::Safe, m_options.node,
-                     {bitsOf(m_seen.drive), reason == PhaseEnded ? 1U : 0U, reason == MasterStopsSafely ? 1U : 0U});
+    m_history.append(
+        Record::Safe, m_options.node,
+        {bitsOf(m_seen.drive), reason == PhaseEnded ? 1U : 0U, reason == MasterStopsSafely ? 1U : 0U, bitsOf(m_limit)});
 }
 
 }  // namespace soak

@@ -28,6 +28,7 @@ private:
     HistoryWriter &m_history;
     Group<QPlcOutput> m_written;
     Group<QPlcInput> m_seen;
+    QPlcInput<double> m_limit{this, "limit"};
     quint32 m_counter = 0;
     std::atomic<bool> m_isPhaseRecorded{false};
 };

@@ -68,7 +68,7 @@ QPlcSignalTable makeTable(const PlantShape &shape)
 {
     static const char *const types[Kinds] = {"Real64", "Real32", "Int32", "Real32[3]"};
     const QByteArray hold = "hold = " + QByteArray::number(shape.hold) + '\n';
-    QByteArray ini;
+    QByteArray ini = "[limit]\ntype = Real64\nsafe = " + QByteArray::number(safeLimit(quint64(shape.edition))) + '\n';
     for (int node = 0; node < shape.nodes; ++node) {
         ini += '[' + signalName(node, "life") + "]\ntype = UInt32\n" + hold;
         ini += '[' + signalName(node, "counter") + "]\ntype = UInt32\n" + hold;
@@ -86,9 +86,10 @@ QPlcSignalTable makeTable(const PlantShape &shape)
 QPlcSignalTable table(const PlantShape &shape)
 {
     // A thread that simulates a plant asks for the same one whenever a program starts.
-    thread_local PlantShape known{0, 0, 0};
+    thread_local PlantShape known{0, 0, 0, 0};
     thread_local QPlcSignalTable made;
-    if (known.nodes != shape.nodes || known.signalCount != shape.signalCount || known.hold != shape.hold) {
+    if (known.nodes != shape.nodes || known.signalCount != shape.signalCount || known.hold != shape.hold
+        || known.edition != shape.edition) {
         made = makeTable(shape);
         known = shape;
     }

@@ -19,10 +19,16 @@ struct PlantShape
     int nodes = 12;
     int signalCount = 100;  // that each node writes, 5 at least
     int hold = 3;           // [cycles] that a drive is held when its writer is silent
+    int edition = 0;        // of the safety parameters
 };
 
 constexpr double SafeDrive = -1.0;  // a drive that runs is 0 ... 1
-constexpr int GroupHead = 4;        // signals in front of the values: life, counter, check, drive
+/// The safe value of the signal "limit", which all nodes read and no node writes.
+constexpr double safeLimit(quint64 edition)
+{
+    return 1.0 + double(edition);
+}
+constexpr int GroupHead = 4;  // signals in front of the values: life, counter, check, drive
 
 QString nodeName(int node);
 /// -1: no such node.
@@ -35,6 +41,11 @@ const char *transportOf(int node);
 inline bool isCritical(int node)
 {
     return node % 4 == 3;
+}
+/// Every eighth node gets its table from the master.
+inline bool hasOwnTable(int node)
+{
+    return node % 8 != 0;
 }
 inline bool isOnStream(int node)
 {

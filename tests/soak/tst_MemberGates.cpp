@@ -21,6 +21,11 @@ private Q_SLOTS:
     void nodeThatGetsInBesideStrangersPasses();
     void nodeThatDoesNotGetInBesideStrangersIsFound();
     void plantThatStopsForStrangersIsFound();
+    void joinerThatIsDroppedPasses();
+    void joinerThatStopsThePlantIsFound();
+    void nodesWithTheParametersOfTheirMasterPass();
+    void nodeThatKeepsItsSafeValueIsFound();
+    void nodeWithOtherParametersThatTakesPartIsFound();
 };
 
 namespace {
@@ -32,11 +37,29 @@ HandMade withSiege()
     return plant;
 }
 
+/// Its master has come back with edition \a ofMaster; node 1 has a table of edition \a ofNode, and
+/// goes safe with the value of edition \a ofValue.
+HandMade withOtherParameters(quint64 ofMaster, quint64 ofNode, quint64 ofValue)
+{
+    HandMade plant;
+    plant.addFault(FaultKind::OtherParameters, -1, HandMade::at(20), HandMade::at(60));
+    plant.master().records.front().numbers[Record::Edition] = ofMaster;
+    HandMade::add(plant.node(1), Record::Born, 1, 0, {0, ofNode});
+    for (const int node : {0, 1, 2}) {
+        const double limit = soak::safeLimit(node == 1 ? ofValue : ofMaster);
+        HandMade::add(plant.node(node), Record::Safe, node, plant.end(), {0, 0, 0, soak::bitsOf(limit)});
+    }
+    HandMade::add(plant.node(2), Record::Born, 2, 0, {0, ofMaster});
+    return plant;
+}
+
 }  // namespace
 
 void tst_MemberGates::plantWithoutSuchFaultsIsNotJudged()
 {
     QVERIFY(!HandMade().judge(&soak::friendsGetIn).isAsked);
+    QVERIFY(!HandMade().judge(&soak::silentJoinersAreDropped).isAsked);
+    QVERIFY(!HandMade().judge(&soak::safetyParametersAgree).isAsked);
 }
 
 void tst_MemberGates::startWithAllNodesPasses()
@@ -118,6 +141,41 @@ void tst_MemberGates::plantThatStopsForStrangersIsFound()
     HandMade::add(plant.master(), Record::Registered, 1, HandMade::at(40));
     plant.setState(Record::SafeStop, HandMade::at(50));
     const Gate gate = plant.judge(&soak::friendsGetIn);
+    QVERIFY2(gate.failed == 1, textOf(gate));
+}
+
+void tst_MemberGates::joinerThatIsDroppedPasses()
+{
+    HandMade plant;
+    plant.addFault(FaultKind::SilentJoiner, -1, HandMade::at(20), HandMade::at(60));
+    const Gate gate = plant.judge(&soak::silentJoinersAreDropped);
+    QVERIFY2(gate.isAsked && gate.passed(), textOf(gate));
+}
+
+void tst_MemberGates::joinerThatStopsThePlantIsFound()
+{
+    HandMade plant;
+    plant.addFault(FaultKind::SilentJoiner, -1, HandMade::at(20), HandMade::at(60), 0);
+    const Gate gate = plant.judge(&soak::silentJoinersAreDropped);
+    QVERIFY2(gate.failed == 1, textOf(gate));
+}
+
+void tst_MemberGates::nodesWithTheParametersOfTheirMasterPass()
+{
+    const Gate gate = withOtherParameters(2, 2, 2).judge(&soak::safetyParametersAgree);
+    QVERIFY2(gate.isAsked && gate.passed(), textOf(gate));
+    QCOMPARE(gate.looked, qint64(6));
+}
+
+void tst_MemberGates::nodeThatKeepsItsSafeValueIsFound()
+{
+    const Gate gate = withOtherParameters(2, 2, 1).judge(&soak::safetyParametersAgree);
+    QVERIFY2(gate.failed == 1, textOf(gate));
+}
+
+void tst_MemberGates::nodeWithOtherParametersThatTakesPartIsFound()
+{
+    const Gate gate = withOtherParameters(2, 1, 2).judge(&soak::safetyParametersAgree);
     QVERIFY2(gate.failed == 1, textOf(gate));
 }
 

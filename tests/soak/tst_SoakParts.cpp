@@ -138,7 +138,7 @@ void tst_SoakParts::aHistoryIsNeverWrittenOver()
 void tst_SoakParts::theTableHasAllGroups()
 {
     const QPlcSignalTable table = soak::table({3, 100, 5});
-    QCOMPARE(table.size(), 300);
+    QCOMPARE(table.size(), 301);
     QVERIFY(table.contains("n2.drive") && table.contains("n0.v95"));
     QCOMPARE(table.at(table.indexOf("n2.drive")).safe.toReal(), soak::SafeDrive);
 }

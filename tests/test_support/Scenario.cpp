@@ -41,7 +41,7 @@ Weights soakWeights()
 bool lasts(FaultKind kind)
 {
     return kind == FaultKind::StopNode || kind == FaultKind::StopMaster
-        || (kind >= FaultKind::PowerNode && kind != FaultKind::Siege);
+        || (kind >= FaultKind::PowerNode && kind != FaultKind::Siege && kind != FaultKind::SilentJoiner);
 }
 
 /// Whether its cause may end while the next fault happens.
@@ -64,12 +64,12 @@ const std::vector<Scenario> &Scenario::all()
     static const Weights tools{{F::StoppedReader, 2},  {F::SlowListener, 2},     {F::ConnectFlood, 1},
                                {F::GarbageControl, 1}, {F::GarbageDatagrams, 1}, {F::GarbageToNodes, 1},
                                {F::KillNode, 1}};
-    static const Weights restarts{{F::KillMaster, 3}, {F::PowerMaster, 2}, {F::KillNode, 2},
-                                  {F::PowerNode, 1},  {F::StopMaster, 1},  {F::EchoOnRoads, 4}};
-    static const Weights admissions{{F::EvictNode, 5},    {F::MissingNode, 4},    {F::Siege, 2},
-                                    {F::KillNode, 2},     {F::PowerNode, 2},      {F::KillMaster, 1},
-                                    {F::PowerMaster, 1},  {F::StopMaster, 1},     {F::CutRoad, 1},
-                                    {F::ConnectFlood, 2}, {F::GarbageControl, 2}, {F::GarbageDatagrams, 2}};
+    static const Weights restarts{{F::KillMaster, 3}, {F::PowerMaster, 2}, {F::KillNode, 2},       {F::PowerNode, 1},
+                                  {F::StopMaster, 1}, {F::EchoOnRoads, 4}, {F::OtherParameters, 3}};
+    static const Weights admissions{
+        {F::EvictNode, 5},    {F::MissingNode, 4},    {F::Siege, 2},           {F::SilentJoiner, 3}, {F::KillNode, 2},
+        {F::PowerNode, 2},    {F::KillMaster, 1},     {F::PowerMaster, 1},     {F::StopMaster, 1},   {F::CutRoad, 1},
+        {F::ConnectFlood, 2}, {F::GarbageControl, 2}, {F::GarbageDatagrams, 2}};
     static const auto everything = [] {
         Weights weights = soakWeights();
         for (const Weights *more : {&programs, &roads, &tools})
@@ -81,10 +81,13 @@ const std::vector<Scenario> &Scenario::all()
         scenario("programs", "kills, restarts, power failures, stopped programs, clocks that step", programs),
         scenario("roads", "cuts, half-open connections, delays, losses, duplicates, disorder", roads),
         scenario("tools", "readers that are slow or stop, strangers, floods", tools),
-        scenario("restarts", "masters and nodes come back while frames of their former lives are on the way", restarts),
+        scenario("restarts",
+                 "masters, also with other safety parameters, and nodes come back amid frames of former lives",
+                 restarts),
         [] {
             Scenario made = scenario(
-                "admissions", "a plant with a manifest: evictions, strangers, starts without a node", admissions, 0.5);
+                "admissions", "a plant with a manifest: evictions, strangers, starts without a node, silent nodes",
+                admissions, 0.5);
             made.profile.hasManifest = true;
             return made;
         }(),

@@ -26,6 +26,22 @@ QHostAddress placeOf(int number)
     return QHostAddress(0x7F000101 + quint32(number));
 }
 
+/// A node that is no part of the plant.
+class SoakJoiner : public QPlcCompactSlaveNode
+{
+public:
+    explicit SoakJoiner(const QString &name)
+        : QPlcCompactSlaveNode(name)
+    {
+    }
+    ~SoakJoiner() override { disconnectFromMaster(); }
+
+private:
+    void step(const QPlcCycle &) override {}
+
+    QPlcInput<quint32> m_counter{this, "n0.counter"};
+};
+
 std::unique_ptr<SimulatedHost> newHost(qplc::Simulator &simulator, int node)
 {
     const QString name = node < 0 ? QStringLiteral("Master") : nodeName(node);
@@ -121,6 +137,20 @@ QPlcUnderlyingProtocol SimulatedPlant::master() const
     return QPlcUnderlyingProtocol::tcp(m_master.host->address(), MasterPort);
 }
 
+/// Of programs that start now.
+PlantShape SimulatedPlant::shape() const
+{
+    PlantShape shape = m_profile.shape;
+    shape.edition = m_edition;
+    return shape;
+}
+
+QPlcUnderlyingProtocol SimulatedPlant::cyclicPlace() const
+{
+    return QPlcUnderlyingProtocol::fromString(
+        QStringLiteral("sim://%1:%2").arg(m_master.host->address().toString()).arg(MasterPort));
+}
+
 bool SimulatedPlant::startMaster(QString *error)
 {
     bool listens = false;
@@ -128,10 +158,10 @@ bool SimulatedPlant::startMaster(QString *error)
     m_master.host->kill();
     HistoryMemory &history = newHistory(m_master, QStringLiteral("Master"), -1);
     m_master.host->start([&] {
-        const NodeOptions options{m_profile.shape, 0, m_master.life};
+        const NodeOptions options{shape(), 0, m_master.life};
         auto program = std::make_shared<SoakMaster>(options, history);
         m_masterProgram = program.get();
-        history.append(Record::Born, Record::Nobody);
+        history.append(Record::Born, Record::Nobody, {0, quint64(m_edition)});
         if (m_profile.hasManifest)
             program->setManifest(manifest());
         listens = program->start(std::chrono::microseconds(m_profile.periodUs), master());
@@ -152,15 +182,14 @@ void SimulatedPlant::startNode(int node, const QString &linkFaults)
     ++own.life;
     HistoryMemory &history = newHistory(own, nodeName(node), node);
     own.host->start([&] {
-        const NodeOptions options{m_profile.shape, node, own.life};
+        const NodeOptions options{shape(), node, own.life};
         auto program = std::make_shared<SoakNode>(options, history);
-        history.append(Record::Born, node);
+        history.append(Record::Born, node, {0, quint64(m_edition)});
         program->activateWatchdog(std::chrono::microseconds(m_profile.shape.hold * m_profile.periodUs));
         program->setFaultPlan(linkFaults);
         program->setCritical(isCritical(node));
         program->setReconnectPolicy(QPlcSlaveNode::ReconnectAlways);
-        const QString place = QStringLiteral("sim://%1:%2").arg(m_master.host->address().toString()).arg(MasterPort);
-        program->connectToMaster(QPlcUnderlyingProtocol::fromString(place));
+        program->connectToMaster(cyclicPlace());
         return program;
     });
     m_runnerHistory.append(Record::Started, node, {0, own.life});
@@ -203,6 +232,10 @@ int SimulatedPlant::inject(const Fault &fault, Operator &person)
         return leaveOut(fault, person);
     case FaultKind::Siege:
         return besiege(fault, person);
+    case FaultKind::OtherParameters:
+        return changeParameters(fault, person);
+    case FaultKind::SilentJoiner:
+        return joinSilently(fault, person);
     case FaultKind::PowerNode:
     case FaultKind::PowerMaster:
         switchOff(fault);
@@ -426,6 +459,50 @@ int SimulatedPlant::besiege(const Fault &fault, Operator &person)
         Operator::wait(look);
     }
     return fault.amount;
+}
+
+/// Nodes with a table of their own are kept out, until somebody gives them the new one. Were they
+/// not, the operator would start the plant.
+int SimulatedPlant::changeParameters(const Fault &fault, Operator &person)
+{
+    QString error;
+    m_master.host->kill();
+    Operator::wait(int((m_profile.shape.hold + 2) * m_profile.periodUs / 1000));
+    ++m_edition;
+    startMaster(&error);
+    person.useMaster(master());
+    (void)person.bringToRealTime(fault.amount);
+    for (int node = 0; node < m_profile.shape.nodes; ++node) {
+        if (hasOwnTable(node))
+            startNode(node, {});
+    }
+    return fault.amount;
+}
+
+/// A node registers while cycles run, or while none do, and its program stands still from then on.
+/// \return 0: the plant does not run while it does
+int SimulatedPlant::joinSilently(const Fault &fault, Operator &person)
+{
+    constexpr int longest = 10'000;  // [ms]
+    const QString name = QStringLiteral("Joiner");
+    SimulatedHost host(m_simulator, name, placeOf(m_profile.shape.nodes + 7));
+    if (fault.seed % 2 == 0)
+        person.stop();
+    host.start([&] {
+        auto program = std::make_shared<SoakJoiner>(name);
+        QObject::connect(program.get(), &QPlcSlaveNode::connectedToMaster, program.get(),
+                         [&host] { host.setStopped(true); });
+        program->connectToMaster(cyclicPlace());
+        return program;
+    });
+    const qint64 end = Operator::now() + longest;
+    while (!person.sees(name) && Operator::now() < end)
+        Operator::wait(1);
+    while (person.sees(name) && Operator::now() < end) {
+        person.tryToStart();
+        Operator::wait(10);
+    }
+    return Operator::now() < end && person.bringToRealTime(longest) ? fault.amount : 0;
 }
 
 int SimulatedPlant::leaveOut(const Fault &fault, Operator &person)

@@ -80,6 +80,10 @@ private:
     int flood(const Fault &fault);
     int leaveOut(const Fault &fault, Operator &person);
     int besiege(const Fault &fault, Operator &person);
+    int changeParameters(const Fault &fault, Operator &person);
+    int joinSilently(const Fault &fault, Operator &person);
+    PlantShape shape() const;
+    QPlcUnderlyingProtocol cyclicPlace() const;
 
     qplc::Simulator &m_simulator;
     const Profile &m_profile;
@@ -91,6 +95,7 @@ private:
     qplc::SimulatedHost m_strangerHost;
     HistoryMemory m_runnerHistory;
     SoakMaster *m_masterProgram = nullptr;
+    int m_edition = 0;       // of the safety parameters of programs that start
     QObject m_causes;        // of faults that have not ended yet
     qint64 m_lastCause = 0;  // [ms] when the last cause ends
 };
