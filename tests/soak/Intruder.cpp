@@ -65,7 +65,6 @@ void Intruder::end()
         Operator::wait(Interval);
         m_ended += quint64(m_strangers.leaveEnded());
     }
-    m_observer.close();
     if (m_attempts > 0)
         record();
 }

@@ -26,6 +26,7 @@ public:
     ~Intruder() override;
 
     /// Tries nothing more, and waits until all that was tried has had its answer, but not for ever.
+    /// The observer stays connected: the master uses as much at last as at first.
     void end();
 
 private:

@@ -75,7 +75,7 @@ bool SoakRun::run()
     rest(2);
     if (!sufferAll())
         return false;
-    m_plant.endBeside();                      // what is used at last is what was used before there was one
+    m_plant.endBeside();
     rest(3);                                  // longer than the master is patient with a stranger
     m_history.append(Record::Recovered, -1);  // what comes now is the end
     m_operator.stop();
