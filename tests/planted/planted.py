@@ -91,12 +91,7 @@ DEFECTS = {
     "parameters_unchecked": Defect(
         "a node takes part with other safety parameters than those of its master",
         "src/node/cycle/NodeRegistry.cpp",
-        [
-            (
-                "if (signal.safety && *signal.safety != ",
-                "if (signal.safety && !*signal.safety && *signal.safety != ",
-            )
-        ],
+        [("if (signal.safety && *signal.safety != ", "if (signal.safety && !*signal.safety && *signal.safety != ")],
     ),
     "silent_stays": Defect(
         "a node that answers nothing ends each start, and is never dropped",
