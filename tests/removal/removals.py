@@ -494,7 +494,7 @@ REMOVALS = [
             "    m_cancel->setFocus(Qt::OtherFocusReason);", "    m_act->setFocus(Qt::OtherFocusReason);",
             "tst_NodeEvictions", "cancelIsWhereTheKeyboardIs"),
     Removal("eviction of a plant that has changed since the question", "src/gui/tables/EvictionQuestion.cpp",
-            "    if (!isHidden() && !isTrue)", "    if (!isHidden() && !isTrue && isHidden())",
+            "    if (!isTrue)", "    if (!isTrue && isHidden())",
             "tst_NodeEvictions", "questionEndsWhenItIsNotTrueAnyMore"),
     Removal("number of the cycle beyond the 32 bits of a frame: while cycles run", "src/protocol/CyclicFrame.cpp",
             "header.cycle = extendCycle(loadLittle<std::uint32_t>(bytes + CycleAt), m_newest);",

@@ -52,8 +52,10 @@ void EvictionQuestion::ask(const NodeEviction &eviction)
 
 void EvictionQuestion::follow()
 {
+    if (isHidden())
+        return;
     const bool isTrue = m_eviction.obstacle().isEmpty() && m_eviction.question() == m_text->text();
-    if (!isHidden() && !isTrue)
+    if (!isTrue)
         end();
 }
 
