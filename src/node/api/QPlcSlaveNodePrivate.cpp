@@ -40,6 +40,19 @@ std::optional<SlaveEvent> eventOf(const Message &message)
     }
 }
 
+/// Why there can be no master at \a master; empty: there can.
+QString objectionTo(const QPlcUnderlyingProtocol &master)
+{
+    const qplc::TransportRegistry &registry = qplc::TransportRegistry::instance();
+    if (!master.isValid())
+        return QStringLiteral("the address of the master is not valid; use QPlcUnderlyingProtocol::automatic() or "
+                              "local(), or fromString(), which says why in its argument error");
+    if (!registry.named(master.kindName())->isAtHand())
+        return QStringLiteral("this host has no transport %1://; use %2")
+            .arg(master.kindName(), registry.namesText(QStringLiteral("://")));
+    return {};
+}
+
 }  // namespace
 
 QPlcSlaveNodePrivate::QPlcSlaveNodePrivate(QPlcSlaveNode *node, const QString &nodeName,
@@ -90,19 +103,6 @@ void QPlcSlaveNodePrivate::setError(QPlcSlaveNode::Error newError, const QString
 
 // ---- connection ----
 
-/// Why there can be no master at \a master; empty: there can.
-static QString refusalOf(const QPlcUnderlyingProtocol &master)
-{
-    const qplc::TransportRegistry &registry = qplc::TransportRegistry::instance();
-    if (!master.isValid())
-        return QStringLiteral("the address of the master is not valid; use QPlcUnderlyingProtocol::automatic() or "
-                              "local(), or fromString(), which says why in its argument error");
-    if (!registry.named(master.kindName())->isAtHand())
-        return QStringLiteral("this host has no transport %1://; use %2")
-            .arg(master.kindName(), registry.namesText(QStringLiteral("://")));
-    return {};
-}
-
 void QPlcSlaveNodePrivate::connectToMaster(const QPlcUnderlyingProtocol &newMaster)
 {
     disconnectFromMaster();
@@ -111,7 +111,7 @@ void QPlcSlaveNodePrivate::connectToMaster(const QPlcUnderlyingProtocol &newMast
     master = newMaster;
     m_wasRegistered = false;
     m_backOff.reset();
-    const QString unusable = refusalOf(master);
+    const QString unusable = objectionTo(master);
     if (unusable.isEmpty())
         apply(SlaveEvent::Connect);
     else
