@@ -14,17 +14,15 @@
 
 namespace {
 
-// The inner side of a master and the door of its server, which they keep to themselves: an explicit
-// instantiation may name what is private.
-std::unique_ptr<QPlcMasterNodePrivate> &insideOf(QPlcMasterNode &master);
+// The door of a server, which it keeps to itself: an explicit instantiation may name what is
+// private.
 qplc::MasterDoor &doorOf(qplc::MasterServer &server);
-template<std::unique_ptr<QPlcMasterNodePrivate> QPlcMasterNode::*Inside, qplc::MasterDoor qplc::MasterServer::*Door>
+template<qplc::MasterDoor qplc::MasterServer::*Door>
 struct Members
 {
-    friend std::unique_ptr<QPlcMasterNodePrivate> &insideOf(QPlcMasterNode &master) { return master.*Inside; }
     friend qplc::MasterDoor &doorOf(qplc::MasterServer &server) { return server.*Door; }
 };
-template struct Members<&QPlcMasterNode::d, &qplc::MasterServer::m_door>;
+template struct Members<&qplc::MasterServer::m_door>;
 
 constexpr char tableText[] = "[tetherSpeed]\ntype = Real\nunit = m/s\nmin = -10\nmax = 10\nsafe = 0\n"
                              "[tetherLength]\ntype = Real64\nunit = m\nmin = 1\ninitial = 1\n"
@@ -36,7 +34,7 @@ class Session
 {
 public:
     Session()
-        : m_inside(*insideOf(m_master))
+        : m_inside(QPlcMasterNodePrivate::of(m_master))
     {
         static const QPlcSignalTable table = QPlcSignalTable::fromIni(tableText);
         m_master.setSignalTable(table);
