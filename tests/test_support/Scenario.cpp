@@ -6,6 +6,7 @@
 #include "test_support/SimulatedTransport.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace soak {
 
@@ -109,6 +110,25 @@ const Scenario *Scenario::named(const QString &name)
     const auto isIt = [&](const Scenario &scenario) { return scenario.profile.name == name; };
     const auto found = std::find_if(all().begin(), all().end(), isIt);
     return found == all().end() ? nullptr : &*found;
+}
+
+QStringList Scenario::names()
+{
+    QStringList names;
+    for (const Scenario &scenario : all())
+        names << scenario.profile.name;
+    return names;
+}
+
+std::optional<quint64> wholeNumber(const QString &text, quint64 least, QString *error)
+{
+    constexpr int most = std::numeric_limits<int>::max();
+    bool isNumber = false;
+    const quint64 value = text.toULongLong(&isNumber);
+    if (isNumber && value >= least && value <= quint64(most))
+        return value;
+    *error = QStringLiteral("use a whole number from %1 to %2").arg(least).arg(most);
+    return std::nullopt;
 }
 
 SimulatedPlan planOf(const Scenario &scenario, int seconds, quint64 seed)

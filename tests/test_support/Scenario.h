@@ -17,7 +17,12 @@ struct Scenario
 
     static const std::vector<Scenario> &all();
     static const Scenario *named(const QString &name);
+    static QStringList names();
 };
+
+/// Reads a whole number from \a least to the largest int. \return nothing if \a text is none;
+/// \a error says what to use
+std::optional<quint64> wholeNumber(const QString &text, quint64 least, QString *error);
 
 /// All that decides what happens in a simulated run.
 struct SimulatedPlan

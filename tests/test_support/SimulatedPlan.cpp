@@ -6,7 +6,6 @@
 #include <QtCore/QTextStream>
 
 #include <algorithm>
-#include <limits>
 
 namespace soak {
 
@@ -15,14 +14,6 @@ namespace {
 const QString scenarioWord = QStringLiteral("scenario");
 const QString seedWord = QStringLiteral("seed");
 const QString secondsWord = QStringLiteral("seconds");
-
-QString scenarioNames()
-{
-    QStringList names;
-    for (const Scenario &scenario : Scenario::all())
-        names << scenario.profile.name;
-    return names.join(QStringLiteral(", "));
-}
 
 /// Reads a plan line by line. Functions return what is wrong with a line; empty: nothing.
 class PlanReader
@@ -35,58 +26,56 @@ public:
         if (word == scenarioWord)
             return readScenario(value);
         if (word == seedWord)
-            return readNumber(word, value, 0, std::numeric_limits<int>::max(), &m_hasSeed, &m_plan.seed);
-        if (word == secondsWord) {
-            quint64 seconds = 0;
-            const QString fault = readNumber(word, value, 1, std::numeric_limits<int>::max(), &m_hasSeconds, &seconds);
-            m_plan.seconds = int(seconds);
-            return fault;
-        }
+            return readNumber(word, value, 0, &m_seed);
+        if (word == secondsWord)
+            return readNumber(word, value, 1, &m_seconds);
         return readFault(line);
     }
     /// What the whole plan lacks.
     QString missing() const
     {
         const QString text = QStringLiteral("the plan has no line '%1'");
-        if (!m_plan.scenario)
+        if (!m_scenario)
             return text.arg(QStringLiteral("scenario NAME"));
-        if (!m_hasSeed)
+        if (!m_seed)
             return text.arg(QStringLiteral("seed N"));
-        return m_hasSeconds ? QString() : text.arg(QStringLiteral("seconds S"));
+        return m_seconds ? QString() : text.arg(QStringLiteral("seconds S"));
     }
-    const SimulatedPlan &plan() const { return m_plan; }
+    /// \pre nothing is missing()
+    SimulatedPlan plan() const { return {m_scenario, *m_seed, int(*m_seconds), m_faults}; }
 
 private:
     QString readScenario(const QString &name)
     {
-        if (m_plan.scenario)
+        if (m_scenario)
             return QStringLiteral("a second scenario; a plan has one");
-        m_plan.scenario = Scenario::named(name);
-        return m_plan.scenario ? QString() : QStringLiteral("unknown scenario '%1'; use %2").arg(name, scenarioNames());
+        m_scenario = Scenario::named(name);
+        return m_scenario
+            ? QString()
+            : QStringLiteral("unknown scenario '%1'; use %2").arg(name, Scenario::names().join(QStringLiteral(", ")));
     }
-    static QString readNumber(const QString &word, const QString &text, quint64 least, quint64 most, bool *isThere,
-                              quint64 *number)
+    static QString readNumber(const QString &word, const QString &text, quint64 least, std::optional<quint64> *number)
     {
-        if (*isThere)
+        if (*number)
             return QStringLiteral("a second line '%1'; a plan has one").arg(word);
-        *number = text.toULongLong(isThere);
-        if (*isThere && *number >= least && *number <= most)
-            return {};
-        return QStringLiteral("'%1 %2': use a whole number from %3 to %4").arg(word, text).arg(least).arg(most);
+        QString error;
+        *number = wholeNumber(text, least, &error);
+        return *number ? QString() : QStringLiteral("'%1 %2': %3").arg(word, text, error);
     }
     QString readFault(const QString &line)
     {
         if (const QString lack = missing(); !lack.isEmpty())
             return QStringLiteral("'%1' before the scenario, the seed and the seconds: %2").arg(line, lack);
         Fault fault;
-        const QString wrong = Fault::read(line, m_plan.scenario->profile.shape.nodes, &fault);
-        m_plan.faults.push_back(fault);
+        const QString wrong = Fault::read(line, m_scenario->profile.shape.nodes, &fault);
+        m_faults.push_back(fault);
         return wrong;
     }
 
-    SimulatedPlan m_plan;
-    bool m_hasSeed = false;
-    bool m_hasSeconds = false;
+    const Scenario *m_scenario = nullptr;
+    std::optional<quint64> m_seed;
+    std::optional<quint64> m_seconds;
+    std::vector<Fault> m_faults;
 };
 
 /// Changes a plan step by step as long as it still fails.

@@ -10,7 +10,6 @@
 #include <QtCore/QSaveFile>
 
 #include <cstdio>
-#include <limits>
 #include <optional>
 
 namespace {
@@ -79,14 +78,6 @@ bool simulate(const soak::SimulatedPlan &plan, const QString &origin, const QCom
     return false;
 }
 
-QStringList names()
-{
-    QStringList all;
-    for (const soak::Scenario &scenario : soak::Scenario::all())
-        all << scenario.profile.name;
-    return all;
-}
-
 QCommandLineOption option(const char *name, const QString &description, const char *valueName, const QString &value)
 {
     return QCommandLineOption(QString::fromLatin1(name), description, QString::fromLatin1(valueName), value);
@@ -96,13 +87,11 @@ QCommandLineOption option(const char *name, const QString &description, const ch
 std::optional<quint64> number(const QCommandLineParser &parser, const char *name, quint64 least)
 {
     const QString text = parser.value(QString::fromLatin1(name));
-    bool isNumber = false;
-    const quint64 value = text.toULongLong(&isNumber);
-    if (isNumber && value >= least && value <= quint64(std::numeric_limits<int>::max()))
-        return value;
-    std::fprintf(stderr, "qtplc_simulate: '--%s %s': use a whole number from %llu to %d\n", name, qPrintable(text),
-                 qulonglong(least), std::numeric_limits<int>::max());
-    return std::nullopt;
+    QString error;
+    const std::optional<quint64> value = soak::wholeNumber(text, least, &error);
+    if (!value)
+        std::fprintf(stderr, "qtplc_simulate: '--%s %s': %s\n", name, qPrintable(text), qPrintable(error));
+    return value;
 }
 
 /// \return the exit code
@@ -139,7 +128,8 @@ int simulateSeeds(const QCommandLineParser &parser)
     const std::optional<quint64> count = number(parser, "seeds", 1);
     const soak::Scenario *scenario = soak::Scenario::named(parser.value(QStringLiteral("scenario")));
     if (!scenario)
-        std::fprintf(stderr, "qtplc_simulate: use --scenario %s\n", qPrintable(names().join(QStringLiteral("|"))));
+        std::fprintf(stderr, "qtplc_simulate: use --scenario %s\n",
+                     qPrintable(soak::Scenario::names().join(QStringLiteral("|"))));
     if (!seconds || !first || !count || !scenario)
         return 2;
     quint64 failed = 0;
@@ -165,7 +155,7 @@ int main(int argc, char **argv)
         {option("seed", QStringLiteral("First seed (1)."), "N", QStringLiteral("1")),
          option("seeds", QStringLiteral("How many seeds (1)."), "COUNT", QStringLiteral("1")),
          option("seconds", QStringLiteral("Virtual time with faults (60)."), "S", QStringLiteral("60")),
-         option("scenario", names().join(QStringLiteral(", ")) + QStringLiteral(" (all)."), "NAME",
+         option("scenario", soak::Scenario::names().join(QStringLiteral(", ")) + QStringLiteral(" (all)."), "NAME",
                 QStringLiteral("all")),
          option("plan", QStringLiteral("Runs the plan of FILE, and not those of seeds."), "FILE", {}),
          option("write-plan", QStringLiteral("Writes the shortest plan of the first run that fails."), "FILE", {}),
