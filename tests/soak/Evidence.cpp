@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace soak {
 
@@ -53,6 +54,14 @@ double Stalls::shareOf(const History &runner) const
     const qint64 begin = runner.records.front().time;
     const qint64 end = runner.records.back().time;
     return end > begin ? double(within(begin, end)) / double(end - begin) : 0.0;
+}
+
+bool PhaseBegins::isOne(const Record &record)
+{
+    if (record.kind != Record::State)
+        return false;
+    const quint64 before = std::exchange(m_state, record.numbers[0]);
+    return m_state == Record::RealTime && before != Record::WaitingForLateSlaves;
 }
 
 bool Evidence::read(const QString &folder, const Profile &profile, Evidence *evidence, QString *error)

@@ -70,6 +70,17 @@ struct Evidence
     bool isExplained(qint64 time, int node) const;
 };
 
+/// Follows the states of a master from its first record on.
+class PhaseBegins
+{
+public:
+    /// Whether cycles of a new phase begin with the next \a record.
+    bool isOne(const Record &record);
+
+private:
+    quint64 m_state = Record::Off;
+};
+
 /// The first record of \a history at \a time or later. \pre its records are in order, as complete()
 /// leaves them
 std::vector<Record>::const_iterator firstFrom(const History &history, qint64 time);

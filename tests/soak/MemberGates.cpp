@@ -28,17 +28,13 @@ bool isNeeded(const Evidence &evidence, int node, Presence presence)
 void lookAtBegins(const Evidence &evidence, const History &master, Gate *gate)
 {
     std::vector<Presence> nodes(std::size_t(evidence.shape.nodes), Presence::NeverSeen);
-    quint64 state = Record::Off;
+    PhaseBegins begins;
     for (const Record &record : master.records) {
         if (record.kind == Record::Registered || record.kind == Record::Lost) {
             if (record.subject < nodes.size())
                 nodes[record.subject] = record.kind == Record::Registered ? Presence::There : Presence::Gone;
         }
-        if (record.kind != Record::State)
-            continue;
-        const bool begins = record.numbers[0] == Record::RealTime && state != Record::WaitingForLateSlaves;
-        state = record.numbers[0];
-        if (!begins)
+        if (!begins.isOne(record))
             continue;
         ++gate->looked;
         for (int node = 0; node < evidence.shape.nodes; ++node) {

@@ -220,13 +220,9 @@ void lookAtCommands(const Evidence &evidence, const History &master, Gate *gate)
 {
     // A command that is later than this allows the next entry.
     qint64 allowed = master.records.empty() ? 0 : master.records.front().time;
-    quint64 state = Record::Off;
+    PhaseBegins begins;
     for (const Record &record : master.records) {
-        if (record.kind != Record::State)
-            continue;
-        const bool begins = record.numbers[0] == Record::RealTime && state != Record::WaitingForLateSlaves;
-        state = record.numbers[0];
-        if (!begins)
+        if (!begins.isOne(record))
             continue;
         ++gate->looked;
         if (recordsOf(evidence.runner, Record::Command, -1, allowed, record.time).empty())
