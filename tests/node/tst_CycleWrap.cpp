@@ -61,9 +61,11 @@ bool isIncreasing(const QVector<quint64> &cycles)
 /// A counter in the process of its master; Echo and a listener outside of it.
 struct Plant
 {
-    explicit Plant(QPlcClock clock = QPlcClock::realTime())
-        : master(clock)
+    /// \param limit  of the cycles of its phases; 0: none
+    explicit Plant(quint64 limit = 0)
     {
+        master.setInterval(5ms);
+        master.setCycleLimit(limit);
         echo.onStep = [this](const QPlcCycle &cycle) { cycles << cycle.number(); };
     }
     ~Plant()
@@ -87,7 +89,7 @@ struct Plant
     std::array<const QPlcSlaveNode *, 2> nodes() const { return {&echo, &listener}; }
     QPlcNodeInfo infoOfEcho() const { return master.nodes().at(1); }
 
-    TestMaster master;
+    TestMaster master{QPlcClock::realTime()};
     CounterNode counter;
     EchoNode echo;
     CountListener listener;
@@ -166,9 +168,7 @@ void tst_CycleWrap::nothingIsLateOrLost()
 {
     runPlant([] {
         constexpr quint64 cycles = 400;
-        Plant plant;
-        plant.master.setInterval(5ms);
-        plant.master.setCycleLimit(cycles);
+        Plant plant(cycles);
         plant.echo.activateWatchdog(12ms);  // a wrap that costs two cycles would trip it
         QVERIFY(plant.start(datagrams(), cycles / 2) && plant.isOver());
         QCOMPARE(plant.cycles, cyclesUpTo(cycles));
@@ -192,9 +192,7 @@ void tst_CycleWrap::skippedCyclesAreNotLost()
 {
     runPlant([] {
         constexpr quint64 cycles = 400;
-        Plant plant;
-        plant.master.setInterval(5ms);
-        plant.master.setCycleLimit(cycles);
+        Plant plant(cycles);
         plant.counter.onStep = [](const QPlcCycle &cycle) {
             if (cycle.number() == cycles / 2 - 3)
                 beBusyFor(32ms);  // the wrap is among the cycles that the master leaves out
@@ -216,9 +214,7 @@ void tst_CycleWrap::copiesAndMixedOrderAreNeverAppliedTwiceOrBackwards()
 {
     runPlant([] {
         constexpr quint64 cycles = 600;
-        Plant plant;
-        plant.master.setInterval(5ms);
-        plant.master.setCycleLimit(cycles);
+        Plant plant(cycles);
         QVERIFY(plant.echo.setFaultPlan("loss=10%,duplicate=30%,reorder=30%,jitter=4ms,seed=5"));
         double last = -1.0;
         bool isEchoInOrder = true;
@@ -246,7 +242,6 @@ void tst_CycleWrap::nodesJoinAroundTheWrap()
     for (quint64 before = 1; before <= 20; ++before) {
         runPlant([before] {
             Plant plant;
-            plant.master.setInterval(5ms);
             QVERIFY(plant.isThere());
             beginBefore(plant.master, 10 + before);
             QVERIFY(plant.master.startRealTime() && plant.master.waitForCycles(10));
