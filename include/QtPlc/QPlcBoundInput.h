@@ -20,7 +20,7 @@
 /// };
 /// \endcode
 ///
-/// T is as for QPlcInput, or a C array of numbers.
+/// T is as for QPlcInput, or a C array of numbers or of enums.
 ///
 /// \threadsafe no: the cycle thread writes the variable while cycles run; see QPlcPort
 ///

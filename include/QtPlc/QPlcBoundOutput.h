@@ -19,7 +19,7 @@
 /// };
 /// \endcode
 ///
-/// T is as for QPlcOutput, or a C array of numbers.
+/// T is as for QPlcOutput, or a C array of numbers or of enums.
 ///
 /// \threadsafe no: the cycle thread reads the variable while cycles run; see QPlcPort
 ///

@@ -22,9 +22,11 @@
 /// };
 /// \endcode
 ///
-/// T is a number, `bool`, or a `std::array` or fixed-size Eigen vector of numbers. A real type
-/// reads Real32 and Real64 signals; an integer type reads its own signal type and narrower ones
-/// with the same sign; `bool` reads Int8 and UInt8; `qint64` reads DateTime, too. Before the first
+/// T is a number, `bool`, an enum, a `std::array` of them, or a fixed-size Eigen vector of numbers.
+/// A real type reads Real32 and Real64 signals; an integer type reads its own signal type and
+/// narrower ones with the same sign; `bool` reads Int8 and UInt8; `qint64` reads DateTime, too. An
+/// enum reads what its underlying type reads, also numbers that none of its enumerators has: set
+/// `min` and `max` of the signal, and have a `default` in each `switch`. Before the first
 /// initialization the value is T{}.
 ///
 /// \threadsafe no: see QPlcPort

@@ -22,11 +22,13 @@
 /// };
 /// \endcode
 ///
-/// T is a number, `bool`, or a `std::array` or fixed-size Eigen vector of numbers. A real type
-/// writes Real32 (rounded) and Real64 signals; an integer type writes its own signal type and wider
-/// ones with the same sign; `bool` writes Int8 and UInt8; `qint64` writes DateTime, too. The value
-/// stays until the node assigns another one. The master does not take a value that is NaN,
-/// infinite, or outside of the limits of the signal table.
+/// T is a number, `bool`, an enum, a `std::array` of them, or a fixed-size Eigen vector of numbers.
+/// A real type writes Real32 (rounded) and Real64 signals; an integer type writes its own signal
+/// type and wider ones with the same sign; `bool` writes Int8 and UInt8; `qint64` writes DateTime,
+/// too; an enum writes what its underlying type writes (`enum class Phase : qint8` a signal of the
+/// type Int8, whose `values` give the numbers their names). The value stays until the node assigns
+/// another one. The master does not take a value that is NaN, infinite, or outside of the limits of
+/// the signal table.
 ///
 /// \threadsafe no: see QPlcPort
 ///

@@ -8,6 +8,7 @@
 #include <QtCore/QString>
 
 #include <array>
+#include <cstring>
 #include <type_traits>
 
 class QPlcCompactSlaveNode;
@@ -104,12 +105,29 @@ private:
 
 namespace QPlcPortDetail {
 
-// Shape of a variable: its element type, and the number of elements.
+// Numbers, truth values and enumerators.
+template<typename T>
+constexpr bool isElement = std::is_arithmetic_v<T> || std::is_enum_v<T>;
+
+// The number that an element is on the wire: of an enumerator that of its underlying type.
+template<typename T, bool isEnum = std::is_enum_v<T>>
+struct Number
+{
+    using Type = T;
+};
+
+template<typename T>
+struct Number<T, true>
+{
+    using Type = std::underlying_type_t<T>;
+};
+
+// Shape of a variable: the type and the number of its elements.
 template<typename T, typename = void>
 struct Shape;
 
 template<typename T>
-struct Shape<T, std::enable_if_t<std::is_arithmetic_v<T>>>
+struct Shape<T, std::enable_if_t<isElement<T>>>
 {
     using Element = T;
     static constexpr int count = 1;
@@ -117,7 +135,7 @@ struct Shape<T, std::enable_if_t<std::is_arithmetic_v<T>>>
 };
 
 template<typename T, std::size_t N>
-struct Shape<T[N], std::enable_if_t<std::is_arithmetic_v<T>>>
+struct Shape<T[N], std::enable_if_t<isElement<T>>>
 {
     using Element = T;
     static constexpr int count = int(N);
@@ -125,7 +143,7 @@ struct Shape<T[N], std::enable_if_t<std::is_arithmetic_v<T>>>
 };
 
 template<typename T, std::size_t N>
-struct Shape<std::array<T, N>, std::enable_if_t<std::is_arithmetic_v<T>>>
+struct Shape<std::array<T, N>, std::enable_if_t<isElement<T>>>
 {
     using Element = T;
     static constexpr int count = int(N);
@@ -179,7 +197,9 @@ template<typename T>
 class VariablePort : public QPlcPort
 {
     using S = Shape<T>;
-    using Element = typename S::Element;
+    using Element = typename Number<typename S::Element>::Type;
+    static constexpr bool isBool = std::is_same_v<Element, bool>;
+    static constexpr bool isEnum = std::is_enum_v<typename S::Element>;
 
 protected:
     VariablePort(QPlcCompactSlaveNode *node, const char *name, Direction direction, T *variable,
@@ -190,22 +210,35 @@ protected:
     }
 
 private:
-    QString variableType() const final
-    {
-        return describe(scalarOf<Element>(), std::is_same_v<Element, bool>, S::count);
-    }
+    QString variableType() const final { return describe(scalarOf<Element>(), isBool, S::count); }
     bool accepts(QPlcSignalType type) const final
     {
-        return type.count() == S::count
-            && fits(scalarOf<Element>(), std::is_same_v<Element, bool>, type.scalar(), direction());
+        return type.count() == S::count && fits(scalarOf<Element>(), isBool, type.scalar(), direction());
     }
     void attach(QPlcSignalType type) final { m_wire = type.scalar(); }
-    void load(const char *bytes) final { loadElements(m_wire, bytes, S::data(*m_variable), S::count); }
-    void store(char *bytes) const final { storeElements(m_wire, bytes, S::data(*m_variable), S::count); }
+    void load(const char *bytes) final
+    {
+        if constexpr (isEnum) {  // an enumerator must not be accessed as the number that it is
+            Element numbers[S::count];
+            loadElements(m_wire, bytes, numbers, S::count);
+            std::memcpy(S::data(*m_variable), numbers, sizeof numbers);
+        } else {
+            loadElements(m_wire, bytes, S::data(*m_variable), S::count);
+        }
+    }
+    void store(char *bytes) const final
+    {
+        if constexpr (isEnum) {
+            Element numbers[S::count];
+            std::memcpy(numbers, S::data(*m_variable), sizeof numbers);
+            storeElements(m_wire, bytes, numbers, S::count);
+        } else {
+            storeElements(m_wire, bytes, S::data(*m_variable), S::count);
+        }
+    }
     char *plainBytes() const final
     {
-        const bool isPlain
-            = m_wire == scalarOf<Element>() && !std::is_same_v<Element, bool> && Q_BYTE_ORDER == Q_LITTLE_ENDIAN;
+        const bool isPlain = m_wire == scalarOf<Element>() && !isBool && Q_BYTE_ORDER == Q_LITTLE_ENDIAN;
         return isPlain ? reinterpret_cast<char *>(S::data(*m_variable)) : nullptr;
     }
 

@@ -64,6 +64,10 @@ QString refusal(const QByteArray &type)
     return error;
 }
 
+enum class Phase : qint8 { Launch = -3, Fly = 0, Land = 4 };
+enum class Switch : bool { Off, On };
+enum Gear { Low, Middle, High };  // of C: an unsigned int
+
 template<typename T>
 bool fitsExactly(const QByteArray &type)
 {
@@ -82,6 +86,7 @@ private Q_SLOTS:
     void everyElementTypeTravelsExactly();
     void arraysAndVectorsTravelInOrder();
     void truthValuesAreNormalized();
+    void enumeratorsTravelAsTheNumbersThatTheyAre();
     void timesAreNanoseconds();
     void realsMixAndIntegersWiden();
     void incompatibleTypesAreRefused_data();
@@ -90,6 +95,7 @@ private Q_SLOTS:
     void aSignalIsDeclaredOnce();
     void oneSignalMayBeReadAndWritten();
     void boundPortsUseVariablesThatExist();
+    void boundPortsUseEnumeratorsThatExist();
     void outputsStayUntilAssigned();
     void compactSignalsAdoptTheTypeOfTheSignal();
     void compactSignalsThatDoNotFitAreFaults();
@@ -139,6 +145,20 @@ void tst_Ports::truthValuesAreNormalized()
         QCOMPARE(through<bool>(type, QPlcValue(1)).toInt(), 1);
         QCOMPARE(through<bool>(type, QPlcValue(77)).toInt(), 1);  // whatever another node has sent
     }
+}
+
+void tst_Ports::enumeratorsTravelAsTheNumbersThatTheyAre()
+{
+    QCOMPARE(through<Phase>("Int8", QPlcValue(-3)).toInt(), -3);
+    QCOMPARE(through<Phase>("Int8", QPlcValue(77)).toInt(), 77);  // without an enumerator: as documented
+    QCOMPARE(through<Gear>("UInt32", QPlcValue(2)).toInt(), 2);
+    QCOMPARE((through<std::array<Phase, 3>>("Int8[3]", QPlcValue(std::array<qint8, 3>{4, -3, 0}))),
+             QPlcValue(std::array<qint8, 3>{4, -3, 0}));
+    QCOMPARE(through<Switch>("Bool", QPlcValue(1)).toInt(), 1);
+    QCOMPARE(refusal<QPlcOutput<Phase>>("Int32"), QString());  // widened, as an integer
+    QVERIFY(refusal<QPlcInput<Phase>>("Int32").contains("Int8"));
+    QVERIFY(refusal<QPlcInput<Gear>>("Int32").contains("UInt32"));
+    QVERIFY(refusal<QPlcOutput<Phase>>("Real64").contains("Int8"));
 }
 
 void tst_Ports::timesAreNanoseconds()
@@ -263,6 +283,25 @@ void tst_Ports::oneSignalMayBeReadAndWritten()
     QVERIFY(master.startRealTime());
     QVERIFY(master.waitForState(QPlcMasterNode::Off));
     QCOMPARE(master.signalValue("in").toReal(), 1024.0);
+}
+
+void tst_Ports::boundPortsUseEnumeratorsThatExist()
+{
+    struct
+    {
+        Phase phases[2] = {Phase::Fly, Phase::Fly};
+        Phase shown[2] = {Phase::Land, Phase::Launch};
+    } model;
+    QPlcCompactSlaveNode node("Node");
+    QPlcBoundInput<Phase[2]> input(&node, "in", &model.phases);
+    QPlcBoundOutput<Phase[2]> output(&node, "out", &model.shown);
+    NodeRuntime &runtime = QPlcSlaveNodePrivate::of(node).runtime;
+    QString error;
+    QVERIFY2(runtime.bind(tableOf("Int8[2]"), &error), qPrintable(error));
+    const QPlcValue value(std::array<qint8, 2>{4, -3});
+    QVERIFY(runtime.step(QPlcCycle(), value.toBytes().constData()));
+    QVERIFY(model.phases[0] == Phase::Land && model.phases[1] == Phase::Launch);
+    QCOMPARE(QPlcValue::fromBytes(QPlcSignalType::fromName("Int8[2]"), runtime.outputs()), value);
 }
 
 void tst_Ports::boundPortsUseVariablesThatExist()
