@@ -42,7 +42,7 @@ private:
         const bool stale = now - m_time > StaleAfter;
         m_stale += stale ? 1 : 0;
         if (m_computed == 0)
-            m_first = cycle.number();
+            m_first = cycle.number() - cycle.missedCycles();  // it may have missed the first ones
         else if (now - m_lastStep > m_longestPause) {
             m_longestPause = now - m_lastStep;
             m_pauseEnd = now;
