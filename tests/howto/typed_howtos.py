@@ -4,7 +4,7 @@
 are its programs.
 
 usage: typed_howtos.py PAGE SOURCE_FOLDER BUILD_FOLDER
-PAGE: wire-a-sensor, simulink-model, write-a-panel or test-a-plant
+PAGE: wire-a-sensor, simulink-model, write-a-panel, test-a-node or test-a-plant
 """
 import subprocess
 import sys
@@ -24,6 +24,7 @@ NOT_TYPED = {
     },
     "simulink-model": {},
     "write-a-panel": {},
+    "test-a-node": {},
     "test-a-plant": {},
 }
 
@@ -111,6 +112,10 @@ def write_a_panel(plant):
     }
 
 
+def test_a_node(_plant):
+    return {"build/tst_Winch -silent": Expectation(shows=r"Totals: 5 passed, 0 failed")}
+
+
 def test_a_plant(_plant):
     return {"build/tst_Winch -silent": Expectation(shows=r"Totals: 4 passed, 0 failed")}
 
@@ -147,6 +152,7 @@ def main():
                 "wire-a-sensor": (wire_a_sensor, "winch"),
                 "simulink-model": (simulink_model, "winch_model"),
                 "write-a-panel": (write_a_panel, "my_window"),
+                "test-a-node": (test_a_node, "node_tests"),
                 "test-a-plant": (test_a_plant, "winch_tests"),
             }[page]
             terminal.type(f"cd ~/{folder}")
