@@ -5,7 +5,8 @@
 
 #include <QtCore/QMetaType>
 
-/// How the cycles of a master follow each other: in real time, scaled, or as fast as possible.
+/// How the cycles of a master follow each other: in real time, scaled, as fast as possible, or when
+/// the program says so.
 ///
 /// \code
 /// QPlcMasterNode master;
@@ -26,7 +27,9 @@ public:
         RealTime,  ///< one cycle per period of CLOCK_MONOTONIC
         Scaled,    ///< `scale` times as fast; 0.1 is slow motion
         /// The next cycle begins when all nodes but listeners have answered; bit-identical results.
-        Lockstep
+        Lockstep,
+        /// A cycle begins when the program calls QPlcMasterNode::step(); else as Lockstep.
+        External
     };
 
     /// Returns the clock of real time: one simulated second per second.
@@ -38,15 +41,25 @@ public:
     /// Returns the clock that waits for nodes instead of time.
     static constexpr QPlcClock lockstep() { return QPlcClock(Lockstep, 0.0); }
 
+    /// Returns the clock that the program turns itself: each cycle is a call of
+    /// QPlcMasterNode::step(). Nodes see no difference to lockstep, except that a node with real
+    /// devices also watches real time: it goes to its safe state when the program hangs.
+    static constexpr QPlcClock external() { return QPlcClock(External, 0.0); }
+
     /// Makes the clock of real time.
     constexpr QPlcClock() = default;
-    /// Returns whether cycles follow real time, a scaled time, or the answers of nodes.
+    /// Returns what cycles follow: real time, a scaled time, the answers of nodes, or the program.
     constexpr Kind kind() const { return m_kind; }
     /// Returns the simulated seconds per second: 1 for RealTime, 0 for Lockstep (as fast as
-    /// possible).
+    /// possible) and External.
     constexpr double scale() const { return m_scale; }
-    /// Returns true if each cycle waits for the nodes, not for time.
+    /// Returns true if cycles follow a clock of the computer: RealTime and Scaled. Otherwise each
+    /// cycle waits for the nodes, no clock is read, and results do not depend on the computer.
+    constexpr bool isTimed() const { return m_kind == RealTime || m_kind == Scaled; }
+    /// Returns true if the next cycle begins by itself when the nodes have answered.
     constexpr bool isLockstep() const { return m_kind == Lockstep; }
+    /// Returns true if the program turns the clock with QPlcMasterNode::step().
+    constexpr bool isExternal() const { return m_kind == External; }
     /// Returns false for a scale outside of 0.001 to 1000.
     constexpr bool isValid() const { return m_kind != Scaled || (m_scale >= 0.001 && m_scale <= 1000.0); }
 

@@ -59,8 +59,8 @@ class QPlcMasterNodePrivate;
 /// the reason, and errorOccurred() is emitted. A function that returns true sets error() back to
 /// NoError.
 ///
-/// \threadsafe no: the object lives in the thread that made it and needs its event loop. Cycles run
-///     on a thread of their own; neither thread waits for the other
+/// \threadsafe no, except step(): the object lives in the thread that made it and needs its event
+///     loop. Cycles run on a thread of their own; neither thread waits for the other
 ///
 /// \ingroup master
 class QTPLC_EXPORT QPlcMasterNode : public QObject
@@ -100,6 +100,18 @@ public:
     };
     Q_ENUM(Error)
 
+    /// How a step() has ended.
+    enum class StepResult : quint8 {
+        Complete,  ///< all nodes except listeners have answered
+        /// A node was lost, or did not answer within the longest wait: the signals that it writes
+        /// have no new values, as if it were late in real time.
+        Late,
+        SafeStop,  ///< the plant stops safely: nodes have safe values and compute nothing
+        Stopped,   ///< no cycles run, or they have ended during this step
+        Busy       ///< another thread is in a step(): nothing has happened
+    };
+    Q_ENUM(StepResult)
+
     /// Makes a master in the state Off, without signals and nodes.
     /// \param parent  owns the master, if given
     explicit QPlcMasterNode(QObject *parent = nullptr);
@@ -116,22 +128,22 @@ public:
 
     // ---- signals that the master writes itself ----
     /// Lets the master write the time of the cycle into a signal: the wall clock at the start of
-    /// the real-time phase plus the nominal time of the cycle. In lockstep it is 1970-01-01 plus
-    /// the nominal time.
+    /// the real-time phase plus the nominal time of the cycle. With a clock that is not timed
+    /// (QPlcClock::isTimed()) it is 1970-01-01 plus the nominal time.
     /// \param signalName  of type DateTime, without another writer
     bool setTimeSignal(const QString &signalName);
     /// Lets the master write its jitter [s] into a signal: the wake-up of this cycle minus its
-    /// nominal time; 0 in lockstep.
+    /// nominal time; 0 if the clock is not timed.
     /// \param signalName  of type Real32 or Real64, without another writer
     bool activateJitterMeasurement(const QString &signalName);
     /// Lets the master write its workload [s] into a signal: the time that it has spent itself on
-    /// the cycle before, without waiting for answers; 0 in lockstep.
+    /// the cycle before, without waiting for answers; 0 if the clock is not timed.
     /// \param signalName  of type Real32 or Real64, without another writer
     bool activateWorkloadMeasurement(const QString &signalName);
     /// Lets the master write a figure of the statistics into a signal: durations in s, counters as
     /// numbers. An integer signal stays at the largest number of its type. The value is updated
-    /// twice a second and at the end of the phase. It is 0 before the first update, and always in
-    /// lockstep, where results must not depend on the machine.
+    /// twice a second and at the end of the phase. It is 0 before the first update, and always if
+    /// the clock is not timed: then results must not depend on the machine.
     /// \param figure  what is measured
     /// \param signalName  Real32 or Real64 for a duration, any single number for a counter; without
     ///     another writer
@@ -162,7 +174,8 @@ public:
     /// what the system has granted.
     void setRealTimeOptions(const QPlcRealTimeOptions &options);
     /// Sets what happens to cycles whose period is over before they could begin; default
-    /// QPlcOverrunPolicy::skipToGrid(). Takes effect at the next start; lockstep ignores it.
+    /// QPlcOverrunPolicy::skipToGrid(). Takes effect at the next start; a clock that is not timed
+    /// ignores it.
     /// \return false when the policy is not valid (IntervalError)
     bool setOverrunPolicy(QPlcOverrunPolicy policy);
     /// Returns what happens to cycles whose period is over before they could begin.
@@ -171,6 +184,34 @@ public:
     /// simulated time is exact. Takes effect at the next start.
     /// \param cycles  0: no limit (default)
     void setCycleLimit(quint64 cycles);
+    /// Computes one cycle with the clock QPlcClock::external(), on the calling thread, and returns
+    /// when all nodes have answered. Simulated time advances by interval(), however long the step
+    /// takes.
+    ///
+    /// It waits for remote nodes up to setLongestWait() (5 s by default), for all stages of the
+    /// cycle together; the time that local nodes compute adds to it. At this limit a node with a
+    /// Wait policy, with SafeStopWhenLate, or a critical one stops the plant safely. The cycle goes
+    /// on without any other node (Late), and the next steps do not wait for it until it has
+    /// answered again: a node that hangs costs one limit, not one in each step. stop(), safeStop(),
+    /// and the same requests of operators end the wait within 20 ms, and act also between steps.
+    ///
+    /// If you call it on the thread of the master, it also handles what the cycle has reported:
+    /// state() and error() are current when it returns. But messages of nodes and tools wait until
+    /// the event loop runs. With remote nodes, use QPlcEmbeddedMaster, or give the master a thread
+    /// of its own.
+    ///
+    /// \code
+    /// master.setClock(QPlcClock::external());
+    /// master.addLocalNode(&plant);
+    /// if (!master.startRealTime())  // local nodes alone: the cycles can begin at once
+    ///     return fail(master.errorString());
+    /// for (int cycle = 0; cycle < 100; ++cycle)
+    ///     master.step();
+    /// \endcode
+    /// \threadsafe yes, between the start and the destruction of the master: any thread, one at a
+    ///     time; a second one gets Busy. Do not call it, or other functions of the master, from the
+    ///     code of a local node
+    StepResult step();
     /// Sets the longest wait for each answer of a node during initialization and start, in each
     /// profile. A node that joins while others run, and a listener, may take up to twice as long.
     /// The connection of a node that does not answer ends. A node waits at least 10 s for its first
@@ -227,13 +268,14 @@ public:
     // ---- safe stop (docs/design/states.md) ----
     /// Sets the longest time in the state WaitingForLateSlaves before the plant stops safely. By
     /// default the profile decides: forever or 5 s. Takes effect at the next start. Lockstep waits
-    /// forever.
+    /// forever. With the clock External it is the longest wait of a step(), in real time, and 5 s
+    /// instead of forever.
     /// \param time  up to 24 h on the clock of the master; 0: forever
     /// \return false when \a time is out of range (IntervalError)
     bool setLongestWait(std::chrono::nanoseconds time);
     /// Sets by how much a cycle may begin late before the plant stops safely, for example because
     /// the computer slept. By default the profile decides: any time or 1 s. Takes effect at the
-    /// next start. Lockstep has no such limit.
+    /// next start. Lockstep and External have no such limit.
     /// \param time  up to 24 h on the clock of the master; 0: any
     /// \return false when \a time is out of range (IntervalError)
     bool setGapLimit(std::chrono::nanoseconds time);
@@ -303,7 +345,8 @@ public:
     /// \param connections  1 to 65 535; default 320, which is enough for 254 nodes
     /// \return false when \a connections is out of range (IntervalError)
     bool setMaximumConnections(int connections);
-    /// Registers a node of this process. The cycle thread of the master calls it.
+    /// Registers a node of this process. The cycle thread of the master calls it, or step(). A node
+    /// with real devices cannot be local with the clock External: no start begins.
     /// \param node  owned by the caller, not null. A node that is destroyed leaves the master;
     ///     while cycles run, call removeLocalNode() before
     /// \return false when its signals or its name are refused (SignalError, NodeError), or when
@@ -445,3 +488,4 @@ private:
 
 Q_DECLARE_METATYPE(QPlcMasterNode::State)
 Q_DECLARE_METATYPE(QPlcMasterNode::Error)
+Q_DECLARE_METATYPE(QPlcMasterNode::StepResult)

@@ -267,8 +267,9 @@ public:
     void activateWorkloadMeasurement(const QString &signalName);
     /// Sets the watchdog time: watchdogTimedOut() follows when no frame came for \a time during the
     /// real-time phase. By default the profile of the plant decides (QPlcProfile). Takes effect at
-    /// the next start. Lockstep has no watchdog. For the first frame of a phase a node waits at
-    /// least 10 s: the master sends it when its slowest node is ready.
+    /// the next start. Lockstep has no watchdog; with the clock External only a node with real
+    /// devices has one, in real time. For the first frame of a phase a node waits at least 10 s:
+    /// the master sends it when its slowest node is ready.
     ///
     /// While a master waits for a late node, it sends no frames to the others: where nodes have a
     /// Wait policy, use a time longer than QPlcMasterNode::setLongestWait().

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "CycleThread.h"
 
+#include "BlockedSignals.h"
 #include "InterruptibleWaits.h"
 #include "RealTimeSetup.h"
 
 #include <algorithm>
-#include <csignal>
 
 namespace qplc {
 
@@ -36,27 +36,6 @@ public:
 
 private:
     pthread_attr_t m_attributes{};
-};
-
-/// Blocks the signals on the calling thread while it lives: a thread made meanwhile starts with
-/// them blocked.
-class BlockedSignals
-{
-public:
-    BlockedSignals()
-    {
-        sigset_t blocked;
-        sigfillset(&blocked);
-        for (int ownFault : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTRAP, SIGSYS, SIGABRT})
-            sigdelset(&blocked, ownFault);
-        pthread_sigmask(SIG_SETMASK, &blocked, &m_before);
-    }
-    ~BlockedSignals() { pthread_sigmask(SIG_SETMASK, &m_before, nullptr); }
-    BlockedSignals(const BlockedSignals &) = delete;
-    BlockedSignals &operator=(const BlockedSignals &) = delete;
-
-private:
-    sigset_t m_before{};
 };
 
 /// The first 15 bytes of \a name that are whole characters: what the kernel keeps.

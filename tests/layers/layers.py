@@ -239,6 +239,13 @@ OF_MACHINE = (
         "node/session/MasterBeacon.cpp node/session/MasterFinder.cpp node/session/MasterFinder.h",
     ),
     ("talks to the service manager of the machine", "a socket", "transport/NotifySocket.cpp"),
+    (
+        "runs a master in a program without an event loop",
+        "a thread",
+        "node/api/OwnApplication.cpp node/api/QPlcEmbeddedMaster.cpp",
+    ),
+    ("keeps signals away from threads", "a thread", "realtime/BlockedSignals.h"),
+    ("knows whether a host calls it on the thread of the master", "a thread", "node/api/QPlcMasterNodePrivate.cpp"),
     ("carries signals of the kernel, such as Ctrl-C", "a socket", "node/api/QPlcApplicationOptions.cpp"),
     ("receives the values of a plant beside the drawing", "a thread", "gui/plant/Listener.cpp gui/plant/Listener.h"),
     ("gives each connection a timeout that tells it from others", "a random number", "gui/plant/PlantLeases.cpp"),

@@ -17,6 +17,7 @@ class tst_Allocations : public QObject
 private Q_SLOTS:
     void initTestCase();
     void localCyclesAllocateNothing();
+    void stepsAllocateNothing();
     void networkCyclesAllocateNothing_data();
     void networkCyclesAllocateNothing();
     void leasesDuringCyclesAllocateNothing();
@@ -139,6 +140,35 @@ void tst_Allocations::localCyclesAllocateNothing()
     Everything node;
     QVERIFY2(master.addLocalNode(&node), qPrintable(master.errorString()));
     checkCosts(master, 1'000'000);
+}
+
+/// On the thread that turns the clock.
+void tst_Allocations::stepsAllocateNothing()
+{
+    TestMaster master(QPlcClock::external(), everyType());
+    QVERIFY(master.setTimeSignal("time"));
+    Everything node;
+    QVERIFY2(master.addLocalNode(&node), qPrintable(master.errorString()));
+    QVERIFY(master.startRealTime());
+    const auto turn = [&master](int cycles) {
+        for (int i = 0; i < cycles; ++i) {
+            if (master.step() != QPlcMasterNode::StepResult::Complete)
+                return false;
+        }
+        return true;
+    };
+    bool isComplete = false;
+    ThreadCosts spent;
+    std::thread([&] {
+        isComplete = turn(100);  // the first step tells the counter that this is the thread
+        const ThreadCosts before = ThreadCosts::ofWatchedThreads();
+        isComplete = isComplete && turn(100'000);
+        spent = ThreadCosts::ofWatchedThreads() - before;
+    }).join();
+    QVERIFY(isComplete);
+    QCOMPARE(spent.allocations, std::uint64_t(0));
+    QCOMPARE(spent.locks, std::uint64_t(0));
+    master.stop();
 }
 
 void tst_Allocations::networkCyclesAllocateNothing_data()

@@ -171,6 +171,8 @@ public:
             return of.stateText;
         if (of.clock.startsWith(QLatin1String("Lockstep"), Qt::CaseInsensitive))
             return tr("In lockstep no clock is read: there is nothing to measure.");
+        if (of.clock.startsWith(QLatin1String("External"), Qt::CaseInsensitive))
+            return tr("A program turns the clock of this plant: there is nothing to measure.");
         if (sinceAnswer.isValid() && shown.size() < shownKeys().size() && !shown.isEmpty())
             return tr("No values yet.");
         return !sinceAnswer.isValid() || !shown.isEmpty()

@@ -62,6 +62,7 @@ QPlcMasterNode::QPlcMasterNode(QObject *parent)
 {
     qRegisterMetaType<QPlcMasterNode::State>("QPlcMasterNode::State");
     qRegisterMetaType<QPlcMasterNode::Error>("QPlcMasterNode::Error");
+    qRegisterMetaType<QPlcMasterNode::StepResult>("QPlcMasterNode::StepResult");
 }
 
 QPlcMasterNode::~QPlcMasterNode()
@@ -133,7 +134,7 @@ bool QPlcMasterNode::setClock(QPlcClock clock)
     if (!clock.isValid())
         return d->error.set(
             IntervalError,
-            QStringLiteral("a clock of %1 times real time is out of range; use 0.001 ... 1000, or lockstep")
+            QStringLiteral("a clock of %1 times real time is out of range; use 0.001 ... 1000, or another clock")
                 .arg(clock.scale()));
     d->phaseSettings.clock = clock;
     return d->error.clear();
@@ -484,6 +485,11 @@ void QPlcMasterNode::safeStop(const QString &reason)
 {
     if (d->parts)
         d->parts->faults.safeStop(reason.isEmpty() ? QStringLiteral("the master was told to") : reason);
+}
+
+QPlcMasterNode::StepResult QPlcMasterNode::step()
+{
+    return d->step();
 }
 
 bool QPlcMasterNode::arm()

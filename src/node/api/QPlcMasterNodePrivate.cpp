@@ -14,6 +14,7 @@
 #include "signals/MemoryNeed.h"
 
 #include <QtCore/QCoreApplication>
+#include <QtCore/QThread>
 
 #include <algorithm>
 #include <numeric>
@@ -54,7 +55,7 @@ qplc::ProfileFacts factsOf(const QPlcMasterNodePrivate &master)
     facts.wanted = master.phaseSettings.profile;
     facts.hasManifest = !master.needed.manifest().isEmpty();
     facts.ofManifest = master.needed.manifest().profile;
-    facts.isLockstep = master.phaseSettings.clock.isLockstep();
+    facts.clock = master.phaseSettings.clock;
     if (!master.parts)
         return facts;
     const qplc::MasterServer &server = master.parts->server;
@@ -66,6 +67,16 @@ qplc::ProfileFacts factsOf(const QPlcMasterNodePrivate &master)
     if (found != nodes.end())
         facts.hardwareNode = (*found)->name;
     return facts;
+}
+
+/// Name of a node of this process with real devices; empty: there is none.
+QString localDevice(const NodeRegistry &registry)
+{
+    const auto &nodes = registry.nodes();
+    const auto found = std::find_if(nodes.begin(), nodes.end(), [](const std::shared_ptr<NodeSlot> &slot) {
+        return slot->local && slot->hardware;
+    });
+    return found != nodes.end() ? (*found)->name : QString();
 }
 
 /// Of the values of all signals: in the process image, and in a copy of it for those who ask.
@@ -369,9 +380,17 @@ bool QPlcMasterNodePrivate::startRealTime(quint64 cycles, quint64 token)
 {
     if (!prepare())
         return false;
+    m_startThread = QThread::currentThreadId();
     const QString optionError = phaseSettings.realTimeOptions.errorString();
     if (!optionError.isEmpty())
         return error.set(QPlcMasterNode::RealTimeError, optionError);
+    const QString device = phaseSettings.clock.isExternal() ? localDevice(parts->registry) : QString();
+    if (!device.isEmpty())
+        return error.set(QPlcMasterNode::NodeError,
+                         QStringLiteral("node '%1' drives real devices in the process of the master, where nothing "
+                                        "stops them if the program that turns the clock External hangs; run it as a "
+                                        "program of its own, or set another clock")
+                             .arg(device));
     error.clear();
     const quint64 cyclesOfThisPhase = std::exchange(phaseSettings.cyclesWanted, cycles);
     const bool isArmed = arming.permitsStart(token, qplc::monotonicNow(), serverSettings.isArmingRequired());
@@ -379,6 +398,29 @@ bool QPlcMasterNodePrivate::startRealTime(quint64 cycles, quint64 token)
         return error.value() == QPlcMasterNode::NoError;
     phaseSettings.cyclesWanted = cyclesOfThisPhase;
     return false;
+}
+
+QPlcMasterNode::StepResult QPlcMasterNodePrivate::step()
+{
+    using Step = qplc::MasterCycle::Step;
+    if (!parts)
+        return QPlcMasterNode::StepResult::Stopped;
+    const Step result = parts->cycle.step();
+    if (QThread::currentThreadId() == m_startThread && !qplc::Host::current().runningStrand())
+        parts->reports.takeNews();
+    switch (result) {
+    case Step::Complete:
+        return QPlcMasterNode::StepResult::Complete;
+    case Step::Late:
+        return QPlcMasterNode::StepResult::Late;
+    case Step::Safe:
+        return QPlcMasterNode::StepResult::SafeStop;
+    case Step::Busy:
+        return QPlcMasterNode::StepResult::Busy;
+    case Step::Stopped:
+        break;
+    }
+    return QPlcMasterNode::StepResult::Stopped;
 }
 
 bool QPlcMasterNodePrivate::arm()
@@ -464,7 +506,7 @@ void QPlcMasterNodePrivate::prepareFor(Action action)
 {
     if (action == Action::EndCycles || action == Action::Unlatch)
         parts->phase.end();
-    else if (action == Action::MakeCyclesSafe)
+    else if (action == Action::MakeCyclesSafe || action == Action::LatchReason)
         parts->phase.makeSafe();
 }
 

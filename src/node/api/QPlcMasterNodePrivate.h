@@ -40,6 +40,8 @@ public:
     /// \param cycles  to compute; 0: as the cycle limit says
     /// \param token  of the permission that the asker shows; 0: none
     bool startRealTime(quint64 cycles, quint64 token);
+    /// One cycle of the clock External, on the calling thread. \threadsafe yes
+    QPlcMasterNode::StepResult step();
     bool arm();
     bool reset();
     void stop(const QString &reason);
@@ -125,5 +127,6 @@ private:
 
     QPlcMasterNode::State m_state = QPlcMasterNode::Off;
     std::shared_ptr<qplc::NodeSession> m_joiner;  // who LetJoin is about
+    Qt::HANDLE m_startThread = nullptr;           // that of the master, when a phase was started
     bool m_startAfterwards = false;               // the initialization at hand belongs to a start
 };

@@ -58,13 +58,13 @@ QString statusOf(const QPlcMasterNode &master)
 quint64 markOf(const QPlcMasterNode &master)
 {
     const bool runs = master.state() == QPlcMasterNode::RealTime || master.state() == QPlcMasterNode::SafeStop;
-    return runs && !master.clock().isLockstep() ? master.cycle() + 1 : 0;
+    return runs && master.clock().isTimed() ? master.cycle() + 1 : 0;
 }
 
 /// Three periods, in looks.
 qint64 patienceOf(const QPlcMasterNode &master, std::chrono::microseconds look)
 {
-    const double scale = master.clock().isLockstep() ? 1.0 : master.clock().scale();
+    const double scale = master.clock().isTimed() ? master.clock().scale() : 1.0;
     return look > 0us ? qint64(3.0 * double(master.interval() / 1us) / scale / double(look.count())) : 0;
 }
 

@@ -22,6 +22,8 @@ QPlcClock clockOf(const messages::RealTimeStarted &start)
     switch (start.clock) {
     case messages::ClockKind::Lockstep:
         return QPlcClock::lockstep();
+    case messages::ClockKind::External:
+        return QPlcClock::external();
     case messages::ClockKind::Scaled:
         return QPlcClock::scaled(start.scale);
     case messages::ClockKind::RealTime:

@@ -88,6 +88,8 @@ public:
         m_wakeUp.arm();
         drain(onEvent, onFrame);  // what came before arm() was heard
     }
+    /// Whether there is something to take.
+    bool isEmpty() { return !m_events.front() && (!m_frames || !m_frames->front()); }
     /// Events and frames that found their ring full.
     std::uint64_t dropped() const { return m_dropped.load(std::memory_order_relaxed); }
 

@@ -38,40 +38,65 @@ bool MasterCycle::start(const Phase &phase)
     m_signalGuard.setUsualHold(phase.usualHold);
     clearStatistics();
     const double nanoseconds = double(phase.period.count());
-    m_clock.emplace(m_time, phase.clock.isLockstep() ? 0 : std::int64_t(nanoseconds / phase.clock.scale()),
-                    phase.overrunPolicy);
+    const bool isTimed = phase.clock.isTimed();
+    m_clock.emplace(m_time, isTimed ? std::int64_t(nanoseconds / phase.clock.scale()) : 0, phase.overrunPolicy);
     m_alarm.setPeriod(m_clock->period());
-    m_wallStart = phase.clock.isLockstep() ? 0 : wallClockNow();
+    m_wallStart = isTimed ? wallClockNow() : 0;
     m_number = 0;
     for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
         slot->expectFrom(m_cycleZero);
         slot->faulted = slot->pending = false;
         slot->bucket = 0;
-        slot->isSafe = false;
+        slot->isSafe = slot->behind = false;
         slot->nextTurn = 0;
         if (slot->local)
-            slot->local->beginPhase(phase.clock.isLockstep(), m_time, phase.usualHold);
+            slot->local->beginPhase(!isTimed, m_time, phase.usualHold);
     }
-    const bool isTimed = !phase.clock.isLockstep();
     m_guard.start({isTimed ? phase.gapLimit.count() : 0,
-                   isTimed ? std::int64_t(double(phase.longestWait.count()) / phase.clock.scale()) : 0,
+                   isTimed ? std::int64_t(double(phase.longestWait.count()) / phase.clock.scale())
+                       : phase.clock.isExternal() ? phase.longestWait.count()
+                                                  : 0,
                    isTimed ? phase.overrunLimit : 0});
     startGuard();
     m_exchange.start(*m_clock, phase.period, phase.clock, m_cycleZero, phase.realTimeOptions.spin);
     m_snapshot.publish(m_image.data(), 0);
+    if (phase.clock.isExternal()) {
+        m_clock->start();
+        m_hasEnded = false;
+        m_isStepped = true;
+        m_gate.open();
+        return true;
+    }
     return m_thread.start(QStringLiteral("qtplc-master"), phase.realTimeOptions, [this] { run(); });
 }
 
 void MasterCycle::stop()
 {
-    if (!m_thread.isRunning())
+    if (!isRunning())
         return;
     m_stop = true;
+    if (m_isStepped)
+        m_gate.close();
     m_thread.join();
+    if (m_isStepped)
+        end();
+    m_isStepped = false;
     m_cycleZero += m_number + 1;  // frames of this phase can never be taken for frames of the next
     takeCommands();
     m_slopes.finish();
     freeRetired();
+}
+
+/// Nodes must hear of it also while nobody calls step(), and again if a frame is lost: from now on
+/// the thread runs the cycles.
+void MasterCycle::makeSafe()
+{
+    m_guard.request();
+    if (!m_isStepped || m_stop || m_thread.isRunning())
+        return;
+    m_gate.close();
+    if (!m_thread.start(QStringLiteral("qtplc-master"), m_phase.realTimeOptions, [this] { runSafely(); }))
+        runCycle(m_clock->next([] { return false; }));  // no thread can be had: nodes are told once
 }
 
 /// Cycles are counted from 0 again: what has its initial value now is as if it were of the cycle
@@ -116,7 +141,7 @@ void MasterCycle::clearStatistics()
 {
     m_cycle = 0;
     m_digest = 0;
-    m_statistics.restart(m_phase.clock.isLockstep(), m_hub.strangers(), m_hub.floods());
+    m_statistics.restart(!m_phase.clock.isTimed(), m_hub.strangers(), m_hub.floods());
     for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes)
         slot->statistics.clear();
 }
@@ -240,13 +265,56 @@ void MasterCycle::run() noexcept
         if (m_guard.isTripped() && m_phase.clock.isLockstep())
             pause();
     }
-    m_statistics.fold();
-    for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes)
-        slot->statistics.fold();
+    end();
     m_reports.post({CycleEvent::Ended, 0, 0, m_number});
 }
 
-/// Nobody is waited for in a safe stop: in lockstep something else has to hold the cycles back.
+void MasterCycle::end() noexcept
+{
+    m_statistics.fold();
+    for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes)
+        slot->statistics.fold();
+}
+
+MasterCycle::Step MasterCycle::step() noexcept
+{
+    const StepGate::Answer answer = m_gate.enter();
+    if (answer == StepGate::Busy)
+        return Step::Busy;
+    if (answer == StepGate::Closed)
+        return m_guard.isTripped() && !m_stop.load(std::memory_order_relaxed) ? Step::Safe : Step::Stopped;
+    Step result = Step::Stopped;
+    if (m_guard.isTripped())
+        result = Step::Safe;  // the thread of the master is about to let the cycles be safe
+    else if (!m_hasEnded && !m_stop.load(std::memory_order_relaxed))
+        result = runStep();
+    m_gate.leave();
+    return result;
+}
+
+MasterCycle::Step MasterCycle::runStep() noexcept
+{
+    runCycle(m_clock->next([] { return false; }));
+    m_hasEnded = isBeyondLimit(m_number + 1);
+    if (m_hasEnded)
+        m_reports.post({CycleEvent::Ended, 0, 0, m_number});
+    if (m_stop.load(std::memory_order_relaxed))
+        return Step::Stopped;
+    if (m_guard.isTripped())
+        return Step::Safe;
+    return m_exchange.isComplete() ? Step::Complete : Step::Late;
+}
+
+/// The cycles of a safe stop, where nobody else runs them.
+void MasterCycle::runSafely() noexcept
+{
+    while (!m_stop.load(std::memory_order_relaxed)) {
+        runCycle(m_clock->next([] { return false; }));
+        pause();
+    }
+}
+
+/// Nobody is waited for in a safe stop: without a clock something else has to hold the cycles back.
 void MasterCycle::pause() noexcept
 {
     constexpr std::int64_t longest = 50'000'000;  // [ns] a stop is never noticed later than this
@@ -258,7 +326,7 @@ void MasterCycle::runCycle(const CycleClock::Tick &tick) noexcept
 {
     m_number = tick.cycle;
     m_statistics.begin(tick, m_clock->period());
-    m_guard.begin(tick, m_clock->period(), m_phase.clock.isLockstep() ? 0 : m_time.slept());
+    m_guard.begin(tick, m_clock->period(), m_phase.clock.isTimed() ? m_time.slept() : 0);
     takeCommands();
     endTerms(tick);
     if (m_guard.isTripped())
@@ -306,12 +374,13 @@ void MasterCycle::carryOut(const SetCommand &command) noexcept
 }
 
 /// Signals whose term is over get their neutral values here, however busy the thread of the master
-/// is; it finds out later. The clock is the real one also in lockstep: a person is waited for.
+/// is; it finds out later. The clock is the real one, also if cycles do not follow it: a person is
+/// waited for.
 void MasterCycle::endTerms(const CycleClock::Tick &tick) noexcept
 {
     if (m_roster->terms.empty())
         return;
-    const std::int64_t time = m_phase.clock.isLockstep() ? m_time.now() : tick.woken;
+    const std::int64_t time = m_phase.clock.isTimed() ? tick.woken : m_time.now();
     if (time < m_nextTerm)
         return;
     m_nextTerm = std::numeric_limits<std::int64_t>::max();
@@ -385,6 +454,7 @@ void MasterCycle::join(NodeSlot &slot, std::int64_t last) noexcept
     }
     slot.expectFrom(m_cycleZero + m_number);
     slot.nextTurn = 0;
+    slot.behind = false;
     if (slot.peer)
         m_hub.attach(slot.peer.get());
 }

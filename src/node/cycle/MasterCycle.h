@@ -10,6 +10,7 @@
 #include "SafetyGuard.h"
 #include "SignalGuard.h"
 #include "SlopeLimits.h"
+#include "StepGate.h"
 #include "realtime/AlarmTime.h"
 #include "realtime/CycleClock.h"
 #include "realtime/CycleThread.h"
@@ -32,7 +33,8 @@ struct SignalSetting
 };
 
 /// The cycle of a master: keeps time and the process image, and lets a NodeExchange ask the nodes.
-/// Owns the thread on which that happens.
+/// Owns the thread on which that happens, unless the clock is External: then step() is a cycle, and
+/// the thread runs those of a safe stop only.
 ///
 /// Everything is called by the thread of the master; what is marked so also while cycles run.
 class MasterCycle : private SignalGuard::Observer
@@ -42,14 +44,16 @@ public:
     {
         std::chrono::nanoseconds period{0};
         QPlcClock clock;
-        QPlcOverrunPolicy overrunPolicy;  // but for lockstep
+        QPlcOverrunPolicy overrunPolicy;  // of a timed clock
         std::uint64_t cycleLimit = 0;     // first number that is not computed; 0: none
         QPlcSignalIndex timeSignal = QPlcInvalidSignalIndex;
         QPlcSignalIndex jitterSignal = QPlcInvalidSignalIndex;
         QPlcSignalIndex workloadSignal = QPlcInvalidSignalIndex;
         QPlcRealTimeOptions realTimeOptions;
-        std::chrono::nanoseconds gapLimit{0};             // but for lockstep; 0: none
-        std::chrono::nanoseconds longestWait{0};          // on the clock of the nodes, but for lockstep; 0: none
+        std::chrono::nanoseconds gapLimit{0};  // of a timed clock; 0: none
+        // On the clock of the nodes; External: of a step, on the clock of the machine. Not in
+        // lockstep. 0: none
+        std::chrono::nanoseconds longestWait{0};
         int overrunLimit = 0;                             // in a row; 0: none
         std::int64_t usualHold = SignalGuard::UsualHold;  // [cycles] of signals without `hold`
     };
@@ -65,21 +69,33 @@ public:
     /// Lets the next phase begin with a large number, for tests. \pre not running
     void setCycleZero(std::uint64_t number) { m_cycleZero = number; }
     /// Of the wall clock when cycle 0 of the last phase began [ns since 1970]; 0: there was none,
-    /// or it is in lockstep.
+    /// or its clock is not timed.
     std::int64_t cycleZeroTime() const { return m_wallStart; }
+
+    /// How a step has ended.
+    enum class Step : std::uint8_t {
+        Complete,  ///< all nodes have answered
+        Late,      ///< a node that was asked has not; the cycles go on without it
+        Safe,      ///< the cycles are safe: nothing is computed any more
+        Stopped,   ///< no cycles, or they have been stopped meanwhile
+        Busy       ///< another thread is in a step: nothing has been done
+    };
 
     /// \return false when no thread could be made; errorString() says why
     bool start(const Phase &phase);
+    /// One cycle, on the calling thread. \pre the clock is External, or it is Stopped
+    /// \threadsafe yes
+    Step step() noexcept;
     /// Waits until the cycle in progress has ended. The hub then holds the nodes of the last
     /// roster.
     void stop();
-    bool isRunning() const { return m_thread.isRunning(); }
+    bool isRunning() const { return m_isStepped || m_thread.isRunning(); }
     /// Lets the cycles be safe from the next one on: nodes are told their safe values and compute
-    /// nothing, until stop().
-    void makeSafe() { m_guard.request(); }
+    /// nothing, until stop(). With the clock External, waits until the step in progress has ended.
+    void makeSafe();
     bool isSafe() const { return m_guard.isTripped(); }
     QString errorString() const { return m_thread.errorString(); }
-    /// Time between two cycles on the clock of the machine [ns]; 0 in lockstep.
+    /// Time between two cycles on the clock of the machine [ns]; 0: the clock is not timed.
     std::int64_t period() const { return m_clock ? m_clock->period() : 0; }
     const QVector<QPlcRealTimeSetting> &realTimeSettings() const { return m_thread.settings(); }
 
@@ -137,6 +153,9 @@ private:
     };
 
     void run() noexcept;
+    Step runStep() noexcept;
+    void runSafely() noexcept;
+    void end() noexcept;
     void runCycle(const CycleClock::Tick &tick) noexcept;
     bool isBeyondLimit(std::uint64_t cycle) const noexcept
     {
@@ -155,7 +174,7 @@ private:
     void writeReal(QPlcSignalIndex signal, double value) noexcept;
     void finish() noexcept;
     void foldStatistics() noexcept;
-    std::int64_t now() noexcept { return m_phase.clock.isLockstep() ? 0 : m_time.now(); }
+    std::int64_t now() noexcept { return m_phase.clock.isTimed() ? m_time.now() : 0; }
     void clearStatistics();
     void startGuard();
     void valueRefused(std::uint16_t writer, SignalGuard::Place place, const ValueFault &fault,
@@ -173,6 +192,8 @@ private:
     CycleThread m_thread;
     CycleReports m_reports;
     std::atomic<bool> m_stop{false};
+    bool m_isStepped = false;  // cycles run, and the clock is External
+    StepGate m_gate;
     SafetyGuard m_guard;
     NodeExchange m_exchange;
     std::atomic<Roster *> m_pendingRoster{nullptr};
@@ -190,6 +211,7 @@ private:
     std::uint64_t m_number = 0;    // of the cycle in progress, from 0
     std::int64_t m_wallStart = 0;  // [ns since 1970]
     std::int64_t m_nextTerm = 0;   // [ns] no term of the roster is over before
+    bool m_hasEnded = false;       // External: the last cycle of the limit has been computed
 
     // both
     std::atomic<std::uint64_t> m_cycle{0};

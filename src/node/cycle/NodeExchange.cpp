@@ -33,7 +33,7 @@ void NodeExchange::start(CycleClock &grid, std::chrono::nanoseconds period, QPlc
 {
     m_grid = &grid;
     m_period = period;
-    m_isLockstep = clock.isLockstep();
+    m_clock = clock;
     m_cycleZero = cycleZero;
     m_spin = spin;
 }
@@ -45,6 +45,7 @@ void NodeExchange::run(const Roster &roster, const Cycle &cycle) noexcept
     m_roster = &roster;
     m_cycle = cycle;
     m_hasReceived = false;
+    m_waitBegin = Never;
     m_isSafe = m_guard.isTripped();
     if (hasSkipped && !m_isSafe)
         m_signalGuard.settle(guardCycle() - 1);  // what has no new value is older by the cycles that were left out, too
@@ -267,7 +268,7 @@ bool NodeExchange::collectAnswers(std::size_t stage) noexcept
     if (isLast)
         awaitEveryone();
     const std::int64_t end = deadline(stage);
-    if (!m_isLockstep) {
+    if (m_clock.isTimed()) {
         while (anyMissing(false)) {
             const std::int64_t left = end - m_time.now();
             if (m_stop.load(std::memory_order_relaxed))
@@ -283,10 +284,14 @@ bool NodeExchange::collectAnswers(std::size_t stage) noexcept
         }
         reportLateNodes();
     }
-    if (anyMissing(true))
+    if (anyMissing(true) && m_clock.isExternal())
+        waitForStep();
+    else if (anyMissing(true))
         waitForLateNodes(end);
     else if (isLast && m_roster->anyRemote && !m_hasReceived)
-        receive(0);  // what listeners have to say
+        receive(0);  // what listeners have to say, and nodes that are behind
+    if (isLast && m_clock.isExternal() && !m_stop.load(std::memory_order_relaxed) && !m_guard.isTripped())
+        reportLateNodes();
     return isLast || !anyMissing(true);
 }
 
@@ -318,7 +323,7 @@ std::uint16_t NodeExchange::nodeToReport() const noexcept
 /// Time stands still until the nodes that must be waited for have answered (or are lost).
 void NodeExchange::waitForLateNodes(std::int64_t deadline) noexcept
 {
-    if (!m_isLockstep)
+    if (m_clock.isTimed())
         m_reports.post({CycleEvent::WaitingForNode, nodeToReport(), 0, m_cycle.number});
     const std::int64_t begin = m_time.now();
     std::int64_t resendAt = begin + ResendAfter;
@@ -330,10 +335,54 @@ void NodeExchange::waitForLateNodes(std::int64_t deadline) noexcept
         resendRequests();
         resendAt = m_time.now() + ResendAfter;
     }
-    if (!m_isLockstep) {
+    if (m_clock.isTimed()) {
         m_grid->shift(std::max<std::int64_t>(0, m_time.now() - deadline));
         m_reports.post({CycleEvent::WaitingEnded, 0, 0, m_cycle.number});
     }
+}
+
+/// As in lockstep, but for the limit: it is that of all stages together, and what happens then is
+/// up to each node. Nodes that are given up are waited for again when they have answered.
+void NodeExchange::waitForStep() noexcept
+{
+    if (m_waitBegin == Never)
+        m_waitBegin = m_time.now();
+    const std::int64_t longest = m_guard.longestWait();
+    std::int64_t time = m_time.now();
+    std::int64_t resendAt = time + ResendAfter;
+    while (anyMissing(true) && !m_stop.load(std::memory_order_relaxed) && !m_guard.isTripped()) {
+        const std::int64_t left = m_waitBegin + longest - time;
+        if (left <= 0) {
+            giveUp(time - m_waitBegin);
+            return;
+        }
+        receive(std::min(left, continueRequests() ? ContinueAfter : ResendAfter));
+        time = m_time.now();
+        if (time < resendAt)
+            continue;
+        resendRequests();
+        resendAt = time + ResendAfter;
+    }
+}
+
+/// A node with a Wait policy or a critical one stops the plant safely; the cycles go on without any
+/// other.
+void NodeExchange::giveUp(std::int64_t waited) noexcept
+{
+    for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
+        if (isAwaited(*slot) && mustBeWaitedFor(*slot) && (slot->waits() || slot->critical))
+            m_guard.waitedFor(*slot, m_cycle.number, waited);
+    }
+    reportLateNodes();
+    for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes)
+        slot->behind = slot->behind || isAwaited(*slot);
+}
+
+bool NodeExchange::isComplete() const noexcept
+{
+    return std::none_of(m_roster->nodes.begin(), m_roster->nodes.end(), [](const std::shared_ptr<NodeSlot> &slot) {
+        return slot->asked && !slot->answered && !slot->listener;
+    });
 }
 
 bool NodeExchange::hasWaitedTooLong(std::int64_t since) noexcept
@@ -403,6 +452,7 @@ void NodeExchange::handleAnswer(NodeSlot &slot, const char *frame, std::size_t s
     if (current && !slot.answered && !slot.late)
         m_guard.answeredInTime(slot);
     slot.answered = slot.answered || current;
+    slot.behind = false;
     slot.isSafe.store(slot.decoder.header().flags & SafeStopFlag, std::memory_order_relaxed);
     if (slot.decoder.header().flags & StopWantedFlag)
         m_guard.askedBy(slot, m_cycle.number);

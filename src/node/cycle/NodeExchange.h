@@ -10,6 +10,7 @@
 #include "transport/CyclicHub.h"
 
 #include <atomic>
+#include <cstdint>
 
 namespace qplc {
 
@@ -43,9 +44,12 @@ public:
                std::int64_t spin);
     /// One cycle with all nodes of \a roster.
     void run(const Roster &roster, const Cycle &cycle) noexcept;
+    /// Whether all nodes but listeners have answered in the last cycle.
+    bool isComplete() const noexcept;
 
 private:
     using Stage = std::vector<Roster::Turn>;
+    static constexpr std::int64_t Never = INT64_MIN;
 
     void cutInputs() noexcept;
     void prepareRequest(NodeSlot &slot) noexcept;
@@ -63,6 +67,8 @@ private:
     std::int64_t deadline(std::size_t stage) const noexcept;
     bool collectAnswers(std::size_t stage) noexcept;
     void waitForLateNodes(std::int64_t deadline) noexcept;
+    void waitForStep() noexcept;
+    void giveUp(std::int64_t waited) noexcept;
     void reportLateNodes() noexcept;
     std::uint16_t nodeToReport() const noexcept;
     void receive(std::int64_t timeout, int alarm = -1) noexcept;
@@ -79,14 +85,14 @@ private:
     bool hasWaitedTooLong(std::int64_t since) noexcept;
     bool mustBeWaitedFor(const NodeSlot &slot) const noexcept
     {
-        return !slot.listener && !m_isSafe && (m_isLockstep || slot.waits());
+        return !slot.listener && !m_isSafe && (m_clock.isTimed() ? slot.waits() : !slot.behind);
     }
     bool isUnanswered(const NodeSlot &slot) const noexcept
     {
         return slot.asked && !slot.answered && !slot.lost.load(std::memory_order_relaxed);
     }
     bool isAwaited(const NodeSlot &slot) const noexcept { return slot.awaited && isUnanswered(slot); }
-    std::int64_t now() noexcept { return m_isLockstep ? 0 : m_time.now(); }
+    std::int64_t now() noexcept { return m_clock.isTimed() ? m_time.now() : 0; }
 
     ProcessImage &m_image;
     SignalGuard &m_signalGuard;
@@ -100,15 +106,16 @@ private:
     // of the phase
     CycleClock *m_grid = nullptr;
     std::chrono::nanoseconds m_period{0};  // as the nodes see it
-    bool m_isLockstep = false;
+    QPlcClock m_clock;
     std::uint64_t m_cycleZero = 0;
     std::int64_t m_spin = 0;  // [ns]
 
     // of the cycle
     const Roster *m_roster = nullptr;
     Cycle m_cycle;
-    bool m_hasReceived = false;  // looked for answers
-    bool m_isSafe = false;       // the master stops safely: nodes are told so, and nothing of theirs is taken
+    bool m_hasReceived = false;        // looked for answers
+    std::int64_t m_waitBegin = Never;  // External: first wait for answers [ns]
+    bool m_isSafe = false;             // the master stops safely: nodes are told so, and nothing of theirs is taken
 };
 
 }  // namespace qplc

@@ -75,6 +75,7 @@ struct NodeSlot
     bool awaited = false;                      // its answer is waited for now
     bool answered = false;                     // in this cycle
     bool late = false;                         // in this cycle, and counted
+    bool behind = false;                       // External: was given up, and has not answered since
     bool pending = false;                      // two-phase: the newest outputs are those of the next cycle
     bool computed = false;                     // local: the step of this cycle gave outputs
     bool faulted = false;

@@ -30,8 +30,10 @@ ChosenProfile chooseProfile(const ProfileFacts &facts)
     if (facts.networkAddress.isEmpty())
         return {QPlcProfile::Simulation,
                 QStringLiteral("no real devices, and the master listens on this computer only")};
-    if (facts.isLockstep)
-        return {QPlcProfile::Simulation, QStringLiteral("no real devices, and the clock is Lockstep")};
+    if (!facts.clock.isTimed())
+        return {QPlcProfile::Simulation,
+                QStringLiteral("no real devices, and the clock is %1")
+                    .arg(facts.clock.isExternal() ? QStringLiteral("External") : QStringLiteral("Lockstep"))};
     return {QPlcProfile::Plant, QStringLiteral("the master listens on %1").arg(facts.networkAddress)};
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "QPlcClock.h"
 #include "QPlcProfile.h"
 #include "QPlcSlaveNode.h"
 
@@ -23,6 +24,10 @@ struct ProfileDefaults
 
     /// \pre not Automatic
     static const ProfileDefaults &of(QPlcProfile::Value profile);
+
+    /// Instead of longestWait where that is for ever, with the clock External: nothing may hold its
+    /// program for longer.
+    static constexpr std::chrono::nanoseconds longestStep = std::chrono::seconds(5);
 };
 
 /// The profile of a phase, and why.
@@ -45,7 +50,7 @@ struct ProfileFacts
     QPlcProfile::Value ofManifest = QPlcProfile::Automatic;
     QString hardwareNode;    // name of a registered node with real devices; empty: there is none
     QString networkAddress;  // that the master listens on; empty: loopback, or none
-    bool isLockstep = false;
+    QPlcClock clock;
 };
 
 ChosenProfile chooseProfile(const ProfileFacts &facts);

@@ -20,7 +20,7 @@ public:
     struct Limits
     {
         std::int64_t gap = 0;          // longest time by which a cycle may begin late
-        std::int64_t longestWait = 0;  // for late nodes
+        std::int64_t longestWait = 0;  // for late nodes; External: in a step
         int overruns = 0;              // in a row
     };
     /// What a late answer of a critical node adds to its bucket, and where the bucket is full; one
@@ -37,7 +37,9 @@ public:
     bool isTripped() const noexcept { return m_tripped.load(std::memory_order_acquire); }
 
     // ---- cycle thread ----
-    /// A cycle begins. \param period  [ns] of the grid; 0: lockstep
+    /// [ns]; 0: for ever
+    std::int64_t longestWait() const noexcept { return m_limits.longestWait; }
+    /// A cycle begins. \param period  [ns] of the grid; 0: not timed
     /// \param slept  [ns] that the computer has slept since it was switched on
     void begin(const CycleClock::Tick &tick, std::int64_t period, std::int64_t slept) noexcept;
     void answeredInTime(NodeSlot &slot) noexcept;

@@ -72,12 +72,12 @@ bool SlaveCycle::start(const Phase &phase)
         : FrameDecoder(FrameKind::GroupInputs, {m_identity.session, 0, group.hash}, {0, group.size});
     m_decoder.restart(phase.firstCycle);
     m_endOfTime = phase.cycleZero + mostCycles(phase.period);
-    m_runtime.beginPhase(phase.clock.isLockstep(), TimeSource::monotonic(), phase.usualHold);
+    m_runtime.beginPhase(!phase.clock.isTimed(), TimeSource::monotonic(), phase.usualHold);
     for (std::atomic<quint64> *counter :
          {&m_counters.cycles, &m_counters.missed, &m_counters.skipped, &m_counters.duplicated, &m_counters.outdated,
           &m_counters.rejected, &m_counters.forged, &m_counters.watchdog, &m_counters.finished})
         counter->store(0);
-    m_statistics.restart(phase.clock.isLockstep() ? 0 : lasting(phase.period));
+    m_statistics.restart(phase.clock.isTimed() ? lasting(phase.period) : 0);
     m_computedAny = m_faulted = false;
     m_lastCycle = phase.firstCycle;
     m_lastBefore = 0;
@@ -215,32 +215,40 @@ bool SlaveCycle::isForOthers(const char *frame, std::size_t size) const noexcept
 void SlaveCycle::handle(const char *frame, std::size_t size) noexcept
 {
     const FrameStatus status = decode(frame, size);
-    const std::int64_t now = m_phase.clock.isLockstep() ? 0 : monotonicNow();
+    const bool isTimed = m_phase.clock.isTimed();
+    const std::int64_t now = isTimed || m_watchdog.isOn() ? monotonicNow() : 0;
     checkWatchdog(now);
     if (status == FrameStatus::Duplicate && m_computedAny && isRepeatedRequest())
         sendAnswer();
     if (status != FrameStatus::Complete)
         return;  // frames that are no use do not calm the watchdog
-    if (!m_phase.clock.isLockstep())
-        skipToNewest(now);
+    const std::int64_t before = m_watchdog.lastHeard();
+    hear(now);
+    if (isTimed)
+        skipToNewest(now, before);
     compute();
-    if (!m_phase.clock.isLockstep())
+    if (isTimed)
         m_statistics.answered(m_watchdog.lastHeard(), m_runtime.executionTime(), monotonicNow());
+}
+
+/// A frame came; the first one of a phase may take longer.
+void SlaveCycle::hear(std::int64_t now) noexcept
+{
+    if (m_computedAny) {
+        m_watchdog.hear(now);
+        return;
+    }
+    m_watchdog.start(watchdogTime(), now);
+    setAlarm();
 }
 
 /// After a pause requests may have queued up; only the newest is worth an answer. Costs a system
 /// call only after a pause. Ends also where frames that are no use never end: run() goes on with
 /// the rest.
-void SlaveCycle::skipToNewest(std::int64_t now) noexcept
+/// \param before  when a frame came before \a now [ns]
+void SlaveCycle::skipToNewest(std::int64_t now, std::int64_t before) noexcept
 {
-    const bool paused
-        = simulated(now - m_watchdog.lastHeard()) > 2 * m_phase.interval.cycles() * m_phase.period.count();
-    if (m_computedAny) {
-        m_watchdog.hear(now);
-    } else {
-        m_watchdog.start(watchdogTime(), now);
-        setAlarm();
-    }
+    const bool paused = simulated(now - before) > 2 * m_phase.interval.cycles() * m_phase.period.count();
     if (!paused)
         return;
     const char *frame = nullptr;
@@ -379,10 +387,14 @@ std::int64_t SlaveCycle::lasting(std::chrono::nanoseconds simulated) const noexc
     return std::int64_t(double(simulated.count()) / m_phase.clock.scale());
 }
 
-/// What the watchdog waits for between two frames [ns]; 0: for ever.
+/// What the watchdog waits for between two frames [ns]; 0: for ever. Where simulated time stands
+/// still between two frames, nothing can be over, except for real devices: they must not go on when
+/// the program hangs that turns the clock.
 std::int64_t SlaveCycle::watchdogTime() const noexcept
 {
-    return m_phase.clock.isLockstep() ? 0 : lasting(m_phase.watchdog);
+    if (m_phase.clock.isExternal() && m_runtime.traits().hardware)
+        return m_phase.watchdog.count();
+    return m_phase.clock.isTimed() ? lasting(m_phase.watchdog) : 0;
 }
 
 void SlaveCycle::checkWatchdog(std::int64_t now) noexcept

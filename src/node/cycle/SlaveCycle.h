@@ -94,7 +94,8 @@ private:
     CyclicLink::Status receive(const char **frame, std::size_t *size) noexcept;
     void handle(const char *frame, std::size_t size) noexcept;
     FrameStatus decode(const char *frame, std::size_t size) noexcept;
-    void skipToNewest(std::int64_t now) noexcept;
+    void hear(std::int64_t now) noexcept;
+    void skipToNewest(std::int64_t now, std::int64_t before) noexcept;
     void compute() noexcept;
     std::uint64_t lostBefore(std::uint64_t cycle, std::uint16_t before) const noexcept;
     void takeRest() noexcept;
@@ -130,7 +131,7 @@ private:
     bool m_faulted = false;
     std::uint64_t m_lastCycle = 0;   // computed last
     std::uint16_t m_lastBefore = 0;  // as in the frames of that cycle
-    Watchdog m_watchdog;             // hears new frames; not in lockstep
+    Watchdog m_watchdog;             // hears new frames; see watchdogTime()
     std::optional<InterruptibleWaits> m_waits;
 
     struct AtomicCounters

@@ -84,6 +84,8 @@ messages::ClockKind clockKindOf(QPlcClock clock)
         return messages::ClockKind::Scaled;
     case QPlcClock::Lockstep:
         return messages::ClockKind::Lockstep;
+    case QPlcClock::External:
+        return messages::ClockKind::External;
     }
     return messages::ClockKind::RealTime;
 }

@@ -35,6 +35,12 @@ void MasterReports::take()
     m_becameSafe.clear();
 }
 
+void MasterReports::takeNews()
+{
+    if (!m_cycle.reports().isEmpty())
+        take();
+}
+
 void MasterReports::takeLast()
 {
     take();

@@ -32,6 +32,8 @@ MasterCycle::Phase RealTimePhase::settingsOfCycles() const
     phase.realTimeOptions = m_settings.realTimeOptions;
     phase.gapLimit = m_settings.gapLimit.value_or(defaults.gapLimit);
     phase.longestWait = m_settings.longestWait.value_or(defaults.longestWait);
+    if (phase.clock.isExternal() && phase.longestWait == std::chrono::nanoseconds(0))
+        phase.longestWait = ProfileDefaults::longestStep;
     phase.usualHold = defaults.hold;
     phase.overrunLimit = m_settings.overrunLimit;
     return phase;
@@ -52,7 +54,7 @@ bool RealTimePhase::start(QString *error)
     }
     m_gone.clear();
     m_rosters.forgetAbandoned();
-    m_ownSignals.statistics().start(&m_cycle, &m_registry, m_settings.clock.isLockstep());
+    m_ownSignals.statistics().start(&m_cycle, &m_registry, !m_settings.clock.isTimed());
     m_journal.watchOverruns(&m_cycle.cycleStatistics());
     m_journal.clearAll(QStringLiteral("over, a real-time phase has begun"));
     return true;

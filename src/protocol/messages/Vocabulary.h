@@ -106,13 +106,15 @@ struct Names<Part>
 };
 
 /// What time is.
-enum class ClockKind : quint8 { RealTime, Scaled, Lockstep };
+enum class ClockKind : quint8 { RealTime, Scaled, Lockstep, External };
 
 template<>
 struct Names<ClockKind>
 {
-    static constexpr std::pair<ClockKind, const char *> all[]
-        = {{ClockKind::RealTime, "RealTime"}, {ClockKind::Scaled, "Scaled"}, {ClockKind::Lockstep, "Lockstep"}};
+    static constexpr std::pair<ClockKind, const char *> all[] = {{ClockKind::RealTime, "RealTime"},
+                                                                 {ClockKind::Scaled, "Scaled"},
+                                                                 {ClockKind::Lockstep, "Lockstep"},
+                                                                 {ClockKind::External, "External"}};
 };
 
 }  // namespace qplc::messages
