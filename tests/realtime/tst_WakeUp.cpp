@@ -2,8 +2,10 @@
 #include "realtime/SpscRing.h"
 #include "realtime/WakeUp.h"
 
+#include <QtCore/QDeadlineTimer>
 #include <QtTest/QtTest>
 
+#include <limits>
 #include <poll.h>
 #include <sys/resource.h>
 #include <thread>
@@ -13,6 +15,10 @@ using qplc::SpscRing;
 using qplc::WakeUp;
 
 namespace {
+
+/// Two threads that hand over to each other need a time slice for each step when others want their
+/// processors: they take so many steps as this time allows.
+constexpr std::chrono::seconds LongEnough{10};
 
 /// \param timeout  [ms]
 bool isReadable(const WakeUp &wakeUp, int timeout = 0)
@@ -114,14 +120,16 @@ void tst_WakeUp::lackOfDescriptorsIsReported()
 // load would be overtaken and the value be left lying without a wake-up.
 void tst_WakeUp::concurrentValueIsSeenOrWakesTheReader()
 {
-    constexpr int rounds = 100'000;
+    constexpr int end = std::numeric_limits<int>::max();
     SpscRing<int> ring(4);
     WakeUp wakeUp;
     std::atomic<int> begun{0};
     std::atomic<int> done{0};
     std::thread producer([&] {
-        for (int round = 1; round <= rounds; ++round) {
+        for (int round = 1;; ++round) {
             waitFor(begun, round);
+            if (begun.load() == end)
+                return;
             ring.push(round);
             wakeUp.notify();
             done.store(round);
@@ -129,7 +137,10 @@ void tst_WakeUp::concurrentValueIsSeenOrWakesTheReader()
     });
     int lost = 0;
     int taken = 0;
-    for (int round = 1; round <= rounds; ++round) {
+    int rounds = 0;
+    const QDeadlineTimer timer(LongEnough);
+    while (rounds < 100'000 && !timer.hasExpired()) {
+        const int round = ++rounds;
         begun.store(round);
         for (int delay = round % 1024; delay > 0; --delay)
             std::atomic_signal_fence(std::memory_order_seq_cst);  // the sides meet at each possible step
@@ -142,6 +153,7 @@ void tst_WakeUp::concurrentValueIsSeenOrWakesTheReader()
         wakeUp.notify();  // disarms
         wakeUp.consume();
     }
+    begun.store(end);
     producer.join();
     QCOMPARE(lost, 0);
     QCOMPARE(taken, rounds);
@@ -162,11 +174,12 @@ void tst_WakeUp::noWakeUpIsLost()
     SpscRing<int> ring(64);
     WakeUp wakeUp;
     std::thread producer([&] {
+        const QDeadlineTimer timer(LongEnough);
         for (int number = 0; number < count; ++number) {
             while (!ring.push(number))
                 std::this_thread::yield();
             wakeUp.notify();
-            if (number % burst == burst - 1)
+            if (number % burst == burst - 1 && !timer.hasExpired())
                 std::this_thread::yield();  // lets the reader fall asleep
         }
     });
