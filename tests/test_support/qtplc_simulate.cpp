@@ -128,7 +128,8 @@ int simulateSeeds(const QCommandLineParser &parser)
     const std::optional<quint64> count = number(parser, "seeds", 1);
     const soak::Scenario *scenario = soak::Scenario::named(parser.value(QStringLiteral("scenario")));
     if (!scenario)
-        std::fprintf(stderr, "qtplc_simulate: use --scenario %s\n",
+        std::fprintf(stderr, "qtplc_simulate: unknown scenario '%s'; use --scenario %s\n",
+                     qPrintable(parser.value(QStringLiteral("scenario"))),
                      qPrintable(soak::Scenario::names().join(QStringLiteral("|"))));
     if (!seconds || !first || !count || !scenario)
         return 2;
@@ -162,7 +163,11 @@ int main(int argc, char **argv)
          {QStringLiteral("list"), QStringLiteral("Lists the scenarios.")},
          {QStringLiteral("report"), QStringLiteral("Prints the report of each run and the digest of its traffic.")},
          {QStringLiteral("log"), QStringLiteral("Shows the log of the plant.")}});
-    parser.process(application);
+    if (!parser.parse(application.arguments())) {
+        std::fprintf(stderr, "qtplc_simulate: %s\n", qPrintable(parser.errorText()));
+        return 2;
+    }
+    parser.process(application);  // --help
     if (parser.isSet(QStringLiteral("list"))) {
         for (const soak::Scenario &scenario : soak::Scenario::all())
             std::printf("%-10s %s\n", qPrintable(scenario.profile.name), qPrintable(scenario.description));

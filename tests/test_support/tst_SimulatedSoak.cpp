@@ -335,7 +335,7 @@ void tst_SimulatedSoak::typingErrorsAreRefused_data()
 {
     QTest::addColumn<QStringList>("arguments");
     for (const char *arguments : {"--seeds 0", "--seeds -1", "--seed abc", "--seconds 1.5", "--scenario nobody", "7",
-                                  "--plan /nowhere/plan", "--plan /dev/null --seed 1"})
+                                  "--nonsense", "--seed", "--plan /nowhere/plan", "--plan /dev/null --seed 1"})
         QTest::newRow(arguments) << QString::fromLatin1(arguments).split(QLatin1Char(' '));
 }
 
