@@ -40,6 +40,8 @@ public:
     /// Calls \a scenario in a thread of its own with a new simulator, and returns when the scenario
     /// has returned. Objects of the scenario, hosts first, have to be destroyed before it returns.
     /// \param seed  start of all random numbers
+    /// \param scenario  lets no exception out: one ends the test program. In a test framework that
+    ///     fails by exceptions, collect the results and check them after run()
     /// \pre a QCoreApplication exists
     static void run(quint64 seed, const std::function<void(QPlcSimulator &)> &scenario);
 

@@ -176,7 +176,8 @@ int main(int argc, char **argv)
     if (!parser.isSet(QStringLiteral("log")))
         QLoggingCategory::setFilterRules(QStringLiteral("*=false"));
     if (!parser.positionalArguments().isEmpty()) {
-        std::fprintf(stderr, "qtplc_simulate: '%s' is no option\n", qPrintable(parser.positionalArguments().first()));
+        std::fprintf(stderr, "qtplc_simulate: unexpected argument '%s'; use the options of --help\n",
+                     qPrintable(parser.positionalArguments().first()));
         return 2;
     }
     const QString plan = parser.value(QStringLiteral("plan"));
