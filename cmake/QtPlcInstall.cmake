@@ -55,6 +55,9 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/QtPlcConfigVersion.cmake 
 install(FILES ${PROJECT_BINARY_DIR}/QtPlcConfig.cmake ${PROJECT_BINARY_DIR}/QtPlcConfigVersion.cmake
     ${CMAKE_CURRENT_LIST_DIR}/FindSodium.cmake ${CMAKE_CURRENT_LIST_DIR}/QtPlcComponents.cmake
     DESTINATION ${package_directory} COMPONENT libqtplc-dev)
+install(FILES ${CMAKE_CURRENT_LIST_DIR}/QtPlcSimulink.cmake DESTINATION ${package_directory} COMPONENT libqtplc-dev)
+install(FILES ${CMAKE_CURRENT_LIST_DIR}/simulink/generate.py ${CMAKE_CURRENT_LIST_DIR}/simulink/headers.py
+    ${CMAKE_CURRENT_LIST_DIR}/simulink/model.py DESTINATION ${package_directory}/simulink COMPONENT libqtplc-dev)
 # The documents with all that they link to; the menu Help of windows shows them.
 install(FILES LICENSE README.md CHANGELOG.md CONTRIBUTING.md SECURITY.md DESTINATION ${CMAKE_INSTALL_DOCDIR}
     COMPONENT qtplc-doc)
