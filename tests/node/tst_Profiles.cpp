@@ -70,19 +70,24 @@ void tst_Profiles::chosenProfileOverridesTheDetectedOne_data()
     QTest::addColumn<int>("wanted");
     QTest::addColumn<QString>("hardware");
     QTest::addColumn<QString>("network");
-    QTest::addColumn<bool>("lockstep");
+    QTest::addColumn<QPlcClock>("clock");
     QTest::addColumn<int>("profile");
     const auto row = [](const char *name, Profile::Value wanted, const char *hardware, const char *network,
-                        bool lockstep, Profile::Value profile) {
-        QTest::newRow(name) << int(wanted) << QString(hardware) << QString(network) << lockstep << int(profile);
+                        QPlcClock clock, Profile::Value profile) {
+        QTest::newRow(name) << int(wanted) << QString(hardware) << QString(network) << clock << int(profile);
     };
-    row("a desk", Profile::Automatic, "", "", false, Profile::Simulation);
-    row("lockstep on a network", Profile::Automatic, "", "10.0.0.1", true, Profile::Simulation);
-    row("a clock that runs on a network", Profile::Automatic, "", "10.0.0.1", false, Profile::Plant);
-    row("devices", Profile::Automatic, "Winch", "", false, Profile::Plant);
-    row("devices in lockstep", Profile::Automatic, "Winch", "", true, Profile::Plant);
-    row("a person wants a simulation", Profile::Simulation, "Winch", "10.0.0.1", false, Profile::Simulation);
-    row("a person wants a plant", Profile::Plant, "", "", true, Profile::Plant);
+    const auto realTime = QPlcClock::realTime();
+    const auto lockstep = QPlcClock::lockstep();
+    const auto external = QPlcClock::external();
+    row("a desk", Profile::Automatic, "", "", realTime, Profile::Simulation);
+    row("lockstep on a network", Profile::Automatic, "", "10.0.0.1", lockstep, Profile::Simulation);
+    row("a turned clock on a network", Profile::Automatic, "", "10.0.0.1", external, Profile::Simulation);
+    row("a clock that runs on a network", Profile::Automatic, "", "10.0.0.1", realTime, Profile::Plant);
+    row("devices", Profile::Automatic, "Winch", "", realTime, Profile::Plant);
+    row("devices in lockstep", Profile::Automatic, "Winch", "", lockstep, Profile::Plant);
+    row("devices with a turned clock", Profile::Automatic, "Winch", "", external, Profile::Plant);
+    row("a person wants a simulation", Profile::Simulation, "Winch", "10.0.0.1", realTime, Profile::Simulation);
+    row("a person wants a plant", Profile::Plant, "", "", lockstep, Profile::Plant);
 }
 
 void tst_Profiles::chosenProfileOverridesTheDetectedOne()
@@ -90,9 +95,9 @@ void tst_Profiles::chosenProfileOverridesTheDetectedOne()
     QFETCH(int, wanted);
     QFETCH(QString, hardware);
     QFETCH(QString, network);
-    QFETCH(bool, lockstep);
+    QFETCH(QPlcClock, clock);
     const qplc::ChosenProfile chosen
-        = qplc::chooseProfile({Profile::Value(wanted), false, Profile::Automatic, hardware, network, lockstep});
+        = qplc::chooseProfile({Profile::Value(wanted), false, Profile::Automatic, hardware, network, clock});
     QTEST(int(chosen.value), "profile");
     QVERIFY(!chosen.reason.isEmpty());
 }
