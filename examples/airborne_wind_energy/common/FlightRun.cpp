@@ -16,7 +16,7 @@ namespace {
 constexpr std::chrono::milliseconds period(10);
 constexpr std::chrono::milliseconds numbersPeriod(200);
 const char *const runOptions[] = {"scale", "overrun", "duration"};
-const char *const runFlags[] = {"lockstep", "real-time", "watch"};
+const char *const runFlags[] = {"lockstep", "real-time", "external", "watch"};
 
 /// \return false, with the message out, when picture or report could only fail later
 bool canShow(QPlcCoreApplication &application, const RunSettings &settings)
@@ -57,6 +57,10 @@ void addRunOptions(QPlcCoreApplication &application, const QString &defaultDurat
     application.addOption(QCommandLineOption(
         QStringLiteral("scale"), QStringLiteral("F times as fast as the real thing."), QStringLiteral("F")));
     application.addOption(QCommandLineOption(
+        QStringLiteral("external"),
+        QStringLiteral("A thread of the program turns the clock, as a simulator does that holds the master. Values are "
+                       "those of --lockstep.")));
+    application.addOption(QCommandLineOption(
         QStringLiteral("overrun"),
         QStringLiteral(
             "When a cycle is late by a period or more: skip, catch-up:N, shift, or stop. Lockstep has none."),
@@ -77,17 +81,20 @@ bool readRunOptions(QPlcCoreApplication &application, RunSettings *settings)
     const bool lockstep = application.isSet(QStringLiteral("lockstep"));
     const bool realTime = application.isSet(QStringLiteral("real-time"));
     const bool scaled = application.isSet(QStringLiteral("scale"));
-    if (int(lockstep) + int(realTime) + int(scaled) > 1) {
-        application.usageError(QStringLiteral("use one of --lockstep, --real-time and --scale"));
+    const bool external = application.isSet(QStringLiteral("external"));
+    if (int(lockstep) + int(realTime) + int(scaled) + int(external) > 1) {
+        application.usageError(QStringLiteral("use one of --lockstep, --real-time, --scale and --external"));
         return false;
     }
     double scale = 1.0;
     if (scaled && !application.number(QStringLiteral("scale"), 0.001, 1000.0, &scale))
         return false;
     settings->watch = application.isSet(QStringLiteral("watch"));
-    settings->clock = realTime || (settings->watch && !lockstep && !scaled) ? QPlcClock::realTime()
-        : scaled                                                            ? QPlcClock::scaled(scale)
-                                                                            : QPlcClock::lockstep();
+    const bool given = lockstep || scaled || external;
+    settings->clock = realTime || (settings->watch && !given) ? QPlcClock::realTime()
+        : scaled                                              ? QPlcClock::scaled(scale)
+        : external                                            ? QPlcClock::external()
+                                                              : QPlcClock::lockstep();
     settings->reportFile = application.value(QStringLiteral("report"));
     QString error;
     settings->overrunPolicy = QPlcOverrunPolicy::fromString(application.value(QStringLiteral("overrun")), &error);
@@ -188,6 +195,7 @@ FlightRun::~FlightRun()
     m_master.removeLocalNode(&m_observer);
     if (m_winchObserver)
         m_master.removeLocalNode(m_winchObserver.get());
+    endHost();  // no cycle runs any more
 }
 
 void FlightRun::begin()
@@ -247,11 +255,28 @@ void FlightRun::started()
     m_wallClock.start();
     m_numbersTimer.start();
     m_display.begin();
+    if (m_settings.clock.isExternal())
+        m_host = std::thread([this] { turnClock(); });
+}
+
+/// As a simulator does it that holds the master.
+void FlightRun::turnClock()
+{
+    using Result = QPlcMasterNode::StepResult;
+    for (Result result = Result::Complete; result == Result::Complete || result == Result::Late;)
+        result = m_master.step();
+}
+
+void FlightRun::endHost()
+{
+    if (m_host.joinable())
+        m_host.join();
 }
 
 void FlightRun::stopped()
 {
     m_wallTime = m_wallClock.nsecsElapsed();
+    endHost();
     m_numbersTimer.stop();
     m_display.end();
     requireNumbers();  // a flight may be shorter than the period of the timer

@@ -14,6 +14,7 @@
 
 #include <memory>
 #include <optional>
+#include <thread>
 
 namespace awe {
 
@@ -33,14 +34,15 @@ struct RunSettings
     bool stay = false;         // the program does not end with that flight: people stop and start as they like
 };
 
-/// The clock of a program that is started without --lockstep, --real-time, --scale and --watch;
-/// --help tells it.
+/// The clock of a program that is started without --lockstep, --real-time, --scale, --external and
+/// --watch; --help tells it.
 enum class DefaultClock {
     Lockstep,
     LockstepWithStartWith,  // real time without --start-with
 };
 
-/// --lockstep, --real-time, --scale, --overrun, --duration, --report, --watch: how a flight is run.
+/// --lockstep, --real-time, --scale, --external, --overrun, --duration, --report, --watch: how a
+/// flight is run.
 void addRunOptions(QPlcCoreApplication &application, const QString &defaultDuration,
                    DefaultClock clock = DefaultClock::Lockstep);
 /// \return false, with the message out, when an option cannot be meant
@@ -86,6 +88,8 @@ private:
     void start();
     bool setControls();
     void started();
+    void turnClock();
+    void endHost();
     void stopped();
     /// Whether the program ends with the flight that has begun by itself.
     bool endsWithFlight() const { return !m_settings.awaitedNodes.isEmpty() && !m_settings.stay; }
@@ -101,6 +105,7 @@ private:
     FlightDisplay m_display;
     QTimer m_numbersTimer;
     QElapsedTimer m_wallClock;
+    std::thread m_host;       // turns the clock External
     QPlcSchedule m_schedule;  // as the flight began
     QJsonObject m_report;
     qint64 m_wallTime = 0;  // [ns]

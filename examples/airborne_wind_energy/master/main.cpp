@@ -146,7 +146,7 @@ bool readMasterOptions(QPlcCoreApplication &application, MasterSettings *setting
     settings->run.awaitedNodes
         = application.value(QStringLiteral("start-with")).split(QLatin1Char(','), Qt::SkipEmptyParts);
     if (settings->run.awaitedNodes.isEmpty() && !application.isSet(QStringLiteral("lockstep"))
-        && !application.isSet(QStringLiteral("scale")))
+        && !application.isSet(QStringLiteral("scale")) && !application.isSet(QStringLiteral("external")))
         settings->run.clock = QPlcClock::realTime();
     return readAddresses(application, settings);
 }

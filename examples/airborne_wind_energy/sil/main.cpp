@@ -82,9 +82,12 @@ bool readPlant(QPlcCoreApplication &application, Settings *settings)
         return false;
     if (!run.plant.hasDrive())
         return true;
-    if (application.isSet(QStringLiteral("lockstep"))) {
-        application.usageError(QStringLiteral("--lockstep and a winch drive exclude each other, because a drive does "
-                                              "not wait: use --real-time or --scale"));
+    for (const char *clock : {"lockstep", "external"}) {
+        if (!application.isSet(QLatin1String(clock)))
+            continue;
+        application.usageError(QStringLiteral("--%1 and a winch drive exclude each other, because a drive does not "
+                                              "wait: use --real-time or --scale")
+                                   .arg(QLatin1String(clock)));
         return false;
     }
     if (run.clock.isLockstep())

@@ -47,7 +47,8 @@ void tst_ProgramOptions::helpNamesEveryOption_data()
                              "--lock-memory --enable-fault-injection --faults";
     const char *const model = " --wind --turbulence --seed --plant --winch";
     const char *const autopilot = " --gains --force-limit --dead-time";
-    const char *const run = " --lockstep --real-time --scale --overrun --duration --report --watch --signals";
+    const char *const run
+        = " --lockstep --real-time --scale --external --overrun --duration --report --watch --signals";
     const auto row = [](const char *program, const QByteArray &options) {
         QTest::newRow(program) << QString::fromLatin1(program) << QString::fromLatin1(options);
     };
@@ -153,7 +154,8 @@ void tst_ProgramOptions::badOptionsAreRefusedWithOneSentence_data()
         row(program, "--same-cycle --dead-time -1", "--dead-time -1: use a whole number of 0 ...");
     }
     for (const char *program : {"awe_master", "awe_sil"}) {
-        row(program, "--lockstep --real-time", "use one of --lockstep, --real-time and --scale");
+        row(program, "--lockstep --real-time", "use one of --lockstep, --real-time, --scale and --external");
+        row(program, "--scale 2 --external", "use one of --lockstep, --real-time, --scale and --external");
         row(program, "--scale 2 --real-time", "use one of");
         row(program, "--scale 0", "--scale 0");
         row(program, "--scale 1001", "--scale 1001");

@@ -164,6 +164,12 @@ void tst_awe_sil::addTransports()
     QTest::newRow("processes over udp") << QStringLiteral("--processes --transport udp");
     QTest::newRow("in one process through shared memory") << QStringLiteral("--transport local");
     QTest::newRow("processes with shared memory") << QStringLiteral("--processes --transport local");
+    QTest::newRow("turned by the program") << QStringLiteral("--external");
+    QTest::newRow("turned by the program, in one process over udp") << QStringLiteral("--external --transport udp");
+    for (const char *transport : {"udp", "tcp", "local"})
+        QTest::newRow(
+            qPrintable(QStringLiteral("turned by the master, processes over %1").arg(QLatin1String(transport))))
+            << QStringLiteral("--external --processes --transport %1").arg(QLatin1String(transport));
 }
 
 void tst_awe_sil::flightIsIdenticalOverEveryTransport_data()
