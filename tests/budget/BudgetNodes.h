@@ -8,7 +8,7 @@
 /// What a run of budget_cycles is about.
 struct BudgetRun
 {
-    QString transport = QStringLiteral("udp");  // udp, tcp, local, inprocess
+    QString transport = QStringLiteral("udp");  // udp, tcp, local, inprocess, steps
     int slaves = 1;
     quint64 cycles = 1000;
     int periodUs = 0;  // 0: lockstep

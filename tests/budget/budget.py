@@ -38,10 +38,12 @@ def groups(runs, build):
     return {
         "costs": {
             "inprocess": lambda: runs.costs("inprocess", MILLION),
+            "steps": lambda: runs.costs("steps", MILLION),
             **{kind: (lambda kind=kind: runs.costs(kind, NETWORK_CYCLES)) for kind in ("udp", "tcp", "local")},
         },
         "bytes": {"udp frame": runs.frames},
         "system calls": {
+            "steps": calls("master", "steps", 1),
             "slave, udp": calls("slave", "udp", 1),
             "slave, tcp": calls("slave", "tcp", 1),
             "slave, local": calls("slave", "local", 1),

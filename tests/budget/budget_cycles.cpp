@@ -31,7 +31,8 @@ bool readOptions(QPlcCoreApplication &application, BudgetRun *run, QString *mast
                                QString::fromLatin1(value)});
     };
     application.setDescription(QStringLiteral("A master or slave of a fixed number of cycles."));
-    add("transport", "udp", "Master: udp, tcp, local, or inprocess.");
+    add("transport", "udp",
+        "Master: udp, tcp, local, inprocess, or steps: in process, and the program turns the clock.");
     add("slaves", "1", "Master: number of slaves.");
     add("cycles", "1000", "Length of the phase.");
     add("period-us", "0", "Master: period [us]; 0: lockstep.");
@@ -79,18 +80,31 @@ bool waitFor(Sender *sender, Signal signal)
     return loop.exec() == 0;
 }
 
+/// Turns the clock until the phase ends. \return false when a step was not complete
+bool turn(QPlcMasterNode &master)
+{
+    while (master.state() == QPlcMasterNode::RealTime) {
+        if (master.step() != QPlcMasterNode::StepResult::Complete)
+            return false;
+    }
+    return true;
+}
+
 int runMaster(const BudgetRun &run)
 {
     QPlcMasterNode master;
     master.setSignalTable(budgetTable(run.slaves));
-    master.setClock(run.periodUs > 0 ? QPlcClock::realTime() : QPlcClock::lockstep());
+    const bool isTurned = run.transport == QLatin1String("steps");
+    master.setClock(isTurned               ? QPlcClock::external()
+                        : run.periodUs > 0 ? QPlcClock::realTime()
+                                           : QPlcClock::lockstep());
     if (run.periodUs > 0 && !master.setInterval(std::chrono::microseconds(run.periodUs)))
         return fail(master.errorString());
     master.setCycleLimit(run.cycles);
     BudgetProbe probe(run);
     master.addLocalNode(&probe);
     std::deque<BudgetSlave> slaves;  // in process
-    const bool isInProcess = run.transport == QLatin1String("inprocess");
+    const bool isInProcess = isTurned || run.transport == QLatin1String("inprocess");
     for (int i = 0; i < (isInProcess ? run.slaves : 0); ++i)
         master.addLocalNode(&slaves.emplace_back(run, i));
     if (!isInProcess && !master.startServer(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, 0)))
@@ -100,7 +114,7 @@ int runMaster(const BudgetRun &run)
         if (!waitFor(&master, &QPlcMasterNode::nodeRegistered))
             return fail(QStringLiteral("only %1 of %2 slaves came").arg(master.nodes().size() - 1).arg(run.slaves));
     }
-    if (!master.startRealTime() || !waitFor(&master, &QPlcMasterNode::realTimeHasStopped))
+    if (!master.startRealTime() || !(isTurned ? turn(master) : waitFor(&master, &QPlcMasterNode::realTimeHasStopped)))
         return fail(QStringLiteral("the cycles did not end: %1").arg(master.errorString()));
     QJsonObject fields = isInProcess ? slaves.front().costs() : probe.costs();
     fields.insert(QStringLiteral("cycles"), double(master.statistics().cycles));

@@ -10,6 +10,7 @@ from pathlib import Path
 
 PATIENCE = 100  # [s] for one run, far more than it takes
 LENGTHS = (1000, 3000)  # cycles of the two runs whose difference is taken
+IN_PROCESS = ("inprocess", "steps")  # steps: the program turns the clock
 UDP_OVER_IP = 28  # [byte] headers of a datagram on the wire
 
 
@@ -50,7 +51,7 @@ class Runs:
             return processes[-1]
 
         try:
-            in_process = plant if transport == "inprocess" else []
+            in_process = plant if transport in IN_PROCESS else []
             master = start(
                 master_under, f"--transport={transport}", f"--slaves={slaves}", f"--period-us={period_us}", *in_process
             )
@@ -58,7 +59,7 @@ class Runs:
             if port is None:
                 raise Failed("the master did not start")
             address = f"local://{port}" if transport == "local" else f"{transport}://127.0.0.1:{port}"
-            for i in range(0 if transport == "inprocess" else slaves):
+            for i in range(0 if transport in IN_PROCESS else slaves):
                 start(slave_under if i == 0 else (), f"--master={address}", f"--index={i}", *plant)
             answers = [json.loads(process.communicate(timeout=PATIENCE)[0] or "{}") for process in processes]
         except subprocess.TimeoutExpired as error:
@@ -72,7 +73,7 @@ class Runs:
             raise Failed(
                 f"{transport} with {slaves} slaves: exit codes {[process.returncode for process in processes]}"
             )
-        return answers[0], answers[-1] if slaves == 1 or transport == "inprocess" else answers[1]
+        return answers[0], answers[-1] if slaves == 1 or transport in IN_PROCESS else answers[1]
 
     def difference(self, what, lengths=LENGTHS):
         """Figures per cycle: what(cycles) for two lengths, so that start and end cancel out."""
@@ -85,7 +86,7 @@ class Runs:
         if "allocations" not in master or "allocations" not in slave:
             raise Failed(f"{transport}: the phase of {cycles} cycles ended too early")
         names = ("allocations", "locks", "page_faults")
-        if transport == "inprocess":
+        if transport in IN_PROCESS:
             return {name: master[name] for name in names}
         return {f"{who} {name}": costs[name] for who, costs in (("master", master), ("slave", slave)) for name in names}
 
