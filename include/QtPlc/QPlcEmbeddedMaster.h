@@ -37,11 +37,12 @@
 ///     void step(const QPlcCycle &) override {}
 /// };
 ///
-/// int simulate(const QPlcSignalTable &table)
+/// int main()
 /// {
+///     const char *const table = "[tetherSpeed]\ntype = Real64\n[tetherLength]\ntype = Real64\n";
 ///     QPlcEmbeddedMaster master;
 ///     master.call([&](QPlcMasterNode &node) {
-///         node.setSignalTable(table);
+///         node.setSignalTable(QPlcSignalTable::fromIni(table));
 ///         node.startServer(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, 50000));
 ///     });
 ///     Command *command = master.addNode<Command>();

@@ -201,12 +201,27 @@ public:
     /// of its own.
     ///
     /// \code
-    /// master.setClock(QPlcClock::external());
-    /// master.addLocalNode(&plant);
-    /// if (!master.startRealTime())  // local nodes alone: the cycles can begin at once
-    ///     return fail(master.errorString());
-    /// for (int cycle = 0; cycle < 100; ++cycle)
-    ///     master.step();
+    /// class Tank : public QPlcCompactSlaveNode
+    /// {
+    /// public:
+    ///     Tank() : QPlcCompactSlaveNode("Tank") {}
+    /// private:
+    ///     QPlcOutput<double> m_level{this, "level"};  // [m]
+    ///     void step(const QPlcCycle &cycle) override { m_level = m_level + cycle.dt(); }
+    /// };
+    /// int main(int argc, char **argv)
+    /// {
+    ///     QPlcCoreApplication application(argc, argv);
+    ///     QPlcMasterNode master;
+    ///     master.setSignalTable(QPlcSignalTable::fromIni("[level]\ntype = Real64\n"));
+    ///     master.setClock(QPlcClock::external());
+    ///     Tank tank;
+    ///     if (!master.addLocalNode(&tank) || !master.startRealTime())
+    ///         return application.usageError(master.errorString());
+    ///     for (int cycle = 0; cycle < 100; ++cycle)
+    ///         master.step();
+    ///     return 0;
+    /// }
     /// \endcode
     /// \threadsafe yes, between the start and the destruction of the master: any thread, one at a
     ///     time; a second one gets Busy. Do not call it, or other functions of the master, from the
