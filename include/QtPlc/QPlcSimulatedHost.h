@@ -98,6 +98,11 @@ public:
     bool isRunning() const { return m_program; }
     /// Runs \a code on this host.
     void call(const std::function<void()> &code);
+    /// Begins \a code on a thread of its own on this host, and returns at once. There it may call
+    /// QPlcMasterNode::step(), which waits for other hosts; it runs while virtual time passes.
+    /// \param code  has to return when step() returns Stopped or SafeStop: kill() waits for that
+    /// \pre a program runs
+    void startThread(const std::function<void()> &code);
 
     /// Ends the program. What its objects do while they are destroyed does not reach the network.
     /// \param end  what happens to its connections

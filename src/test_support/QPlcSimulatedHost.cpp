@@ -71,6 +71,14 @@ void QPlcSimulatedHost::call(const std::function<void()> &code)
     m_host->call(code);
 }
 
+void QPlcSimulatedHost::startThread(const std::function<void()> &code)
+{
+    if (!isRunning())
+        qFatal("QPlcSimulatedHost::startThread(): no program runs on host '%s'; call start() before",
+               qPrintable(name()));
+    m_host->startThread(code);
+}
+
 void QPlcSimulatedHost::kill(End end)
 {
     m_host->kill(end == Power ? qplc::SimulatedHost::End::Power : qplc::SimulatedHost::End::Program);

@@ -79,7 +79,8 @@ void SimulatedHost::kill(End end)
     m_isMute = true;
     setStopped(false);
     const Visit visit(this);
-    m_program.reset();
+    m_program.reset();  // what waits in a step of it hears that it has ended
+    m_threads.clear();
     QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);  // what was to end later ends with it
     m_kept.clear();
 }
@@ -88,6 +89,13 @@ void SimulatedHost::call(const std::function<void()> &code)
 {
     const Visit visit(this);
     m_simulator.deliver(code);
+}
+
+void SimulatedHost::startThread(const std::function<void()> &code)
+{
+    const Visit visit(this);
+    m_threads.push_back(makeStrand());
+    m_threads.back()->start(m_name, code);
 }
 
 void SimulatedHost::setStopped(bool stopped)

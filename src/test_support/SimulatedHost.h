@@ -57,6 +57,8 @@ public:
     void kill(End end = End::Program);
     /// Runs \a code on this host.
     void call(const std::function<void()> &code);
+    /// Begins \a code on a strand of its own, where it may wait. kill() waits for its end.
+    void startThread(const std::function<void()> &code);
     /// From now on the program stands still, as after SIGSTOP, while frames come in; or it goes on.
     void setStopped(bool stopped);
     bool isStopped() const noexcept { return m_isStopped; }
@@ -102,6 +104,7 @@ private:
     SeededRandom m_random;
     std::unique_ptr<ProgramScope> m_scope = std::make_unique<ProgramScope>();
     std::shared_ptr<void> m_program;
+    std::vector<std::unique_ptr<Strand>> m_threads;  // of the program
     std::vector<SimulatedEvent> m_kept;
     std::unique_ptr<ControlNetwork> m_network;
     Fiber *m_fiber = nullptr;

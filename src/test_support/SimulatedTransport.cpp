@@ -96,6 +96,9 @@ public:
     bool waitAlone(std::int64_t timeout, bool *arrived) noexcept override
     {
         m_read = 0;
+        if (timeout > 0 && !m_host.runningFiber())
+            qFatal("QPlcSimulator: a step waits for other hosts outside of a thread, where virtual time stands still; "
+                   "step in host.startThread([&] { ... })");
         if (m_end && timeout > 0)
             m_end->wait(m_host.now() + timeout);
         else if (timeout > 0)

@@ -64,6 +64,9 @@ const std::map<QString, Mistake> mistakes{
     {"runUntil() gets a negative time",
      {[](Plant &plant) { plant.simulator.runUntil([] { return false; }, -1us); },
       "QPlcSimulator::runUntil(): the time is -1000 ns; virtual time does not run back, use 0 or more"}},
+    {"a thread begins without a program",
+     {[](Plant &plant) { plant.winchHost.startThread([] {}); },
+      "QPlcSimulatedHost::startThread(): no program runs on host 'winch'; call start() before"}},
     {"program() is asked for another type",
      {[](Plant &plant) {
           plant.masterHost.start<QPlcMasterNode>();
