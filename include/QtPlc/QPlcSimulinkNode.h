@@ -16,11 +16,19 @@
 /// Simulink has exported. It has what does not depend on the model; the generated class adds one
 /// port for each root inport and outport, and calls the functions of the model.
 ///
-/// A test of such a node, or a program of your own, gets it from the generated header, which is
-/// called as the target of the node:
+/// A program with such a node, in short (the generated header is called as the target of the node):
 ///
 /// \code
-/// std::unique_ptr<QPlcSimulinkNode> make_winch_model();  // winch_model.h
+/// class WinchModel : public QPlcSimulinkNode
+/// {
+/// public:
+///     WinchModel() : QPlcSimulinkNode("Winch", std::chrono::milliseconds(10)) {}
+/// };
+///
+/// std::unique_ptr<QPlcSimulinkNode> make_winch_model()
+/// {
+///     return std::make_unique<WinchModel>();
+/// }
 ///
 /// int main(int argc, char **argv)
 /// {
