@@ -84,7 +84,9 @@ class Export:
         for include in extra:
             if not include.is_dir():
                 raise Refusal(f"INCLUDE '{include}' is not a folder; name the folder of the headers that are missing")
-        self.files = sorted(path for path in self.folder.rglob("*") if path.is_file())
+        builds = [path.parent for path in self.folder.rglob("CMakeCache.txt")]
+        files = (path for path in self.folder.rglob("*") if path.is_file())
+        self.files = sorted(path for path in files if not any(build in path.parents for build in builds))
         headers = [path for path in self.files if path.suffix in (".h", ".hpp")]
         self.folders = list(dict.fromkeys([self.folder, *(path.parent for path in headers), *extra]))
         self.headers = headers
@@ -217,7 +219,8 @@ class Reader:
                     f"'{self.header.name}' has no function '{name}'; name one of its functions with {role.upper()}: "
                     + ", ".join(sorted(known))
                 )
-        steps = [name for name in known if name.endswith("_step")]
+        own = self.header.read_text(encoding="utf-8", errors="replace")  # and not what it includes
+        steps = [name for name in known if name.endswith("_step") and re.search(rf"\b{name}\s*\(", own)]
         several = sorted(name for name in known if re.search(r"_step\d+$", name))
         if several:
             raise self._two_rates(", ".join(several))

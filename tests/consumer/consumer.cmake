@@ -61,6 +61,19 @@ if(NOT libraries STREQUAL "libQt5Core;libQt5Network")
     message(FATAL_ERROR "a node needs ${libraries}; it is to need libQt5Core and libQt5Network only")
 endif()
 
+# A node from an export of Simulink; another sample time, and a second node in the same program, are
+# refused.
+set(simulink ${SOURCE}/tests/consumer/simulink)
+set(models -DMODELS=${SOURCE}/tests/simulink)
+build_project(simulink ${simulink} ${models})
+run(${WORK}/simulink/pendulum --table)
+expect("\\[angle\\]\ntype = Real64")
+run_failing(${CMAKE_COMMAND} --build ${WORK}/simulink --target both)
+expect("only_one_node_of_Pendulum_because_its_variables_are_global")
+run_failing(${CMAKE_COMMAND} -S ${simulink} -B ${WORK}/simulink_period -DCMAKE_PREFIX_PATH=${prefix} ${models}
+    ${compiler} -DPERIOD=20ms)
+expect("the model has the sample time 0.01")
+
 # A window, as in the README. Without the component CMake and the compiler name the remedy.
 set(window ${SOURCE}/tests/consumer/window)
 if(EXISTS ${prefix}/include/QtPlc/QPlcControlCenter.h)
@@ -104,7 +117,7 @@ if(EXAMPLES)
     build_project(example ${SOURCE}/examples/airborne_wind_energy -DAWE_BUILD_TESTS=OFF
         -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=10 -DCMAKE_CXX_FLAGS_RELEASE=-O1)
     run(${CMAKE_COMMAND} --install ${WORK}/example)
-    foreach(program awe_master awe_model awe_compact_model awe_autopilot awe_sil)
+    foreach(program awe_master awe_model awe_compact_model awe_lawe_model awe_autopilot awe_sil)
         run(${prefix}/bin/${program} --version)
     endforeach()
     if(EXISTS ${prefix}/include/QtPlc/QPlcControlCenter.h)

@@ -99,6 +99,7 @@ def simulink_model(plant):
         "~/winch/build/winch_operator &": Expectation(after=lambda: plant.await_nodes(2)),
         "qtplc start": Expectation(after=flies),
         "qtplc list": Expectation(shows="tetherLength.*Winch"),
+        "build/winch_model --table": Expectation(shows=r"(?s)\[tetherSpeed\]\s+type = Real64.*\[tetherLength\]"),
     }
 
 

@@ -54,7 +54,7 @@ void ProcessFlight::startNodes()
     m_nodesStarted = true;
     m_address = QStringLiteral("--master=%1://127.0.0.1:%2").arg(m_arguments.transport).arg(*port);
     const ProcessGroup::Errors errors = errorsOfNodes();
-    if (!m_processes.start(QStringLiteral("awe_compact_model"), QStringList{m_address} + m_arguments.model, errors)
+    if (!m_processes.start(m_arguments.modelProgram, QStringList{m_address} + m_arguments.model, errors)
         || !m_processes.start(QStringLiteral("awe_autopilot"), QStringList{m_address} + m_arguments.autopilot, errors)
         || !startDrive() || !startWinch())
         QMetaObject::invokeMethod(

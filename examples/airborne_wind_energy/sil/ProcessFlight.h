@@ -12,6 +12,7 @@ namespace awe {
 /// What each program of a flight is told.
 struct ProcessArguments
 {
+    QString modelProgram = QStringLiteral("awe_compact_model");
     QStringList master;
     QStringList model;
     QStringList autopilot;

@@ -5,6 +5,7 @@
 #include "FlightReportText.h"
 #include "FlightRun.h"
 #include "ProcessFlight.h"
+#include "awe_lawe_model.h"
 
 #include <QtCore/QFile>
 
@@ -23,6 +24,7 @@ struct Settings
     QString transport;
     bool processes = false;
     bool sameCycle = false;
+    bool isExported = false;  // the model has the form of an export of Simulink
 };
 
 void addOptions(QPlcCoreApplication &application)
@@ -43,6 +45,11 @@ void addOptions(QPlcCoreApplication &application)
         QStringLiteral("Without autopilot, in one process: pitch and yaw speed [deg/s] and tether speed [m/s] stay as "
                        "they are given here."),
         QStringLiteral("PITCH,YAW,TETHER")));
+    application.addOption(QCommandLineOption(
+        QStringLiteral("model"),
+        QStringLiteral("The model that flies: compact (default), or lawe: the same in the form that Simulink exports, "
+                       "with a constant wind (5, 3, 0) m/s."),
+        QStringLiteral("KIND"), QStringLiteral("compact")));
     application.addOption(QCommandLineOption(QStringLiteral("processes"),
                                              QStringLiteral("Master, model and autopilot as processes of their own.")));
     application.addOption(
@@ -102,6 +109,24 @@ bool readPlant(QPlcCoreApplication &application, Settings *settings)
     return true;
 }
 
+/// \return false, with the message out, when --model does not fit
+bool readModel(QPlcCoreApplication &application, Settings *settings)
+{
+    const QString kind = application.value(QStringLiteral("model"));
+    settings->isExported = kind == QLatin1String("lawe");
+    QString error;
+    if (!settings->isExported && kind != QLatin1String("compact"))
+        error = QStringLiteral("--model %1: use compact or lawe").arg(kind);
+    const QStringList given = awe::givenModelOptions(application) + awe::givenPlantOptions(application);
+    if (settings->isExported && !given.isEmpty())
+        error = QStringLiteral("--model lawe and %1 exclude each other, because the exported model has its own "
+                               "parameters: use --model compact")
+                    .arg(given.first());
+    if (!error.isEmpty())
+        application.usageError(error);
+    return error.isEmpty();
+}
+
 /// A flight without autopilot. \return false, with the message out, when --controls does not fit
 bool readControls(QPlcCoreApplication &application, Settings *settings)
 {
@@ -129,7 +154,8 @@ bool readControls(QPlcCoreApplication &application, Settings *settings)
 bool readOptions(QPlcCoreApplication &application, Settings *settings)
 {
     settings->processes = application.isSet(QStringLiteral("processes"));
-    if (!awe::readRunOptions(application, &settings->run) || !readPlant(application, settings))
+    if (!awe::readRunOptions(application, &settings->run) || !readPlant(application, settings)
+        || !readModel(application, settings))
         return false;
     settings->sameCycle = application.isSet(QStringLiteral("same-cycle"));
     settings->transport = application.isSet(QStringLiteral("transport"))
@@ -183,6 +209,8 @@ int flyInProcesses(QPlcCoreApplication &application, const Settings &settings)
 {
     const QStringList table{QStringLiteral("--signals=%1").arg(application.value(QStringLiteral("signals")))};
     awe::ProcessArguments arguments;
+    if (settings.isExported)
+        arguments.modelProgram = QStringLiteral("awe_lawe_model");
     arguments.master = table + awe::givenRunOptions(application) + awe::givenPlantOptions(application)
         + QStringList{QStringLiteral("--mean-wind=%1").arg(settings.run.nominalWindSpeed, 0, 'g', 17)};
     if (!application.isSet(QStringLiteral("duration")))
@@ -226,21 +254,29 @@ bool attach(QPlcMasterNode &master, QPlcSlaveNode &node, const QString &transpor
         QStringLiteral("%1://127.0.0.1:%2").arg(transport).arg(master.serverPort())));
 }
 
+std::unique_ptr<QPlcSlaveNode> makeModel(const Settings &settings)
+{
+    if (settings.isExported)
+        return make_awe_lawe_model();
+    auto model = std::make_unique<awe::CompactModelNode>(
+        awe::KiteSimulation(settings.model.plant, settings.model.wind, settings.model.substeps));
+    model->setTwoPhase(settings.sameCycle);
+    return model;
+}
+
 int flyInOneProcess(QPlcCoreApplication &application, const Settings &settings)
 {
-    awe::CompactModelNode model(
-        awe::KiteSimulation(settings.model.plant, settings.model.wind, settings.model.substeps));
+    const std::unique_ptr<QPlcSlaveNode> model = makeModel(settings);
     awe::AutopilotNode autopilot(settings.autopilot.gains, settings.autopilot.extraDeadTime);
     autopilot.setSameCycle(settings.sameCycle);
-    model.setSameCycle(settings.sameCycle);
-    model.setTwoPhase(settings.sameCycle);
+    model->setSameCycle(settings.sameCycle);
     QPlcMasterNode master;
     if (settings.transport == multicast)
         master.setMulticastGroup(awe::defaultMulticastGroup());
     awe::RunSettings runSettings = settings.run;
     runSettings.reportFile.clear();  // written at the end, with the summary
     awe::FlightRun run(master, runSettings);
-    if (!run.isValid() || !attach(master, model, settings.transport, QStringLiteral("modelWorkload"))
+    if (!run.isValid() || !attach(master, *model, settings.transport, QStringLiteral("modelWorkload"))
         || (!settings.run.controls
             && !attach(master, autopilot, settings.transport, QStringLiteral("autopilotWorkload"))))
         return QPlcCoreApplication::UsageError;
@@ -250,7 +286,7 @@ int flyInOneProcess(QPlcCoreApplication &application, const Settings &settings)
     run.begin();
     const int exitCode = QCoreApplication::exec();
     autopilot.disconnectFromMaster();
-    model.disconnectFromMaster();
+    model->disconnectFromMaster();
     return conclude(run.report(), settings, exitCode);
 }
 

@@ -60,7 +60,7 @@ void tst_ProgramOptions::helpNamesEveryOption_data()
                    "--manifest --priority --cpu "
                    "--lock-memory --enable-fault-injection --faults")
             + run);
-    row("awe_sil", QByteArray("--processes --transport --same-cycle --controls") + run + model + autopilot);
+    row("awe_sil", QByteArray("--processes --transport --same-cycle --controls --model") + run + model + autopilot);
 }
 
 void tst_ProgramOptions::helpNamesEveryOption()
@@ -188,6 +188,8 @@ void tst_ProgramOptions::badOptionsAreRefusedWithOneSentence_data()
     row("awe_sil", "--processes --transport inprocess", "exclude each other");
     row("awe_sil", "--same-cycle --transport udp-multicast", "asked one by one: use udp, tcp or local");
     row("awe_sil", "--processes --wind 1,2", "--wind 1,2");
+    row("awe_sil", "--model list", "--model list: use compact or lawe");
+    row("awe_sil", "--model lawe --turbulence 0.1", "--model lawe and --turbulence=0.1 exclude each other");
     row("awe_sil", "--processes --watch", "--watch draws on a terminal");
     row("awe_sil", "--controls 0,0", "--controls 0,0: use three numbers X,Y,Z");
     row("awe_sil", "--controls 0,0,1 --processes", "leave out --processes and --winch drive");

@@ -73,6 +73,8 @@ private Q_SLOTS:
     void reportContainsTheAgeOfEveryLink_data();
     void reportContainsTheAgeOfEveryLink();
     void anotherSeedIsAnotherFlight();
+    void exportedModelFliesTheSameFlight_data();
+    void exportedModelFliesTheSameFlight();
     void clockSetsThePace_data();
     void clockSetsThePace();
     void interruptedFlightIsReported_data();
@@ -288,6 +290,34 @@ void tst_awe_sil::anotherSeedIsAnotherFlight()
     QCOMPARE(first.value(QStringLiteral("image_digest")), m_flight.value(QStringLiteral("image_digest")));
     QVERIFY(second.value(QStringLiteral("image_digest")) != first.value(QStringLiteral("image_digest")));
     QCOMPARE(second.value(QStringLiteral("cycles")).toInt(), 1000);
+}
+
+void tst_awe_sil::exportedModelFliesTheSameFlight_data()
+{
+    QTest::addColumn<QString>("options");
+    QTest::newRow("in one process") << QString();
+    QTest::newRow("processes") << QStringLiteral("--processes");
+}
+
+/// The third model: code in the form that Simulink exports, and a generated node around it.
+void tst_awe_sil::exportedModelFliesTheSameFlight()
+{
+    QFETCH(QString, options);
+    const auto flyWith = [&](const char *model) {
+        const QString report = m_folder.filePath(QStringLiteral("flight.json"));
+        QFile::remove(report);
+        const QStringList fixed{QStringLiteral("--duration=60"), QStringLiteral("--report"), report,
+                                QStringLiteral("--model=%1").arg(QLatin1String(model))};
+        const Outcome outcome = runProgram(path(), fixed + options.split(QLatin1Char(' '), Qt::SkipEmptyParts));
+        if (outcome.exitCode != 0)
+            qWarning().noquote() << outcome.exitCode << outcome.errors;
+        return readReport(report);
+    };
+    const QJsonObject compact = flyWith("compact");
+    const QJsonObject exported = flyWith("lawe");
+    QCOMPARE(exported.value(QStringLiteral("cycles")).toInt(), 6000);
+    QCOMPARE(exported.value(QStringLiteral("image_digest")), compact.value(QStringLiteral("image_digest")));
+    QCOMPARE(exported.value(QStringLiteral("energy_J")), compact.value(QStringLiteral("energy_J")));
 }
 
 void tst_awe_sil::clockSetsThePace_data()
