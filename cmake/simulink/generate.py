@@ -114,7 +114,8 @@ class Port:
 
     def description(self):
         values = ", ".join(f"{number}: {name}" for name, number in self.leaf.enum)
-        texts = [quoted(self.leaf.signal), quoted(self.leaf.description)] + ([quoted(values)] if values else [])
+        description = self.leaf.description if self.leaf.description != self.leaf.signal else ""
+        texts = [quoted(self.leaf.signal), quoted(description)] + ([quoted(values)] if values else [])
         return f"addSignal<{self.value_type()}>({', '.join(texts)});"
 
 
