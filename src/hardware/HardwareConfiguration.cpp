@@ -3,15 +3,12 @@
 
 #include "DriverSettingsData.h"
 #include "hardware/fake/FakeMemory.h"
-#include "signals/IniParser.h"
 #include "signals/MessageText.h"
 
 #include <QtCore/QJsonDocument>
 #include <QtCore/QJsonObject>
-#include <QtCore/QRegularExpression>
 
 #include <algorithm>
-#include <cmath>
 
 namespace qplc {
 
@@ -20,67 +17,19 @@ namespace {
 const QString nodeSection = QStringLiteral("node");
 const QStringList partNames{QStringLiteral("read"), QStringLiteral("write"), QStringLiteral("safe")};
 
-bool toFiniteNumber(const QString &text, double *number)
-{
-    bool isNumber = false;
-    *number = text.toDouble(&isNumber);
-    return isNumber && std::isfinite(*number);
-}
-
 }  // namespace
 
-bool ConfigurationTerm::fromText(const QString &text, ConfigurationTerm *term, QString *error)
-{
-    static const QRegularExpression pattern(
-        QStringLiteral(R"(^([^\s*+\[\]]+)(?:\[(\d{1,4})\])?(?:\s*\*\s*(\S+))?(?:\s+([+-])\s*(\S+))?$)"));
-    const QRegularExpressionMatch match = pattern.match(text);
-    *term = {};
-    const QString sign = match.captured(4);
-    const bool isGood = match.hasMatch()
-        && (match.captured(3).isEmpty() || toFiniteNumber(match.captured(3), &term->factor))
-        && (sign.isEmpty() || toFiniteNumber(match.captured(5), &term->offset));
-    if (!isGood) {
-        *error
-            = QStringLiteral("%1 is not a name with a factor and an offset; write for example 'speed', 'speed * 0.1' "
-                             "or 'position[2] * 0.001 - 5'")
-                  .arg(quoted(text));
-        return false;
-    }
-    term->name = match.captured(1);
-    term->element = match.captured(2).isEmpty() ? -1 : match.captured(2).toInt();
-    term->offset = sign == QLatin1String("-") ? -term->offset : term->offset;
-    return true;
-}
-
 HardwareConfiguration::HardwareConfiguration(const QByteArray &text, const QString &fileName)
-    : m_fileName(fileName)
+    : ConfigurationFile(fileName)
 {
     if (fileName.endsWith(QLatin1String(".json"), Qt::CaseInsensitive))
         readJson(text);
     else
-        readIni(text);
+        readIni(text, QStringLiteral("[node] or the name of a device in brackets"));
     interpret();
 }
 
 // ---- text ----
-
-void HardwareConfiguration::readIni(const QByteArray &text)
-{
-    IniParser parser(text);
-    for (IniItem item = parser.next(); item.kind != IniItem::End; item = parser.next()) {
-        if (!item.error.isEmpty())
-            addError(item.line, item.errorColumn, item.error);
-        else if (item.kind == IniItem::Section)
-            addSection(item.name, item.line, item.column);
-        else if (m_sections.isEmpty())
-            addError(item.line, item.column,
-                     QStringLiteral(
-                         "%1 stands before the first section; begin with [node] or the name of a device in brackets")
-                         .arg(quoted(item.name)));
-        else
-            addEntry({item.name, item.value, item.line, item.valueColumn});
-    }
-}
 
 void HardwareConfiguration::readJson(const QByteArray &text)
 {
@@ -106,12 +55,12 @@ void HardwareConfiguration::readJson(const QByteArray &text)
 void HardwareConfiguration::readJsonSection(const QString &name, const QJsonObject &object, bool isPart)
 {
     addSection(name, 0, 0);
-    const int own = m_sections.size() - 1;
+    const int own = sections().size() - 1;
     for (auto entry = object.begin(); entry != object.end(); ++entry) {
         if (entry->isObject() && !isPart)
             readJsonSection(name + QLatin1Char('.') + entry.key(), entry->toObject(), true);
         else if (entry->isString() || entry->isDouble() || entry->isBool())
-            m_sections[own].entries.append({entry.key(), entry->toVariant().toString(), 0, 0});
+            addEntry(own, {entry.key(), entry->toVariant().toString(), 0, 0});
         else
             addError(0, 0,
                      QStringLiteral("%1 of section %2 is not a text, number or truth value")
@@ -119,49 +68,27 @@ void HardwareConfiguration::readJsonSection(const QString &name, const QJsonObje
     }
 }
 
-void HardwareConfiguration::addSection(const QString &name, int line, int column)
-{
-    const auto isSame = [&](const Section &section) { return section.name == name; };
-    if (std::any_of(m_sections.begin(), m_sections.end(), isSame))
-        addError(line, column, QStringLiteral("section %1 is there twice; put its lines together").arg(quoted(name)));
-    m_sections.append({name, line, {}});
-}
-
-void HardwareConfiguration::addEntry(const ConfigurationEntry &entry)
-{
-    QVector<ConfigurationEntry> &entries = m_sections.last().entries;
-    const auto isSame = [&](const ConfigurationEntry &other) { return other.key == entry.key; };
-    const auto former = std::find_if(entries.begin(), entries.end(), isSame);
-    if (former != entries.end())
-        addError(entry.line, 1,
-                 QStringLiteral("%1 is there twice, first in line %2; leave one of them out")
-                     .arg(quoted(entry.key))
-                     .arg(former->line));
-    else
-        entries.append(entry);
-}
-
 // ---- meaning ----
 
 void HardwareConfiguration::interpret()
 {
-    for (const Section &section : qAsConst(m_sections)) {
+    for (const ConfigurationSection &section : sections()) {
         if (section.name == nodeSection)
             readNode(section);
         else if (!section.name.contains(QLatin1Char('.')))
             readDriver(section);
     }
-    for (const Section &section : qAsConst(m_sections)) {
+    for (const ConfigurationSection &section : sections()) {
         const int dot = section.name.lastIndexOf(QLatin1Char('.'));
         if (dot >= 0)
             readPart(section, section.name.left(dot), section.name.mid(dot + 1));
     }
-    if (m_drivers.isEmpty() && m_errors.isEmpty())
+    if (m_drivers.isEmpty() && errors().isEmpty())
         addError(0, 0,
                  QStringLiteral("there is no device; begin a section for each of them: [drive], driver = can, ..."));
 }
 
-void HardwareConfiguration::readNode(const Section &section)
+void HardwareConfiguration::readNode(const ConfigurationSection &section)
 {
     for (const ConfigurationEntry &entry : section.entries) {
         if (entry.key == QLatin1String("name")) {
@@ -186,7 +113,7 @@ void HardwareConfiguration::readNode(const Section &section)
     }
 }
 
-void HardwareConfiguration::readDriver(const Section &section)
+void HardwareConfiguration::readDriver(const ConfigurationSection &section)
 {
     Driver driver;
     driver.name = section.name;
@@ -205,7 +132,7 @@ void HardwareConfiguration::readDriver(const Section &section)
     m_drivers.append(driver);
 }
 
-void HardwareConfiguration::readPart(const Section &section, const QString &name, const QString &part)
+void HardwareConfiguration::readPart(const ConfigurationSection &section, const QString &name, const QString &part)
 {
     const auto driver
         = std::find_if(m_drivers.begin(), m_drivers.end(), [&](const Driver &other) { return other.name == name; });
@@ -249,7 +176,7 @@ void HardwareConfiguration::readWire(Driver *driver, QPlcChannel::Direction dire
 void HardwareConfiguration::readSafeValue(Driver *driver, const ConfigurationEntry &entry)
 {
     SafeValue safe{entry.key, 0.0, entry};
-    if (toFiniteNumber(entry.value, &safe.value))
+    if (finiteNumberFromText(entry.value, &safe.value))
         driver->safeValues.append(safe);
     else
         addError(entry,
@@ -273,10 +200,10 @@ std::unique_ptr<QPlcDriverSettings> HardwareConfiguration::settings(const Driver
 {
     auto data = std::make_unique<QPlcDriverSettings::Private>();
     data->name = driver.name;
-    data->fileName = m_fileName;
+    data->fileName = fileName();
     data->entries = driver.keys;
     data->section = driver.entry;
-    data->errors = &m_errors;
+    data->errors = errorList();
     return std::unique_ptr<QPlcDriverSettings>(new QPlcDriverSettings(std::move(data)));
 }
 
@@ -289,18 +216,6 @@ void HardwareConfiguration::checkUse(const QPlcDriverSettings &settings)
                      QStringLiteral("%1 is not a key of this driver%2")
                          .arg(quoted(entry.key), didYouMean(closeNames(entry.key, data.asked))));
     }
-}
-
-// ---- errors ----
-
-void HardwareConfiguration::addError(const ConfigurationEntry &entry, const QString &message)
-{
-    addError(entry.line, entry.column, message);
-}
-
-void HardwareConfiguration::addError(int line, int column, const QString &message)
-{
-    m_errors.append({m_fileName, line, column, message});
 }
 
 }  // namespace qplc
