@@ -33,7 +33,7 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON) # of those that have libraries
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR}/src ${PROJECT_BINARY_DIR}/src/hardware
-    ${PROJECT_BINARY_DIR}/src/gui ${PROJECT_BINARY_DIR}/src/gui3d)
+    ${PROJECT_BINARY_DIR}/src/models ${PROJECT_BINARY_DIR}/src/gui ${PROJECT_BINARY_DIR}/src/gui3d)
 if(CMAKE_CROSSCOMPILING)
     execute_process(COMMAND dpkg-architecture -t ${CMAKE_LIBRARY_ARCHITECTURE} -q DEB_HOST_ARCH
         OUTPUT_VARIABLE CPACK_DEBIAN_PACKAGE_ARCHITECTURE OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
@@ -97,7 +97,7 @@ qtplc_package(qtplc-tools SECTION utils
     SUMMARY "distributed real-time controllers, tools"
     DESCRIPTION "The command qtplc looks into a running QtPLC plant and steers it, and tells
 whether a computer is fit for real time. The service qtplc-hardware@ ties
-signals to devices."
+signals to devices, and qtplc_fmu makes nodes of FMUs (FMI 2.0 and 3.0)."
     DEPENDS libqtplc adduser RECOMMENDS qtplc-doc)
 qtplc_package(qtplc-doc SECTION doc ALL_ARCHITECTURES
     SUMMARY "distributed real-time controllers, documents"

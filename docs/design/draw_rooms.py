@@ -32,6 +32,7 @@ PLACES = {
     "gui/store": (2, 7.7, "past of values"),
     "tools": (6.0, 0, "qtplc"),
     "hardware": (8.2, 0, "drivers, wires"),
+    "models": (9.4, 0, "FMUs"),
     "test_support": (9.4, 5.3, "simulator"),
     "node/api": (7.1, 1.4, "master, node, ports"),
     "node/session": (7.1, 2.7, "control channel"),

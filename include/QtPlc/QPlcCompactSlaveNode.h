@@ -75,6 +75,11 @@ public:
     bool sendsQuality() const;
 
 protected:
+    /// Called at each registration, before the ports are compared with the table. Make ports here
+    /// whose names follow from the table. An exception ends the registration with its text. The
+    /// default does nothing.
+    /// \param table  the signal table that the node uses
+    virtual void declarePorts(const QPlcSignalTable &table) { Q_UNUSED(table) }
     /// Brings the node into its initial state and sets its outputs. Called in the thread of the
     /// object at each initialization, and when the node joins cycles that run. The default calls
     /// compactInitializeOutputSignals().

@@ -112,6 +112,11 @@ if(EXISTS ${prefix}/include/QtPlc/QPlcHardwareNode.h)
     expect("configuration")
 endif()
 
+if(EXISTS ${prefix}/include/QtPlc/QPlcFmuNode.h)
+    run(${prefix}/bin/qtplc_fmu node --help)
+    expect("--master")
+endif()
+
 if(EXAMPLES)
     # Whether it compiles and flies is of interest, not how fast.
     build_project(example ${SOURCE}/examples/airborne_wind_energy -DAWE_BUILD_TESTS=OFF

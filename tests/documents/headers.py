@@ -22,6 +22,7 @@ from pathlib import Path
 LIBRARIES = {
     "core": ("QtPlcCore", "<QtNetwork/QtNetwork>"),
     "hardware": ("QtPlcHardware", "<QtNetwork/QtNetwork>"),
+    "models": ("QtPlcModels", "<QtNetwork/QtNetwork>"),
     "gui": ("QtPlcGui", "<QtWidgets/QtWidgets>"),
     "gui3d": ("QtPlcGui3D", "<QtWidgets/QtWidgets>"),
     "test": ("QtPlcTest", "<QtNetwork/QtNetwork>"),

@@ -4,8 +4,9 @@
 are its programs.
 
 usage: typed_howtos.py PAGE SOURCE_FOLDER BUILD_FOLDER
-PAGE: wire-a-sensor, simulink-model, write-a-panel, test-a-node or test-a-plant
+PAGE: wire-a-sensor, simulink-model, fmu-as-a-node, write-a-panel, test-a-node or test-a-plant
 """
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -23,6 +24,7 @@ NOT_TYPED = {
         "sudo systemctl enable --now qtplc-hardware@wind": NEEDS_ROOT,
     },
     "simulink-model": {},
+    "fmu-as-a-node": {},
     "write-a-panel": {},
     "test-a-node": {},
     "test-a-plant": {},
@@ -103,6 +105,26 @@ def simulink_model(plant):
     }
 
 
+def fmu_as_a_node(plant):
+    def flies():
+        plant.await_value("tetherLength", lambda length: length >= 309.0, ">= 309")
+        plant.await_value("tetherSpeed", lambda speed: speed < 0.0, "< 0")
+        plant.await_value("tetherLength", lambda length: length <= 301.0, "<= 301")
+
+    return {
+        "qtplc_fmu info model.fmu": Expectation(shows=r"input +Real +u \[m/s\]"),
+        "qtplc_fmu check model.fmu": Expectation(shows="no faults found"),
+        "tail -n 1 model.csv": Expectation(shows=r"2,(3|2\.9999|3\.0000)"),
+        "qtplc_fmu node model.fmu --check": Expectation(shows="signals of the same name"),
+        "build/winch_master --signals winch.ini &": Expectation(after=lambda: plant.terminal.await_text("port 50000")),
+        "qtplc_fmu node winch_fmu.ini &": Expectation(after=lambda: plant.await_nodes(1)),
+        "build/winch_operator &": Expectation(after=lambda: plant.await_nodes(2)),
+        "qtplc start": Expectation(after=flies),
+        "qtplc list": Expectation(shows="tetherLength.*Winch"),
+        "qtplc_fmu bench model.fmu --step 0.005 --count 1000 --period 0.01": Expectation(shows="1000 steps of 0.005 s"),
+    }
+
+
 def write_a_panel(plant):
     return {
         "~/winch/build/winch_master --signals ~/winch/winch.ini &": Expectation(
@@ -152,10 +174,13 @@ def main():
             expected, folder = {
                 "wire-a-sensor": (wire_a_sensor, "winch"),
                 "simulink-model": (simulink_model, "winch_model"),
+                "fmu-as-a-node": (fmu_as_a_node, "winch"),
                 "write-a-panel": (write_a_panel, "my_window"),
                 "test-a-node": (test_a_node, "node_tests"),
                 "test-a-plant": (test_a_plant, "winch_tests"),
             }[page]
+            if page == "fmu-as-a-node":
+                shutil.copy(build / "tests" / "models" / "fmus" / "plant2.fmu", home / folder / "model.fmu")
             terminal.type(f"cd ~/{folder}")
             Reader(
                 source / "docs" / "howto" / f"{page}.md", home / folder, terminal, expected(plant), NOT_TYPED[page]

@@ -30,6 +30,7 @@ ARROWS = {
     "node/api": BELOW_NODE
     | {"node", "node/state", "node/security", "node/cycle", "node/statistics", "node/session", "node/api"},
     "hardware": {"signals", "realtime", "node", "node/session", "hardware"},
+    "models": {"signals", "realtime", "node", "models"},
     "gui": {"signals", "node", "gui"},
     "gui/store": {"signals", "gui/store"},
     "gui/plant": {
@@ -75,6 +76,7 @@ ARROWS = {
 # belong to QtPlc::Core.
 LIBRARIES = {
     "hardware": ("src/hardware", "QtPlcHardware"),
+    "models": ("src/models", "QtPlcModels"),
     "gui": ("src/gui", "QtPlcGui"),
     "gui3d": ("src/gui3d", "QtPlcGui3D"),
     "test_support": ("src/test_support", "QtPlcTest"),
@@ -93,6 +95,7 @@ HEADER_ONLY = {
     "QPlcGuiGlobal": "gui",
     "QPlcGui3DGlobal": "gui3d",
     "QPlcHardwareGlobal": "hardware",
+    "QPlcModelsGlobal": "models",
     "QPlcReadChannel": "hardware",
     "QPlcWriteChannel": "hardware",
     "QPlcInput": "node",
@@ -198,7 +201,7 @@ KERNEL = {
     r"|(?<!class )\bQ(?:Tcp|Ssl|Abstract)Socket\b(?!\s*(?:[*&]|::))"
     rf"|{GLOBAL}(?:socket|accept)\s*\(|{with_arguments('socket', 3)}",
 }
-HOSTED = ("signals", "realtime", "protocol", "transport", "node", "gui", "gui3d", "hardware", "tools")
+HOSTED = ("signals", "realtime", "protocol", "transport", "node", "gui", "gui3d", "hardware", "models", "tools")
 # A window shows the time of the person before it, and measures its own drawing.
 OF_ROOM = {"gui": {"a clock"}, "gui3d": {"a clock"}}
 # Why, what, and by which files the machine itself is asked. A list that only shrinks: one day the
@@ -264,6 +267,7 @@ OF_MACHINE = (
     ("wakes the thread of a device", "a wake-up", "hardware/can/QtCanBus.cpp"),
     ("waits for the threads of devices", "a sleep", "hardware/QPlcHardwareNode.cpp"),
     ("is a bus of the kernel", "a socket", "hardware/can/SocketCanBus.cpp hardware/can/FakeCanBus.cpp"),
+    ("ends a process whose foreign code does not return", "a timer", "models/program/CrashReport.cpp"),
     ("prints at a rate that a person wants", "a clock", "tools/EchoCommand.cpp"),
     ("makes keys, which nobody can guess", "a random number", "tools/KeysCommand.cpp"),
 )

@@ -104,6 +104,7 @@ step "Build it" inside cmake --build /tmp/winch/build || fail "the program does 
 inside /tmp/winch/build/winch --help | grep -q -- --master || fail "the program does not run"
 [ ! -e "$root/usr/include/QtPlc/QPlcHardwareNode.h" ] || inside qtplc_hardware --drivers > /dev/null \
     || fail "qtplc_hardware fails"
+[ ! -e "$root/usr/include/QtPlc/QPlcFmuNode.h" ] || inside qtplc_fmu node --help > /dev/null || fail "qtplc_fmu fails"
 
 # A service has made these by now.
 install --directory "$root/var/lib/qtplc" "$root/var/log/qtplc" "$root/etc/qtplc"

@@ -139,6 +139,7 @@ bool QPlcCompactSlaveNode::PortCode::declaresSameCycle()
 
 bool QPlcCompactSlaveNode::PortCode::declare(const QPlcSignalTable &table, Declaration *declaration, QString *error)
 {
+    m_node.declarePorts(table);
     QStringList errors;
     for (const QPlcPort *port : m_ports) {
         const QPlcSignalIndex index = table.indexOf(port->name());

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "models/FmuModel.h"
+
+class QPlcApplicationOptions;
+
+namespace fmu {
+
+/// An FMU without a plant, as the options of a command say: opened, loaded, with all outputs that
+/// are numbers.
+class LoneModel
+{
+public:
+    struct Output
+    {
+        const qplc::FmuVariable *variable = nullptr;
+        qplc::FmuExchange::Place place;
+    };
+
+    /// --step, --stop, --tolerance, --set, --log
+    static void addOptions(QPlcApplicationOptions &application);
+    /// \return null, with the message out, when an option is wrong or the FMU cannot be used
+    static std::unique_ptr<LoneModel> open(QPlcApplicationOptions &application);
+
+    qplc::FmuModel &model() { return *m_model; }
+    const QVector<Output> &outputs() const { return m_outputs; }
+    std::chrono::nanoseconds step() const { return m_step; }
+    /// Number of steps until the end.
+    qint64 stepCount() const { return m_stepCount; }
+    /// The bytes of an output.
+    const char *bytesOf(const Output &output) { return m_model->outputs().at(output.place); }
+    int elementSizeOf(const qplc::FmuVariable &variable) const;
+    /// Values of an output, separated by blanks.
+    QString textOf(const Output &output);
+    /// Prints what the FMU has reported.
+    void printLog();
+
+private:
+    bool readSettings(QPlcApplicationOptions &application);
+    bool readStarts(QPlcApplicationOptions &application, qplc::FmuModel::Settings *settings);
+
+    std::unique_ptr<qplc::FmuModel> m_model;
+    QVector<Output> m_outputs;
+    std::chrono::nanoseconds m_step{0};
+    qint64 m_stepCount = 0;
+};
+
+}  // namespace fmu
