@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Makes the inputs that the fuzzers begin with, and the words that they put into them, out of
-docs/protocol/vectors, signals, examples and tests/hardware.
+docs/protocol/vectors, signals, examples, tests/hardware and tests/models.
 
     make_corpus.py --check    says whether corpus/ and the dictionaries hold what this script makes
                               (exit code 1 when not)
@@ -514,6 +514,57 @@ DBC_WORDS = ["BO_ ", "SG_ ", "VAL_ ", "SIG_VALTYPE_ ", "SG_MUL_VAL_ ", "BA_ ", "
 # fmt: on
 
 
+# ---- descriptions of FMUs: the text as it is -----------------------------------------------------
+
+
+def description(version, variables, more=""):
+    return (
+        f'<fmiModelDescription fmiVersion="{version}.0" modelName="M" guid="g"><CoSimulation modelIdentifier="m"/>'
+        f"{more}<ModelVariables>{variables}</ModelVariables></fmiModelDescription>"
+    )
+
+
+ODD_DESCRIPTIONS = {
+    "arrays of fmi2": description(
+        2,
+        "".join(
+            f'<ScalarVariable name="A[{i},{j}]" valueReference="{i}{j}"><Real/></ScalarVariable>'
+            for i in (2, 1)
+            for j in (1, 2)
+        ),
+    ),
+    "dimensions of fmi3": description(
+        3,
+        '<UInt64 name="n" valueReference="1" causality="structuralParameter" start="2"/>'
+        '<Float32 name="A" valueReference="2"><Dimension valueReference="1"/><Dimension start="0"/><Alias name="B"/>'
+        "</Float32>",
+    ),
+    "texts and clocks": description(
+        3, '<String name="s" valueReference="1"><Start value="&#65;"/></String><Clock name="c" valueReference="2"/>'
+    ),
+    "comments": description(2, "<!-- ' = --><![CDATA[' = ]]><?a ' = ?>"),
+    "entities": '<!DOCTYPE a [<!ENTITY b "&c;">]><fmiModelDescription>&b;</fmiModelDescription>',
+    "everything wrong": '<fmiModelDescription fmiVersion="2.0"><CoSimulation modelIdentifier="../m"/><ModelVariables>'
+    '<ScalarVariable name="" valueReference="-1" causality="x"><Real start="',
+}
+
+
+def fmu_descriptions():
+    files = {path.stem: path.read_bytes() for path in (ROOT / "tests/models/fmu").glob("*.xml")}
+    files.update({name: text.encode() for name, text in ODD_DESCRIPTIONS.items()})
+    return files
+
+
+# fmt: off
+FMU_WORDS = ["<ScalarVariable ", "</ScalarVariable>", "<Real/>", "<Enumeration/>", "<Item ", "<Float64 ",
+             "<UInt64 ", "<Dimension ", "<Start ", "<Alias ", "<CoSimulation ", "<ModelExchange ",
+             "<ModelVariables>", "</ModelVariables>", "<TypeDefinitions>", "<SimpleType ", "<DefaultExperiment ",
+             "name=", "valueReference=", "causality=", "variability=", "start=", "declaredType=",
+             "structuralParameter", "fmiVersion=", "3.0", "<!--", "-->", "<![CDATA[", "<!DOCTYPE ", "&#65;",
+             "1e308", "4294967296", "[1,2]"]
+# fmt: on
+
+
 # ---- words that inputs are made of ---------------------------------------------------------------
 
 # fmt: off
@@ -555,6 +606,7 @@ def dictionaries():
     return {
         "keys.dict": dictionary(KEYS),
         "dbc.dict": dictionary(DBC_WORDS),
+        "fmu.dict": dictionary(FMU_WORDS),
         "manifest.dict": dictionary(MANIFEST_WORDS),
         "rights.dict": dictionary(RIGHTS_WORDS),
         "layout.dict": dictionary(LAYOUT_WORDS),
@@ -577,6 +629,7 @@ def main():
         ("session", sessions()),
         ("local_link", local_links()),
         ("dbc_file", dbc_files()),
+        ("fmu_description", fmu_descriptions()),
         ("nmea", nmea()),
         ("key_file", {name: text.encode() for name, text in KEY_FILES.items()}),
         ("beacon", beacons()),
