@@ -406,8 +406,9 @@ QPlcMasterNode::StepResult QPlcMasterNodePrivate::step()
     if (!parts)
         return QPlcMasterNode::StepResult::Stopped;
     const Step result = parts->cycle.step();
-    if (QThread::currentThreadId() == m_startThread && !qplc::Host::current().runningStrand())
-        parts->reports.takeNews();
+    if (QThread::currentThreadId() == m_startThread && parts->reports.hasNews()
+        && !qplc::Host::current().runningStrand())
+        parts->reports.take();
     switch (result) {
     case Step::Complete:
         return QPlcMasterNode::StepResult::Complete;

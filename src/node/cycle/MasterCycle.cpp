@@ -302,7 +302,7 @@ MasterCycle::Step MasterCycle::runStep() noexcept
         return Step::Stopped;
     if (m_guard.isTripped())
         return Step::Safe;
-    return m_exchange.isComplete() ? Step::Complete : Step::Late;
+    return !m_roster->anyRemote || m_exchange.isComplete() ? Step::Complete : Step::Late;
 }
 
 /// The cycles of a safe stop, where nobody else runs them.

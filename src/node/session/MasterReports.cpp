@@ -35,12 +35,6 @@ void MasterReports::take()
     m_becameSafe.clear();
 }
 
-void MasterReports::takeNews()
-{
-    if (!m_cycle.reports().isEmpty())
-        take();
-}
-
 void MasterReports::takeLast()
 {
     take();

@@ -21,8 +21,8 @@ public:
     void take();
     /// The last reports of a phase.
     void takeLast();
-    /// As take(), at the cost of a look if nothing is there.
-    void takeNews();
+    /// Whether take() would find something.
+    bool hasNews() const { return !m_cycle.reports().isEmpty(); }
     /// Whether the wait at hand is worth an event: not when all late nodes have a silent policy.
     bool isWaitTold() const { return m_isWaitTold; }
 
