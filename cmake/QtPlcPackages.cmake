@@ -85,9 +85,9 @@ the cycle and the values of all signals, nodes read and write them by name.
 These are the libraries that nodes need at run time, without windows.")
 qtplc_package(libqtplc-dev SECTION libdevel
     SUMMARY "distributed real-time controllers, for building nodes"
-    DESCRIPTION "Headers of QtPLC, and what find_package(QtPlc) finds. Python reads code that
-Simulink has exported."
-    DEPENDS libqtplc qtbase5-dev python3 RECOMMENDS qtplc-doc)
+    DESCRIPTION "Headers of QtPLC, and what find_package(QtPlc) finds: also the functions that make
+FMUs and controller libraries of nodes. Python reads code that Simulink has exported."
+    DEPENDS libqtplc qtbase5-dev libsodium-dev python3 RECOMMENDS qtplc-doc)
 qtplc_package(libqtplc-test-dev SECTION libdevel
     SUMMARY "distributed real-time controllers, for testing nodes"
     DESCRIPTION "What find_package(QtPlc COMPONENTS Test) finds: whole plants in one thread and in

@@ -33,6 +33,7 @@ PLACES = {
     "tools": (6.0, 0, "qtplc"),
     "hardware": (8.2, 0, "drivers, wires"),
     "models": (9.4, 0, "FMUs"),
+    "export": (9.4, 1.4, "FMU, DISCON"),
     "test_support": (9.4, 5.3, "simulator"),
     "node/api": (7.1, 1.4, "master, node, ports"),
     "node/session": (7.1, 2.7, "control channel"),

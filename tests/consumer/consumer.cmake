@@ -106,6 +106,34 @@ if(EXISTS ${prefix}/include/QtPlc/QPlcSimulator.h)
     run(${WORK}/plant_test/tst_Winch)
 endif()
 
+# A test of a user's node, as in docs/howto/test-a-node.md.
+build_project(node_test ${SOURCE}/docs/howto/code/node_test)
+run(${WORK}/node_test/tst_Winch)
+
+# Nodes for the programs of others. The files contain QtPLC, and export nothing else than the
+# functions of their interface.
+function(expect_interface library functions)
+    run(nm --dynamic --defined-only --format=posix ${library})
+    string(REGEX MATCHALL "[^\n]+" symbols "${output}")
+    foreach(symbol IN LISTS symbols)
+        if(NOT symbol MATCHES "^(${functions})")
+            message(FATAL_ERROR "${library} exports ${symbol}")
+        endif()
+    endforeach()
+    run(ldd ${library})
+    if(output MATCHES "libQtPlc")
+        message(FATAL_ERROR "${library} needs a library of QtPLC\n${output}")
+    endif()
+endfunction()
+file(COPY ${SOURCE}/docs/howto/code/fmu/ ${SOURCE}/docs/tutorial/code/Winch.h ${SOURCE}/docs/tutorial/code/winch.ini
+    DESTINATION ${WORK}/fmu_project)
+build_project(fmu ${WORK}/fmu_project)
+build_project(turbine ${SOURCE}/examples/wind_turbine)
+build_project(export ${SOURCE}/tests/consumer/export)
+expect_interface(${WORK}/fmu/qtplc_add_fmu/winch/library/winch.so "fmi[23]")
+expect_interface(${WORK}/turbine/discon/libdiscon_example.so "DISCON ")
+expect_interface(${WORK}/export/qtplc_add_fmu/doubler/library/doubler.so "fmi[23]")
+
 if(EXISTS ${prefix}/include/QtPlc/QPlcHardwareNode.h)
     build_project(howto ${SOURCE}/docs/howto/code)
     run(${WORK}/howto/weather_node --help)

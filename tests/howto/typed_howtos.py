@@ -4,12 +4,16 @@
 are its programs.
 
 usage: typed_howtos.py PAGE SOURCE_FOLDER BUILD_FOLDER
-PAGE: wire-a-sensor, simulink-model, fmu-as-a-node, write-a-panel, test-a-node or test-a-plant
+PAGE: wire-a-sensor, simulink-model, fmu-as-a-node, write-a-panel, test-a-node, test-a-plant,
+my-node-as-an-fmu or my-controller-as-a-dll
 """
+import ctypes
+import re
 import shutil
 import subprocess
 import sys
 import tempfile
+import zipfile
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "typed"))
@@ -28,6 +32,8 @@ NOT_TYPED = {
     "write-a-panel": {},
     "test-a-node": {},
     "test-a-plant": {},
+    "my-node-as-an-fmu": {},
+    "my-controller-as-a-dll": {},
 }
 
 
@@ -139,6 +145,57 @@ def test_a_node(_plant):
     return {"build/tst_Winch -silent": Expectation(shows=r"Totals: 5 passed, 0 failed")}
 
 
+def step_the_fmu(folder):
+    """As a host of FMI 2.0: a second with 2 m/s."""
+    with zipfile.ZipFile(folder / "build/fmu/winch.fmu") as fmu:
+        fmu.extractall(folder / "unpacked")
+    description = (folder / "unpacked/modelDescription.xml").read_text()
+    guid = re.search(r'guid="([^"]+)"', description)[1].encode()
+
+    def reference(name):
+        return ctypes.byref(ctypes.c_uint(int(re.search(rf'name="{name}" valueReference="(\d+)"', description)[1])))
+
+    library = ctypes.CDLL(folder / "unpacked/binaries/linux64/winch.so")
+    library.fmi2Instantiate.restype = ctypes.c_void_p
+    winch = ctypes.c_void_p(library.fmi2Instantiate(b"winch", 1, guid, None, None, 0, 0))
+    speed, length = ctypes.c_double(2.0), ctypes.c_double()
+    done = [
+        library.fmi2SetupExperiment(winch, 0, ctypes.c_double(), ctypes.c_double(), 0, ctypes.c_double()),
+        library.fmi2EnterInitializationMode(winch),
+        library.fmi2ExitInitializationMode(winch),
+        library.fmi2SetReal(winch, reference("tetherSpeed"), ctypes.c_size_t(1), ctypes.byref(speed)),
+        library.fmi2DoStep(winch, ctypes.c_double(0.0), ctypes.c_double(1.0), 1),
+        library.fmi2GetReal(winch, reference("tetherLength"), ctypes.c_size_t(1), ctypes.byref(length)),
+    ]
+    library.fmi2FreeInstance(winch)
+    require(not any(done), f"functions of the FMU return {done}")
+    require(abs(length.value - 302.0) < 1e-9, f"the tether is {length.value} m long, not 302 m")
+
+
+def my_node_as_an_fmu(plant):
+    return {
+        "cmake -E tar tf build/fmu/winch.fmu": Expectation(
+            shows="binaries/linux64/winch.so", after=lambda: step_the_fmu(plant.home / "winch_fmu")
+        )
+    }
+
+
+def call_the_controller(folder):
+    """As OpenFAST does, once."""
+    library = ctypes.CDLL(folder / "build/discon/libdiscon_example.so")
+    file, message = str(folder / "records.ini").encode(), ctypes.create_string_buffer(400)
+    records, fail = (ctypes.c_float * 200)(), ctypes.c_int(99)
+    for record, value in {3: 0.0125, 20: 100.0, 49: 400, 50: len(file)}.items():
+        records[record - 1] = value
+    library.DISCON(records, ctypes.byref(fail), file, b"", message)
+    require(fail.value == 0, f"aviFAIL is {fail.value}: {message.value.decode()}")
+    require(records[46] == 23300.0, f"the torque is {records[46]} N m, not 23300 N m")
+
+
+def my_controller_as_a_dll(plant):
+    return {"cmake --build build": Expectation(after=lambda: call_the_controller(plant.home / "turbine"))}
+
+
 def test_a_plant(_plant):
     return {"build/tst_Winch -silent": Expectation(shows=r"Totals: 4 passed, 0 failed")}
 
@@ -177,6 +234,8 @@ def main():
                 "fmu-as-a-node": (fmu_as_a_node, "winch"),
                 "write-a-panel": (write_a_panel, "my_window"),
                 "test-a-node": (test_a_node, "node_tests"),
+                "my-node-as-an-fmu": (my_node_as_an_fmu, "winch_fmu"),
+                "my-controller-as-a-dll": (my_controller_as_a_dll, "turbine"),
                 "test-a-plant": (test_a_plant, "winch_tests"),
             }[page]
             if page == "fmu-as-a-node":

@@ -68,6 +68,8 @@ ARROWS = {
         "gui/window",
     },
     "gui3d": {"signals", "node", "gui", "gui/panel", "gui3d"},
+    # Users compile it: public headers alone.
+    "export": {"signals", "node", "export"},
     "test_support": BELOW_NODE | {"node", "test_support"},
     "tools": BELOW_NODE
     | {"node", "node/state", "node/security", "node/cycle", "node/statistics", "node/session", "tools"},

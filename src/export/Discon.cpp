@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+// A node as a controller DLL of Bladed, OpenFAST and HAWC2.
+#include "DisconMapping.h"
+#include "ExportedNode.h"
+
+#include <cmath>
+#include <cstring>
+
+using namespace qplc_export;
+
+namespace {
+
+// Records are counted from 1.
+constexpr int StatusRecord = 1;         // 0: first call, 1: step, -1: last call
+constexpr int TimeRecord = 2;           // [s]
+constexpr int PeriodRecord = 3;         // [s] between two calls
+constexpr int MessageSizeRecord = 49;   // [characters] of avcMSG
+constexpr int FileNameSizeRecord = 50;  // [characters] of accINFILE
+constexpr std::size_t LongestFileName = 4096;
+constexpr std::size_t LongestMessage = 1024;
+
+/// What the host gives with a call.
+struct Call
+{
+    float *records;
+    const char *file;
+
+    float record(int number) const { return records[number - 1]; }
+    int whole(int number) const
+    {
+        const float value = record(number);
+        return std::abs(value) < 1e9F ? int(std::lround(value)) : 0;
+    }
+    QString fileName() const
+    {
+        const int given = whole(FileNameSizeRecord);
+        const std::size_t most = given > 0 ? std::min(std::size_t(given), LongestFileName) : LongestFileName;
+        return file ? QString::fromLocal8Bit(file, int(::strnlen(file, most))).trimmed() : QString();
+    }
+};
+
+/// The node from a first call to the last one.
+class Controller
+{
+public:
+    /// \return false, with a sentence in text()
+    bool call(const Call &call);
+    QString text() const { return m_text; }
+
+private:
+    bool fail(const QString &text)
+    {
+        m_text = text;
+        return false;
+    }
+    bool begin(const Call &call);
+    bool setPeriod(float seconds);
+    bool step(const Call &call);
+    bool readInputs(const Call &call);
+    void writeOutputs(const Call &call) const;
+
+    std::unique_ptr<ExportedNode> m_node;
+    DisconMapping m_mapping;
+    QString m_text;
+    bool m_isRunning = false;
+    double m_start = 0.0;  // [s] time of cycle 0
+};
+
+bool Controller::call(const Call &call)
+{
+    m_text.clear();
+    const int status = call.whole(StatusRecord);
+    if (status == 0)
+        return begin(call);
+    if (!m_isRunning)
+        return fail(QStringLiteral("there was no successful first call (record 1 = 0) before this one (record 1 = %1)")
+                        .arg(status));
+    if (status > 0)
+        return step(call);
+    m_node->runner().stop();
+    m_isRunning = false;
+    return true;
+}
+
+bool Controller::begin(const Call &call)
+{
+    m_isRunning = false;
+    m_node = std::make_unique<ExportedNode>();
+    QString error;
+    if (!m_node->make(&error) || !m_mapping.read(call.fileName(), *m_node, &error))
+        return fail(error);
+    if (!setPeriod(call.record(PeriodRecord)))
+        return false;
+    m_start = double(call.record(TimeRecord));
+    if (!std::isfinite(m_start))
+        return fail(QStringLiteral("the time in record 2 is not a finite number"));
+    QPlcNodeRunner &runner = m_node->runner();
+    if (!runner.reset())
+        return fail(runner.errorString());
+    if (!readInputs(call))
+        return false;
+    if (!runner.initialize())
+        return fail(runner.errorString());
+    m_isRunning = true;
+    return step(call);
+}
+
+/// The host decides, unless the library was made for one period.
+bool Controller::setPeriod(float seconds)
+{
+    QPlcNodeRunner &runner = m_node->runner();
+    const double given = double(seconds);
+    if (!(given >= 1e-5 && given <= 10.0))
+        return fail(QStringLiteral("the period in record 3 is %1 s; use 10 us to 10 s").arg(given));
+    const double own = double(runner.period().count()) * 1e-9;
+    if (identity.period == 0)  // 0.1F is 0.100000001 s
+        return runner.setPeriod(std::chrono::nanoseconds(std::llround(given * 1e6) * 1000))
+            || fail(runner.errorString());
+    if (std::abs(given - own) <= 1e-6 * own)
+        return true;
+    return fail(QStringLiteral("the period in record 3 is %1 s, and this controller is made for %2 s; set the host to "
+                               "that (OpenFAST: DLL_DT)")
+                    .arg(given)
+                    .arg(own));
+}
+
+/// Hosts repeat a call in iterations, and may leave times out.
+bool Controller::step(const Call &call)
+{
+    QPlcNodeRunner &runner = m_node->runner();
+    const double period = double(runner.period().count()) * 1e-9;
+    const double now = std::round((double(call.record(TimeRecord)) - m_start) / period);
+    const auto next = double(runner.nextCycle());
+    if (!(now >= next - 1.0 && now < 1e12))
+        return fail(QStringLiteral("the time in record 2 is %1 s, and the controller is at %2 s; time must not go back")
+                        .arg(double(call.record(TimeRecord)))
+                        .arg(m_start + (next - 1.0) * period));
+    if (now >= next) {
+        if (!readInputs(call))
+            return false;
+        runner.skip(quint64(now - next));
+        const bool hasComputed = runner.step();
+        writeOutputs(call);
+        if (!hasComputed)
+            return m_isRunning = false, fail(runner.errorString());
+        if (runner.wantsSafeStop())
+            return fail(QStringLiteral("the controller wants a safe stop"));
+        return true;
+    }
+    writeOutputs(call);
+    return true;
+}
+
+bool Controller::readInputs(const Call &call)
+{
+    for (const DisconMapping::Entry &entry : m_mapping.inputs()) {
+        const double value = double(call.record(entry.record)) * entry.factor;
+        if (!m_node->runner().setReal(entry.signal, value, entry.element))
+            return fail(QStringLiteral("%1 in record %2 does not fit signal '%3' of type %4")
+                            .arg(value)
+                            .arg(entry.record)
+                            .arg(m_node->signal(entry.signal).name, m_node->signal(entry.signal).type.name()));
+    }
+    return true;
+}
+
+void Controller::writeOutputs(const Call &call) const
+{
+    for (const DisconMapping::Constant &constant : m_mapping.constants())
+        call.records[constant.record - 1] = float(constant.value);
+    for (const DisconMapping::Entry &entry : m_mapping.outputs())
+        call.records[entry.record - 1] = float(m_node->runner().real(entry.signal, entry.element) * entry.factor);
+}
+
+/// As long as the host has room for it.
+void tell(const Call &call, const QString &text, char *message)
+{
+    const int given = call.whole(MessageSizeRecord);
+    if (!message || given <= 0)
+        return;
+    const QByteArray bytes = (QLatin1String(identity.name) + QStringLiteral(": ") + text).toUtf8();
+    const std::size_t room = std::min(std::size_t(given), LongestMessage) - 1;
+    const std::size_t size = std::min(room, std::size_t(bytes.size()));
+    std::memcpy(message, bytes.constData(), size);
+    message[size] = '\0';
+}
+
+}  // namespace
+
+/// One turbine for each copy of the library, as the interface wants it.
+extern "C" __attribute__((visibility("default"))) void DISCON(float *avrSWAP, int *aviFAIL, const char *accINFILE,
+                                                              char *, char *avcMSG)
+{
+    static Controller controller;
+    if (!avrSWAP || !aviFAIL)
+        return;
+    const Call call{avrSWAP, accINFILE};
+    const bool isDone = controller.call(call);
+    *aviFAIL = isDone ? 0 : -1;
+    tell(call, controller.text(), isDone ? nullptr : avcMSG);
+}
