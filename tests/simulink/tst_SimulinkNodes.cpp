@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Nodes generated from models in each form that Simulink exports. The models are written by hand.
+#include "ThreadCosts.h"
 #include "counter_node_test.h"
 #include "gearbox_node_test.h"
 #include "node/api/QPlcSlaveNodePrivate.h"
@@ -12,6 +13,7 @@
 #include <QtTest/QtTest>
 
 #include <cmath>
+#include <thread>
 
 using qplc::NodeRuntime;
 using namespace std::chrono_literals;
@@ -122,6 +124,7 @@ private Q_SLOTS:
     void classesComputeAndReportErrors();
     void classesWithAccessFunctionsCompute();
     void outputAndUpdateMakeATwoPhaseNode();
+    void stepsAllocateAndLockNothing();
 };
 
 void tst_SimulinkNodes::globalsComputeWhatTheSolverDoes()
@@ -361,6 +364,30 @@ void tst_SimulinkNodes::outputAndUpdateMakeATwoPhaseNode()
     plant.set("inflow", QPlcValue(1.0));
     QVERIFY(plant.step());
     QCOMPARE(plant.get("level").toReal(), 2.75);  // + inflow - level / 8
+}
+
+void tst_SimulinkNodes::stepsAllocateAndLockNothing()
+{
+    if (!ThreadCosts::areCounted())
+        QSKIP("the sanitizer owns malloc", "");
+    Plant pendulum(make_pendulum_node_test()), gearbox(make_gearbox_node_test()), counter(make_counter_node_test());
+    QVERIFY(pendulum.reset() && gearbox.reset() && counter.reset());
+    bool isComplete = true;
+    ThreadCosts spent;
+    std::uint64_t counted = 0;
+    std::thread([&] {
+        ThreadCosts::watchThisThread();
+        delete new QObject;
+        const ThreadCosts before = ThreadCosts::ofWatchedThreads();
+        counted = before.allocations;
+        for (int i = 0; i < 1000; ++i)
+            isComplete = pendulum.step() && gearbox.step() && counter.step() && isComplete;
+        spent = ThreadCosts::ofWatchedThreads() - before;
+    }).join();
+    QVERIFY(isComplete);
+    QVERIFY(counted >= 1);  // the counter counts
+    QCOMPARE(spent.allocations, std::uint64_t(0));
+    QCOMPARE(spent.locks, std::uint64_t(0));
 }
 
 QTEST_GUILESS_MAIN(tst_SimulinkNodes)
