@@ -94,6 +94,17 @@ void tst_Refusals::aWrongRegistrationIsRejected_data()
                                 << QStringList{"'inputs'"};
     QTest::newRow("signals as texts") << QJsonObject{{"inputs", QJsonArray{"count"}}} << "MalformedMessage"
                                       << QStringList{"'inputs'"};
+    // A node that means to be critical must not become one that nobody misses.
+    QTest::newRow("critical as a number")
+        << QJsonObject{{"critical", 1}} << "MalformedMessage" << QStringList{"'critical'", "bool"};
+    QTest::newRow("critical as a text") << QJsonObject{{"critical", "true"}} << "MalformedMessage"
+                                        << QStringList{"'critical'", "bool"};
+    QTest::newRow("two phases as a number")
+        << QJsonObject{{"twoPhase", 1}} << "MalformedMessage" << QStringList{"'twoPhase'", "bool"};
+    QTest::newRow("qualities as a number")
+        << QJsonObject{{"quality", 1}} << "MalformedMessage" << QStringList{"'quality'", "bool"};
+    QTest::newRow("qualities of outputs as a number")
+        << QJsonObject{{"outputQuality", 1}} << "MalformedMessage" << QStringList{"'outputQuality'", "bool"};
     QTest::newRow("cyclic channel") << QJsonObject{{"cyclic", "pigeon"}} << "MalformedMessage"
                                     << QStringList{"'pigeon'"};
     QTest::newRow("port 0") << QJsonObject{{"udpPort", 0}} << "MalformedMessage" << QStringList{"65535"};

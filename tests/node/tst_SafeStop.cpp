@@ -55,6 +55,7 @@ private Q_SLOTS:
     void listenersContinueAndMayJoinDuringASafeStop();
     void safeStopWithoutCyclesEndsSequencesAndLatchesNothing();
     void controlChannelCarriesSafeStopAndReset();
+    void aLongReasonIsCut();
     void aResetEndsOnlyTheSafeStopThatItsSenderHasSeen();
     void anArmedStartNeedsItsTokenAndReadiness();
 };
@@ -378,6 +379,24 @@ void tst_SafeStop::controlChannelCarriesSafeStopAndReset()
     QCOMPARE(master.state(), QPlcMasterNode::SafeStop);
     QCOMPARE(tool.ask(QPlcMessage::Reset, {{"latch", state.fields().value("latch")}}).kind(), QPlcMessage::Done);
     QCOMPARE(tool.ask(QPlcMessage::GetState).text("state"), QString("Off"));
+}
+
+// Everybody may stop safely, and each State has the reason.
+void tst_SafeStop::aLongReasonIsCut()
+{
+    TestMaster master(QPlcClock::realTime());
+    QVERIFY(master.listen());
+    SafeNode winch;
+    QVERIFY(master.addLocalNode(&winch));
+    ScriptedTool tool;
+    QVERIFY(tool.greetAt(master.serverPort()));
+    QCOMPARE(tool.ask(QPlcMessage::InitializeAllStates).kind(), QPlcMessage::StatesInitialized);
+    QCOMPARE(tool.next().kind(), QPlcMessage::Done);
+    QCOMPARE(tool.ask(QPlcMessage::StartRealTime).kind(), QPlcMessage::Done);
+    QCOMPARE(tool.ask(QPlcMessage::SafeStop, {{"reason", QString(100000, 'x')}}).kind(), QPlcMessage::Done);
+    const QPlcMessage state = tool.ask(QPlcMessage::GetState);
+    QCOMPARE(state.text("state"), QString("SafeStop"));
+    QCOMPARE(state.text("reason").count('x'), 1000);
 }
 
 void tst_SafeStop::aResetEndsOnlyTheSafeStopThatItsSenderHasSeen()

@@ -14,10 +14,17 @@ namespace {
 
 constexpr std::size_t mostEvents = 200;  // in one answer
 constexpr int longestText = 64;          // [characters] of who stops, and how
+constexpr int longestReason = 1000;      // [characters] of what becomes the reason of a state
 
 QString wordOf(const QString &given)
 {
     return qplc::printable(given).left(longestText);
+}
+
+/// Each State has it, so a long one would make each of them long.
+QString reasonOf(const QString &given)
+{
+    return qplc::printable(given).left(longestReason);
 }
 
 }  // namespace
@@ -44,7 +51,7 @@ public:
     {
         if (!isOfNode(fault.kind))
             return;
-        const QString text = qplc::printable(fault.text);
+        const QString text = reasonOf(fault.text);
         const std::shared_ptr<qplc::NodeSession> node = m_connection->session;
         if (fault.phase && !(d.parts->phase.isRunning() && d.parts->phase.cycleZero() == *fault.phase)) {
             qCWarning(lcMaster).noquote() << "node" << m_connection->name << "in a phase that has ended:" << text;
@@ -83,7 +90,7 @@ public:
     }
     void operator()(const messages::SafeStop &stop) const
     {
-        const QString reason = stop.reason.isEmpty() ? QString() : QStringLiteral(": ") + qplc::printable(stop.reason);
+        const QString reason = stop.reason.isEmpty() ? QString() : QStringLiteral(": ") + reasonOf(stop.reason);
         d.parts->faults.safeStop(QStringLiteral("'%1' asked for it%2").arg(m_connection->shownName(), reason));
         m_connection->done();
     }

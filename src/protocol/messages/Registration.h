@@ -21,7 +21,7 @@ struct DeclaredSignal
     static constexpr auto fields = std::make_tuple(field("name", &DeclaredSignal::name, Presence::Required),
                                                    field("type", &DeclaredSignal::type, Presence::Required),
                                                    field("unit", &DeclaredSignal::unit),
-                                                   field("sameCycle", &DeclaredSignal::sameCycle, Presence::WhenSet),
+                                                   field("sameCycle", &DeclaredSignal::sameCycle, Presence::Checked),
                                                    field("safety", &DeclaredSignal::safety, Presence::Checked));
 };
 
@@ -50,13 +50,13 @@ struct Register
     static constexpr auto fields = std::make_tuple(
         field("name", &Register::name, Presence::Required), field("uuid", &Register::uuid),
         field("policy", &Register::policy, Presence::Required), field("listener", &Register::listener),
-        field("critical", &Register::critical, Presence::WhenSet),
+        field("critical", &Register::critical, Presence::Checked),
         field("every", &Register::every, Presence::Checked, Range{1, longestInterval}),
         field("inputs", &Register::inputs, Presence::Required),
         field("outputs", &Register::outputs, Presence::Required),
-        field("twoPhase", &Register::twoPhase, Presence::WhenSet),
-        field("quality", &Register::quality, Presence::WhenSet),
-        field("outputQuality", &Register::outputQuality, Presence::WhenSet),
+        field("twoPhase", &Register::twoPhase, Presence::Checked),
+        field("quality", &Register::quality, Presence::Checked),
+        field("outputQuality", &Register::outputQuality, Presence::Checked),
         field("watchdog", &Register::watchdog, Presence::Checked, Range{0, longestWatchdog}),
         field("cyclic", &Register::cyclic, Presence::Required), field("faults", &Register::faults, Presence::WhenSet),
         rest(&Register::transport));
