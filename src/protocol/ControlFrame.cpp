@@ -82,9 +82,11 @@ bool ControlFrameReader::next(QPlcMessage *message)
     const quint32 length = loadLittle<quint32>(m_buffer.constData() + m_begin);
     if (length < quint32(KindSize))
         return setError(FrameTooShort, QStringLiteral("control frame of 0 bytes%1; the kind needs one").arg(place()));
-    if (length > m_limit) {
+    if (m_mayBeLong && length > UsualControlFrame && length <= m_limit && available < LengthSize + KindSize)
+        return false;  // its limit is not known yet
+    if (const quint32 limit = limitAt(m_begin); length > limit) {
         const QString text = QStringLiteral("control frame of %1 bytes%2; at most %3 are allowed");
-        return setError(FrameTooLong, text.arg(length).arg(place()).arg(m_limit));
+        return setError(FrameTooLong, text.arg(length).arg(place()).arg(limit));
     }
     if (available - LengthSize < int(length))
         return false;
@@ -101,6 +103,21 @@ bool ControlFrameReader::next(QPlcMessage *message)
     return true;
 }
 
+/// [byte] that the frame may have behind its length, which begins at \a begin of m_buffer. \pre its
+/// kind is there, or it is not long
+quint32 ControlFrameReader::limitAt(int begin) const
+{
+    if (!m_mayBeLong || m_limit <= UsualControlFrame || m_buffer.size() <= begin + LengthSize)
+        return m_limit;
+    const auto kind = QPlcMessage::Kind(quint8(m_buffer.at(begin + LengthSize)));
+    return m_mayBeLong(kind) ? m_limit : UsualControlFrame;
+}
+
+quint32 ControlFrameReader::announced() const
+{
+    return waiting() < LengthSize ? 0 : loadLittle<quint32>(m_buffer.constData() + m_begin);
+}
+
 /// Whether the bytes of m_buffer from \a begin on hold a whole frame whose length is allowed.
 bool ControlFrameReader::isComplete(int begin, quint32 *length) const
 {
@@ -108,7 +125,7 @@ bool ControlFrameReader::isComplete(int begin, quint32 *length) const
     if (available < LengthSize)
         return false;
     *length = loadLittle<quint32>(m_buffer.constData() + begin);
-    return *length >= quint32(KindSize) && *length <= m_limit && int(*length) <= available - LengthSize;
+    return *length >= quint32(KindSize) && *length <= limitAt(begin) && int(*length) <= available - LengthSize;
 }
 
 bool ControlFrameReader::takeAhead(bool (*isUrgent)(QPlcMessage::Kind), QPlcMessage *message)

@@ -43,6 +43,9 @@ public:
     /// Frames behind those that were taken already may have so many bytes behind their length
     /// field; UsualControlFrame unless set.
     void setLimit(quint32 bytes) { m_limit = bytes; }
+    /// Only frames of kinds that \a mayBeLong may have more than UsualControlFrame bytes, as far as
+    /// the limit allows; all kinds unless set.
+    void setLongKinds(bool (*mayBeLong)(QPlcMessage::Kind)) { m_mayBeLong = mayBeLong; }
     /// Takes bytes of the stream.
     void append(const QByteArray &bytes);
     /// Takes the next complete message. \return false when there is none (yet), or error() is set
@@ -54,6 +57,8 @@ public:
     bool wasTakenAhead() const { return m_wasTakenAhead; }
     /// Whether a message behind the one of next() was taken ahead.
     bool isOvertaken() const { return !m_ahead.empty(); }
+    /// Length of the message that next() waits for [byte]; 0: it is not known yet.
+    quint32 announced() const;
     /// Bytes that no message has used [byte].
     int waiting() const { return m_buffer.size() - m_begin; }
     /// Exact bytes of the message that next() returned last, for the debug log.
@@ -67,12 +72,14 @@ public:
     QString errorString() const { return m_errorString; }
 
 private:
+    quint32 limitAt(int begin) const;
     bool isComplete(int begin, quint32 *length) const;
     bool parse(const QByteArray &frame, QPlcMessage *message);
     QString place() const;
     bool setError(Error error, const QString &text);
 
-    quint32 m_limit = UsualControlFrame;  // [byte]
+    quint32 m_limit = UsualControlFrame;               // [byte]
+    bool (*m_mayBeLong)(QPlcMessage::Kind) = nullptr;  // null: all
     QByteArray m_buffer;
     int m_begin = 0;  // [byte] of m_buffer: what is before it has been used
     QByteArray m_lastFrame;

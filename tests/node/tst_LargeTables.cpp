@@ -35,6 +35,7 @@ private Q_SLOTS:
     void nodeWithAllSignalsBothWaysStarts();
     void tableComesOnlyWhenItIsWanted();
     void messageBeyondTheLimitOfTheMasterEndsItsConnection();
+    void messageThatNeedNotBeLongHasTheUsualLimit();
     void tableThatIsTooLongForAMessageIsRefusedWithTheRemedy();
 
 private:
@@ -116,10 +117,24 @@ void tst_LargeTables::messageBeyondTheLimitOfTheMasterEndsItsConnection()
     const quint32 longest = quint32(greet(tool, false).fields().value("longestMessage").toDouble());
     QVERIFY(longest > qplc::UsualControlFrame && longest <= qplc::MaximumControlFrame);
     tool.control.setSendLimit(qplc::MaximumControlFrame);
-    tool.send(QPlcMessage::SafeStop, {{"reason", QString(int(longest) - 20, 'x')}});
-    QCOMPARE(tool.next(Patience).kind(), QPlcMessage::Done);
+    tool.send(QPlcMessage::SetSignals, {{"padding", QString(int(longest) - 20, 'x')}});
+    QCOMPARE(tool.next(Patience).text("error"), QString("MalformedMessage"));  // read, and refused
     tool.forgetMessages();
-    tool.send(QPlcMessage::SafeStop, {{"reason", QString(int(longest), 'x')}});
+    tool.send(QPlcMessage::SetSignals, {{"padding", QString(int(longest), 'x')}});
+    QVERIFY(waitUntil([&] { return !tool.control.isConnected(); }, Patience));
+    QVERIFY(tool.messages.isEmpty() || tool.messages.first().kind() == QPlcMessage::Rejected);
+}
+
+/// Only what grows with the table may be longer than usual.
+void tst_LargeTables::messageThatNeedNotBeLongHasTheUsualLimit()
+{
+    ScriptedTool tool;
+    greet(tool, false);
+    tool.control.setSendLimit(qplc::MaximumControlFrame);
+    tool.send(QPlcMessage::GetState, {{"padding", QString(int(qplc::UsualControlFrame) - 20, 'x')}});
+    QCOMPARE(tool.next(Patience).kind(), QPlcMessage::State);
+    tool.forgetMessages();
+    tool.send(QPlcMessage::GetState, {{"padding", QString(int(qplc::UsualControlFrame), 'x')}});
     QVERIFY(waitUntil([&] { return !tool.control.isConnected(); }, Patience));
     QVERIFY(tool.messages.isEmpty() || tool.messages.first().kind() == QPlcMessage::Rejected);
 }

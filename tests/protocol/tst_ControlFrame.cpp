@@ -28,6 +28,7 @@ private Q_SLOTS:
     void readerStopsAfterAnError();
     void readerAcceptsFramesUpToTheMaximumLength();
     void longerFramesAreForThoseWhoHaveAgreedOnThem();
+    void longerFramesAreForKindsThatNeedThem();
     void encoderRefusesMessagesThatNoReceiverAccepts();
     void readerReturnsTheRestOfTheStream();
     void urgentMessageIsTakenBeforeTheOthers();
@@ -248,6 +249,29 @@ void tst_ControlFrame::longerFramesAreForThoseWhoHaveAgreedOnThem()
     other.setLimit(MaximumControlFrame);
     other.append(frame);
     QCOMPARE(takeAll(other), QVector<QPlcMessage>{large});
+}
+
+void tst_ControlFrame::longerFramesAreForKindsThatNeedThem()
+{
+    const auto mayBeLong = [](QPlcMessage::Kind kind) { return kind == QPlcMessage::Register; };
+    for (const QPlcMessage::Kind kind : {QPlcMessage::Register, QPlcMessage::GetState}) {
+        const QPlcMessage large(kind, {{QStringLiteral("x"), QString(int(UsualControlFrame), QLatin1Char('x'))}});
+        const QByteArray frame = encodeControlFrame(large, MaximumControlFrame);
+        ControlFrameReader reader;
+        reader.setLimit(MaximumControlFrame);
+        reader.setLongKinds(mayBeLong);
+        QCOMPARE(reader.announced(), quint32(0));
+        reader.append(frame.left(4));  // the kind is not known yet
+        QVERIFY(takeAll(reader).isEmpty());
+        QCOMPARE(reader.error(), ControlFrameReader::NoError);
+        QCOMPARE(reader.announced(), quint32(frame.size() - 4));
+        reader.append(frame.mid(4, 1));
+        QVERIFY(takeAll(reader).isEmpty());
+        const bool isRefused = reader.error() == ControlFrameReader::FrameTooLong;
+        QCOMPARE(isRefused, kind == QPlcMessage::GetState);
+        reader.append(frame.mid(5));
+        QCOMPARE(takeAll(reader).size(), isRefused ? 0 : 1);
+    }
 }
 
 void tst_ControlFrame::encoderRefusesMessagesThatNoReceiverAccepts()

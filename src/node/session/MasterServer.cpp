@@ -21,6 +21,7 @@ namespace {
 
 constexpr quint32 LongestGreeting = 64 * 1024;  // [byte]
 constexpr int LongestReason = 4000;             // [characters] of a refusal, which may quote what was sent
+constexpr int LongMessageLook = 1000;           // [ms] between two looks for messages that do not end
 
 /// What a client may have to send: Register with all signals both ways, all values as texts, or the
 /// outputs of a node that writes all signals.
@@ -53,6 +54,7 @@ MasterServer::MasterServer(NodeRegistry &registry, const ProcessImage &image, Cy
 {
     m_nextTurn.setSingleShot(true);
     connect(&m_nextTurn, &QTimer::timeout, this, &MasterServer::takeTurn);
+    connect(&m_longMessageTimer, &QTimer::timeout, this, &MasterServer::dropOverdue);
     connect(&m_door, &MasterDoor::entered, this, &MasterServer::enter);
     connect(&m_door, &MasterDoor::refused, this, &MasterServer::strangerRefused);
     connect(&m_door, &MasterDoor::tooSlow, this, &MasterServer::dropSlow);
@@ -171,6 +173,8 @@ void MasterServer::enter(QPlcSlaveSocket *socket, const Peer &peer, ConnectionGa
     connect(socket, &QPlcAbstractSocket::messageReceived, this,
             [this, connection](const Message &message) { receive(connection, message); });
     PacedReading::begin(*socket, [this, connection] { arrived(connection); });
+    PacedReading::setLong(*socket, &messages::mayBeLong,
+                          [this, connection](quint32 length) { return admitsLong(connection, length); });
     connect(socket, &QPlcAbstractSocket::errorOccurred, this, [this, connection](QPlcAbstractSocket::Error error) {
         if (error == QPlcAbstractSocket::ProtocolError)
             receiveGarbage(connection);
@@ -243,6 +247,7 @@ void MasterServer::forget(MasterConnection *connection)
 {
     m_door.leave(connection->ticket);
     m_turns.remove(connection);
+    longMessageEnded(connection);
     PacedReading::begin(*connection->socket, [] {});
     connection->socket->disconnect(this);
     connection->socket->deleteLater();
@@ -422,6 +427,38 @@ bool MasterServer::isThere(const MasterConnection *connection) const
                        [connection](const std::unique_ptr<MasterConnection> &one) { return one.get() == connection; });
 }
 
+/// Whether a connection may go on sending a message that takes much memory. Others wait for it.
+bool MasterServer::admitsLong(MasterConnection *connection, quint32 length)
+{
+    const QString identity = connection->peer.provenIdentity();
+    const QString origin = identity.isEmpty() ? connection->socket->peerAddress().toString() : identity;
+    if (!m_longMessages.admit(connection, origin, length, monotonicNow()))
+        return false;
+    if (!m_longMessageTimer.isActive())
+        m_longMessageTimer.start(LongMessageLook);
+    return true;
+}
+
+/// Whoever waits for \a connection tries again.
+void MasterServer::longMessageEnded(MasterConnection *connection)
+{
+    for (LongMessages::Client client : m_longMessages.leave(connection))
+        arrived(static_cast<MasterConnection *>(client));
+    if (m_longMessages.isEmpty())
+        m_longMessageTimer.stop();
+}
+
+void MasterServer::dropOverdue()
+{
+    for (LongMessages::Client client : m_longMessages.overdue(monotonicNow())) {
+        auto *connection = static_cast<MasterConnection *>(client);
+        if (isThere(connection))
+            reject(connection, messages::errorWord::timedOut,
+                   QStringLiteral("a message of '%1' does not end; send it at more than 1 MB in a second")
+                       .arg(connection->shownName()));
+    }
+}
+
 /// Whether a message was dealt with because of one that has overtaken others: its own answer is
 /// kept, or it is a command that stood in front of a stop.
 bool MasterServer::isSettled(MasterConnection *connection, const Message &message)
@@ -446,6 +483,8 @@ bool MasterServer::isSettled(MasterConnection *connection, const Message &messag
 /// The one place where control messages come in.
 void MasterServer::receive(MasterConnection *connection, const Message &message)
 {
+    if (!connection->isAhead)
+        longMessageEnded(connection);
     if (isSettled(connection, message) || isTooMuch(connection, message))
         return;
     const QScopedValueRollback<MasterConnection *> receiving(m_receiving, connection);

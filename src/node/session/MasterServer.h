@@ -3,6 +3,7 @@
 
 #include "Evictions.h"
 #include "FairTurns.h"
+#include "LongMessages.h"
 #include "MasterConnection.h"
 #include "MasterDoor.h"
 #include "QPlcMasterStatistics.h"
@@ -91,6 +92,9 @@ private:
     void dropUnattached(const MasterConnection *connection);
     MasterConnection *connectionOf(const QPlcSlaveSocket *socket) const;
     void arrived(MasterConnection *connection);
+    bool admitsLong(MasterConnection *connection, quint32 length);
+    void longMessageEnded(MasterConnection *connection);
+    void dropOverdue();
     void takeTurn();
     bool serve(MasterConnection *connection);
     void lookAhead(MasterConnection *connection);
@@ -140,6 +144,8 @@ private:
     bool m_isSecured = false;
     std::vector<std::unique_ptr<MasterConnection>> m_connections;
     FairTurns m_turns;
+    LongMessages m_longMessages;
+    QTimer m_longMessageTimer;
     QTimer m_nextTurn;
     bool m_isBusy = false;                    // somebody waits since the last turn
     MasterConnection *m_receiving = nullptr;  // whose message is at hand

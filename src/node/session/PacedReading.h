@@ -15,6 +15,11 @@ public:
     /// From now on \a onArrival is called when there may be something to read, and nothing is read
     /// before next().
     static void begin(QPlcAbstractSocket &socket, std::function<void()> onArrival);
+    /// A message of more than UsualControlFrame bytes is read only if its kind \a mayBeLong, and
+    /// only while \a admits says so, which gets its length. Whoever was not admitted is read again
+    /// with next().
+    static void setLong(QPlcAbstractSocket &socket, bool (*mayBeLong)(QPlcMessage::Kind),
+                        std::function<bool(quint32)> admits);
     /// Emits messageReceived() for the next message. A receiver may delete the connection.
     /// \return false if there is no message, or if the other end does not read its answers
     static bool next(QPlcAbstractSocket &socket);

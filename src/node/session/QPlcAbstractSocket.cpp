@@ -20,11 +20,18 @@ struct QPlcAbstractSocket::Private
     qplc::ControlFrameReader reader;
     quint32 sendLimit = qplc::UsualControlFrame;  // [byte]
     bool isSending = false;
-    bool isPaused = false;            // the other end takes nothing in
-    std::function<void()> onArrival;  // null: messages are given away as they come
+    bool isPaused = false;                // the other end takes nothing in
+    std::function<void()> onArrival;      // null: messages are given away as they come
+    std::function<bool(quint32)> admits;  // whether a long message may go on arriving; null: always
     Error error = NoError;
     QString errorString;
 
+    /// Whether the message that is not complete yet may take more memory.
+    bool mayReadMore() const
+    {
+        const quint32 length = reader.announced();
+        return length <= qplc::UsualControlFrame || !admits || reader.error() || admits(length);
+    }
     void readMore()
     {
         if (socket->isOpen())  // who got a message may have ended the connection, or taken it
@@ -267,7 +274,7 @@ bool QPlcAbstractSocket::readMessage()
     d->isPaused = bytesToSend() > MostUnread;
     if (d->isPaused)
         return false;
-    if (d->reader.next(&message) || (d->readMore(), d->reader.next(&message))) {
+    if (d->reader.next(&message) || (d->mayReadMore() && (d->readMore(), d->reader.next(&message)))) {
         qCDebug(lcControl).noquote() << "from" << peerName() << message.kindName()
                                      << shown(d->reader.lastFrame(), isSecured());
         Q_EMIT messageReceived(message);
@@ -290,6 +297,13 @@ namespace qplc {
 void PacedReading::begin(QPlcAbstractSocket &socket, std::function<void()> onArrival)
 {
     socket.d->onArrival = std::move(onArrival);
+}
+
+void PacedReading::setLong(QPlcAbstractSocket &socket, bool (*mayBeLong)(QPlcMessage::Kind),
+                           std::function<bool(quint32)> admits)
+{
+    socket.d->reader.setLongKinds(mayBeLong);
+    socket.d->admits = std::move(admits);
 }
 
 bool PacedReading::next(QPlcAbstractSocket &socket)

@@ -256,6 +256,13 @@ constexpr bool isCommand(QPlcMessage::Kind kind)
     return useOf(kind).purpose == Purpose::Command;
 }
 
+/// Whether a message from a node or tool grows with the table of signals, and may be longer than
+/// others. All others are as short in a large plant as in a small one, or can be sent in parts.
+constexpr bool mayBeLong(QPlcMessage::Kind kind)
+{
+    return List<Register, ReceiveMyInitialOutputStates, SetSignals>::contains(kind);
+}
+
 constexpr bool isUrgent(QPlcMessage::Kind kind)
 {
     return useOf(kind).turn == Turn::Urgent;
