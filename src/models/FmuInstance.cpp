@@ -18,6 +18,7 @@ namespace qplc {
 std::atomic<const char *> FmuInstance::s_call{nullptr};
 std::atomic<bool> FmuInstance::s_isInside{false};
 thread_local bool FmuInstance::s_isHere = false;
+std::atomic<FmuInstance *> FmuInstance::s_abandoned{nullptr};
 
 namespace {
 
@@ -44,9 +45,9 @@ public:
     static constexpr Names names{"fmi2GetVersion", "fmi2Instantiate", "fmi2FreeInstance", "fmi2ExitInitializationMode",
                                  "fmi2Terminate",  "fmi2Reset"};
 
-    Fmi2Instance(const FmuDescription &description, FmuLog *log)
+    Fmi2Instance(const FmuDescription &description, const std::shared_ptr<FmuLog> &log)
         : FmuInstance(description, names, log)
-        , m_callbacks{logOf2, std::calloc, std::free, [](void *, int) {}, log}
+        , m_callbacks{logOf2, std::calloc, std::free, [](void *, int) {}, log.get()}
     {
     }
 
@@ -163,7 +164,7 @@ public:
                                  "fmi3FreeInstance", "fmi3ExitInitializationMode",
                                  "fmi3Terminate",    "fmi3Reset"};
 
-    Fmi3Instance(const FmuDescription &description, FmuLog *log)
+    Fmi3Instance(const FmuDescription &description, const std::shared_ptr<FmuLog> &log)
         : FmuInstance(description, names, log)
     {
     }
@@ -238,7 +239,7 @@ private:
     fmi::Instance make(const QByteArray &name, const QByteArray &resources, bool logs) override
     {
         return m_instantiate(name.constData(), m_token.constData(), (resources + '/').constData(), false, logs,
-                             m_usesEventMode, false, nullptr, 0, m_log, logOf3, nullptr);
+                             m_usesEventMode, false, nullptr, 0, m_log.get(), logOf3, nullptr);
     }
 
     fmi3::Instantiate m_instantiate = nullptr;
@@ -255,7 +256,7 @@ private:
 
 // ---- both ----
 
-FmuInstance::FmuInstance(const FmuDescription &description, const Names &names, FmuLog *log)
+FmuInstance::FmuInstance(const FmuDescription &description, const Names &names, const std::shared_ptr<FmuLog> &log)
     : m_names(&names)
     , m_log(log)
     , m_modelName(description.modelName.toUtf8())
@@ -271,8 +272,8 @@ FmuInstance::~FmuInstance()
         ::dlclose(m_library);
 }
 
-std::unique_ptr<FmuInstance> FmuInstance::load(const FmuDescription &description, const QString &fileName, FmuLog *log,
-                                               QString *error)
+std::unique_ptr<FmuInstance> FmuInstance::load(const FmuDescription &description, const QString &fileName,
+                                               const std::shared_ptr<FmuLog> &log, QString *error)
 {
     std::unique_ptr<FmuInstance> instance;
     if (description.version == 2)
@@ -354,6 +355,12 @@ void FmuInstance::free()
     const Call inside(m_names->freeInstance);
     m_free(m_instance);
     m_instance = nullptr;
+}
+
+void FmuInstance::abandon(std::unique_ptr<FmuInstance> instance) noexcept
+{
+    FmuInstance *own = instance.release();
+    own->m_next = s_abandoned.exchange(own);
 }
 
 int FmuInstance::setText(fmi::ValueReference reference, const QString &text)

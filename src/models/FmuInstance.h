@@ -34,8 +34,8 @@ public:
 
     /// Loads the library \a fileName. \return null, with a sentence in \a error, when it cannot be
     /// loaded, lacks functions, or follows another version
-    static std::unique_ptr<FmuInstance> load(const FmuDescription &description, const QString &fileName, FmuLog *log,
-                                             QString *error);
+    static std::unique_ptr<FmuInstance> load(const FmuDescription &description, const QString &fileName,
+                                             const std::shared_ptr<FmuLog> &log, QString *error);
     virtual ~FmuInstance();
     FmuInstance(const FmuInstance &) = delete;
     FmuInstance &operator=(const FmuInstance &) = delete;
@@ -47,6 +47,9 @@ public:
     bool exists() const { return m_instance != nullptr; }
     bool usesEventMode() const { return m_usesEventMode; }
     void free();
+    /// Keeps \a instance until the process ends: after a fatal error none of its functions may be
+    /// called, and threads of it may still run.
+    static void abandon(std::unique_ptr<FmuInstance> instance) noexcept;
 
     virtual int enterInitializationMode(const Experiment &experiment) = 0;
     int exitInitializationMode() { return call(m_names->exitInitializationMode, m_exitInitializationMode); }
@@ -102,7 +105,7 @@ protected:
         Call &operator=(const Call &) = delete;
     };
 
-    FmuInstance(const FmuDescription &description, const Names &names, FmuLog *log);
+    FmuInstance(const FmuDescription &description, const Names &names, const std::shared_ptr<FmuLog> &log);
     virtual bool loadFunctions(const FmuDescription &description) = 0;
     virtual fmi::Instance make(const QByteArray &name, const QByteArray &resources, bool logs) = 0;
 
@@ -121,7 +124,7 @@ protected:
     }
 
     const Names *m_names;
-    FmuLog *m_log;
+    const std::shared_ptr<FmuLog> m_log;
     QByteArray m_modelName;
     QByteArray m_token;
     bool m_usesEventMode;
@@ -137,6 +140,8 @@ private:
     static std::atomic<const char *> s_call;
     static std::atomic<bool> s_isInside;
     static thread_local bool s_isHere;
+    static std::atomic<FmuInstance *> s_abandoned;
+    FmuInstance *m_next = nullptr;  // of those that are abandoned
     void *m_library = nullptr;
     fmi::Version m_version = nullptr;
     fmi::FreeInstance m_free = nullptr;

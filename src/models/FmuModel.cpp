@@ -132,7 +132,7 @@ bool FmuModel::read(QString *error)
 FmuModel::~FmuModel()
 {
     if (m_state == Dead && m_instance)
-        m_instance.release();  // after a fatal error none of its functions may be called
+        FmuInstance::abandon(std::move(m_instance));
     else
         end();
 }
@@ -150,7 +150,7 @@ bool FmuModel::load(QString *error)
     }
     const QString library
         = QStringLiteral("%1/binaries/%2/%3.so").arg(m_folder->path(), m_platform, m_description.modelIdentifier);
-    m_instance = FmuInstance::load(m_description, library, &m_log, error);
+    m_instance = FmuInstance::load(m_description, library, m_log, error);
     if (!m_instance) {
         *error = QStringLiteral("%1: %2").arg(m_fileName, *error);
         return false;
@@ -244,13 +244,13 @@ void FmuModel::reset()
             "the FMU has reported a fatal error, after which it cannot be used; start this program "
             "again");
     Q_ASSERT_X(m_state != NotLoaded, "FmuModel::reset", "load() comes first");
-    m_log.forgetComplaint();
+    m_log->forgetComplaint();
     m_elapsed = std::chrono::nanoseconds(0);
     m_isOver = false;
     m_isRefused = false;
     if (!m_instance->exists()) {
         if (!m_instance->instantiate(m_folder->path() + QStringLiteral("/resources"), m_settings.logs)) {
-            const QString complaint = m_log.lastComplaint();
+            const QString complaint = m_log->lastComplaint();
             throw std::runtime_error(messageOf(
                 QStringLiteral("the FMU refuses to be instantiated%1; either its library and its "
                                "modelDescription.xml do not belong together (%2 %3), or it needs something that is "
@@ -373,7 +373,7 @@ void FmuModel::expect(int status, const char *doing)
 void FmuModel::fail(int status, const QString &doing)
 {
     m_state = status == fmi::Fatal ? Dead : Failed;
-    const QString complaint = m_log.lastComplaint();
+    const QString complaint = m_log->lastComplaint();
     const char *name = FmuInstance::lastCall();
     throw std::runtime_error(
         messageOf(QStringLiteral("the FMU reports %1 (%2) at %3 s, in %4%5")

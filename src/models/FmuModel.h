@@ -81,7 +81,7 @@ public:
     /// Ends the simulation in order. Does nothing when there is none.
     void end();
 
-    FmuLog &log() { return m_log; }
+    FmuLog &log() { return *m_log; }
 
 private:
     enum State : quint8 { NotLoaded, Loaded, Initializing, Stepping, Ended, Failed, Dead };
@@ -103,7 +103,7 @@ private:
     Settings m_settings;
     FmuExchange m_inputs{2, false};
     FmuExchange m_outputs{2, false};
-    FmuLog m_log;
+    const std::shared_ptr<FmuLog> m_log = std::make_shared<FmuLog>();
     std::unique_ptr<FmuFolder> m_folder;  // outlives the library
     std::unique_ptr<FmuInstance> m_instance;
     State m_state = NotLoaded;
