@@ -369,7 +369,7 @@ void tst_FmuModel::unusableFilesAreRefusedWithAReason_data()
     row("twice", "entry 'resources/a' is there twice");
     row("damaged", "it is damaged");
     row("bomb", "has more than 1024 MiB when it is unpacked");
-    row("lying_bomb", "resources/zeros");
+    row("lying_bomb", "'resources/zeros' is larger than the archive says");
     row("large_description", "has more than 64 MiB");
     row("laughs", "declares or uses entities");
     row("external_entity", "declares or uses entities");
