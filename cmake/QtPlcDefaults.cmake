@@ -35,7 +35,7 @@ add_compile_options($<$<CXX_COMPILER_ID:Clang>:-Wno-gnu-zero-variadic-macro-argu
 add_compile_definitions(QT_NO_KEYWORDS QT_NO_CAST_TO_ASCII QT_DISABLE_DEPRECATED_BEFORE=0x050F00)
 if(CMAKE_UNITY_BUILD)
     # Sources are headers of each other: a build that compiles each alone looks at these.
-    add_compile_options(-Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+    add_compile_options(-Wno-shadow $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-subobject-linkage>)
 endif()
 if(QTPLC_WARNINGS_AS_ERRORS)
     add_compile_options(-Werror)
