@@ -11,7 +11,7 @@
 #                       "J = inertia[3x3]" for a matrix (MATLAB stores columns, QtPLC rows)
 #   WORKLOAD signal     gets the workload of the node [s]
 #   INCLUDE folder ...  of headers that are not in DIR
-#   DEFINITIONS X=1 ... for the sources of the export
+#   DEFINITIONS X=1 ... for the headers and sources of the export
 #   INITIALIZE, STEP, TERMINATE function   if the entry points have names of their own
 #
 # Makes the program `target`, and the library `target_node` with the header "target.h" for programs
@@ -54,6 +54,8 @@ function(qtplc_read_simulink_export target output)
         list(APPEND includes ${folder})
         list(APPEND options --include=${folder})
     endforeach()
+    list(TRANSFORM arg_DEFINITIONS PREPEND --define= OUTPUT_VARIABLE defines)
+    list(APPEND options ${defines})
     # What comes or goes in the folder, and what changes in it, is read again.
     file(GLOB_RECURSE files CONFIGURE_DEPENDS ${directory}/*.h ${directory}/*.hpp ${directory}/*.c ${directory}/*.cpp)
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${files} ${map}

@@ -299,6 +299,7 @@ def main():
     for name in ("node-name", "prefix", "map", "model", "initialize", "step", "terminate", "workload"):
         parser.add_argument(f"--{name}", default="")
     parser.add_argument("--include", action="append", default=[])
+    parser.add_argument("--define", action="append", default=[])
     try:
         generate(parser.parse_args())
     except Refusal as refusal:

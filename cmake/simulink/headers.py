@@ -77,9 +77,12 @@ class Token:
 class Headers:
     """One header with all that it includes, as tokens in the order of the compiler."""
 
-    def __init__(self, path, folders):
+    def __init__(self, path, folders, definitions=()):
         self.folders = folders
         self.macros = {"__cplusplus": "201703L"}
+        for definition in definitions:  # "NAME" or "NAME=1"
+            name, _, value = definition.partition("=")
+            self.macros[name] = value or "1"
         self.missing, self.files, self.tokens = [], [], []
         self._line = 0
         self._expand(path)
@@ -134,6 +137,8 @@ class Headers:
         condition = re.sub(
             r"defined\s*\(?\s*(\w+)\s*\)?", lambda found: "1" if found[1] in self.macros else "0", condition
         )
+        numbers = {name: value for name, value in self.macros.items() if value.isdigit()}
+        condition = re.sub(r"[A-Za-z_]\w*", lambda found: numbers.get(found[0], found[0]), condition)
         condition = condition.replace("&&", " and ").replace("||", " or ")
         condition = re.sub(r"!(?!=)", " not ", condition)
         if re.search(r"[A-Za-z_]", re.sub(r"\b(and|or|not)\b", "", condition)) or not condition.strip():

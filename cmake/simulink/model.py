@@ -147,7 +147,7 @@ class Reader:
         self.export = Export(options.dir, options.include)
         self.header = self.export.header_of(options.model)
         self.sources = self.export.sources_of(self.header)
-        headers = Headers(self.header, self.export.folders)
+        headers = Headers(self.header, self.export.folders, self.options.define)
         self.files = headers.files
         self.macros = headers.macros
         self._refuse_missing(self._all_missing(headers))
@@ -159,7 +159,7 @@ class Reader:
         missing = list(headers.missing)
         for source in self.sources:
             if source.parent == self.header.parent:
-                for name in Headers(source, self.export.folders).missing:
+                for name in Headers(source, self.export.folders, self.options.define).missing:
                     if name not in missing:
                         missing.append(name)
         return missing

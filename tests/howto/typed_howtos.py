@@ -108,6 +108,7 @@ def simulink_model(plant):
         "qtplc start": Expectation(after=flies),
         "qtplc list": Expectation(shows="tetherLength.*Winch"),
         "build/winch_model --table": Expectation(shows=r"(?s)\[tetherSpeed\]\s+type = Real64.*\[tetherLength\]"),
+        "build/winch_model --table": Expectation(shows=r"(?s)\[tetherSpeed\]\s+type = Real64.*\[tetherLength\]"),
     }
 
 

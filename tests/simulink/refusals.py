@@ -169,6 +169,14 @@ def maps_that_do_not_fit(folder):
     refuses(export, "none.ini", map=export.folder / "none.ini")
 
 
+def definitions_decide_what_a_header_declares(folder):
+    export = Export(folder, "Tank")
+    export.change("Tank.h", "/* Model entry point functions */", "#if TANK == 2")
+    export.change("Tank.h", "extern void Tank_terminate(void);", "extern void Tank_terminate(void);\n#endif")
+    refuses(export, "no function that computes a step", define="TANK=1")
+    takes(export, define="TANK=2")
+
+
 def functions_with_main_are_left_out(folder):
     text = takes(Export(folder, "Pendulum"))["node.cmake"]
     sources = text[: text.index("set(folders")]
