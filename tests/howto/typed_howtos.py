@@ -108,7 +108,6 @@ def simulink_model(plant):
         "qtplc start": Expectation(after=flies),
         "qtplc list": Expectation(shows="tetherLength.*Winch"),
         "build/winch_model --table": Expectation(shows=r"(?s)\[tetherSpeed\]\s+type = Real64.*\[tetherLength\]"),
-        "build/winch_model --table": Expectation(shows=r"(?s)\[tetherSpeed\]\s+type = Real64.*\[tetherLength\]"),
     }
 
 
