@@ -165,7 +165,7 @@ void FmuPort::load(const char *bytes)
         } else {
             double value = 0.0;
             QPlcPortDetail::loadElements(m_scalar, bytes + move.offset, &value, 1);
-            value = value * move.factor + move.added;
+            value = move.converted(value);
             QPlcPortDetail::storeElements(move.scalar, move.number, &value, 1);
         }
     }
@@ -185,7 +185,7 @@ void FmuPort::store(char *bytes) const
         } else {
             double value = 0.0;
             QPlcPortDetail::loadElements(move.scalar, move.number, &value, 1);
-            value = value * move.factor + move.added;
+            value = move.converted(value);
             QPlcPortDetail::storeElements(m_scalar, bytes + move.offset, &value, 1);
         }
     }

@@ -53,6 +53,9 @@ private:
         double factor = 1.0;
         double added = 0.0;
         const FmuVariable *variable = nullptr;
+
+        /// Without an offset, -0 stays what it is.
+        double converted(double value) const { return added == 0.0 ? value * factor : value * factor + added; }
     };
 
     QString variableType() const override;

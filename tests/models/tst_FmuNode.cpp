@@ -8,6 +8,8 @@
 
 #include <QtCore/QTemporaryDir>
 
+#include <cmath>
+
 class tst_FmuNode : public QObject
 {
     Q_OBJECT
@@ -27,6 +29,7 @@ private Q_SLOTS:
     void withoutWiresNamesDecide();
     void withoutAnySignalTheRegistrationFails();
     void everyTypePassesUnchanged();
+    void negativeZeroPassesUnchanged();
     void enumerationsThatDoNotFitAreAFault();
     void typesThatDoNotFitAreRefused();
     void everyPhaseBeginsAtTheStartValues_data() { addVersions(); }
@@ -262,6 +265,19 @@ void tst_FmuNode::everyTypePassesUnchanged()
     }
     QCOMPARE(master.signalValue("colourOut").toInt(), 200);
     QCOMPARE(master.signalValue("matrixOut").toString(), QString("1, 2, 3, 4, 5, 6"));
+    node.disconnectFromMaster();
+}
+
+/// The bits of results are compared.
+void tst_FmuNode::negativeZeroPassesUnchanged()
+{
+    TestMaster master;
+    QPlcFmuNode node;
+    QVERIFY(node.configure(configuration("plant2", "[fmu.read]\nfree = u\n[fmu.write]\nu = setpoint\n"), "a"));
+    QVERIFY(master.addLocalNode(&node));
+    QVERIFY(master.setSignalValue("setpoint", -0.0));
+    QVERIFY(run(master, 5));
+    QVERIFY(std::signbit(master.signalValue("free").toReal()));
     node.disconnectFromMaster();
 }
 
