@@ -99,27 +99,17 @@ function(qtplc_add_export_library target functions)
     set_property(TARGET ${target} APPEND PROPERTY LINK_DEPENDS ${script})
 endfunction()
 
-# qtplc_pack_fmu(NAME version file library program table work): the file of one version.
-function(qtplc_pack_fmu name version file library program table work)
-    if(version EQUAL 3)
-        set(platform ${CMAKE_SYSTEM_PROCESSOR}-linux)
-    elseif(CMAKE_SYSTEM_PROCESSOR STREQUAL x86_64)
+# qtplc_pack_fmu(version file library program): the file of one version.
+function(qtplc_pack_fmu version file library program)
+    set(platform ${CMAKE_SYSTEM_PROCESSOR}-linux)
+    if(version EQUAL 2 AND CMAKE_SYSTEM_PROCESSOR STREQUAL x86_64)
         set(platform linux64)
-    else()
-        set(platform ${CMAKE_SYSTEM_PROCESSOR}-linux)
     endif()
-    set(stage ${work}/fmi${version})
     get_filename_component(folder ${file} DIRECTORY)
-    # The order in the file is always the same.
     add_custom_command(OUTPUT ${file}
-        COMMAND ${CMAKE_COMMAND} -E rm -rf ${stage} ${file}
-        COMMAND ${CMAKE_COMMAND} -E make_directory ${folder} ${stage}/binaries/${platform} ${stage}/resources
-        COMMAND ${program} ${version} ${stage}/modelDescription.xml
-        COMMAND ${CMAKE_COMMAND} -E copy $<TARGET_FILE:${library}> ${stage}/binaries/${platform}/${name}.so
-        COMMAND ${CMAKE_COMMAND} -E copy ${table} ${stage}/resources/signals.ini
-        COMMAND ${CMAKE_COMMAND} -E chdir ${stage} ${CMAKE_COMMAND} -E tar cf ${file} --format=zip
-            "--mtime=2000-01-01 00:00:00 UTC" modelDescription.xml binaries/${platform}/${name}.so resources/signals.ini
-        DEPENDS ${library} ${program} ${table}
+        COMMAND ${CMAKE_COMMAND} -E make_directory ${folder}
+        COMMAND ${program} ${version} ${platform} $<TARGET_FILE:${library}> ${file}
+        DEPENDS ${library} ${program}
         COMMENT "Making ${file}"
         VERBATIM)
 endfunction()
@@ -137,7 +127,7 @@ function(qtplc_add_fmu name)
     endif()
     set(objects ${name}_fmu_objects)
     set(library ${name}_fmu_library)
-    set(program ${name}_fmu_description)
+    set(program ${name}_fmu_packer)
     list(TRANSFORM arg_SOURCES REPLACE "^([^/].*)" "${CMAKE_CURRENT_SOURCE_DIR}/\\1")
     add_library(${objects} OBJECT ${work}/identity.cpp ${arg_SOURCES}
         ${QTPLC_EXPORT_SOURCES}/ExportedNode.cpp ${QTPLC_EXPORT_SOURCES}/FmuDescription.cpp
@@ -148,7 +138,8 @@ function(qtplc_add_fmu name)
     qtplc_complete_export(${library} "${arg_LIBRARIES}")
     set_target_properties(${library} PROPERTIES PREFIX "" OUTPUT_NAME ${name}
         LIBRARY_OUTPUT_DIRECTORY ${work}/library)
-    add_executable(${program} $<TARGET_OBJECTS:${objects}> ${QTPLC_EXPORT_SOURCES}/describe_fmu.cpp)
+    add_executable(${program} $<TARGET_OBJECTS:${objects}> ${QTPLC_EXPORT_SOURCES}/ZipFile.cpp
+        ${QTPLC_EXPORT_SOURCES}/pack_fmu.cpp)
     qtplc_complete_export(${program} "${arg_LIBRARIES}")
     set_target_properties(${program} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${work})
     set(files)
@@ -161,7 +152,7 @@ function(qtplc_add_fmu name)
             message(FATAL_ERROR "qtplc_add_fmu(${name}): there is no FMI version '${version}'; use 2 or 3")
         endif()
         list(GET files -1 file)
-        qtplc_pack_fmu(${name} ${version} ${file} ${library} ${program} ${signals} ${work})
+        qtplc_pack_fmu(${version} ${file} ${library} ${program})
     endforeach()
     add_custom_target(${name}_fmu ALL DEPENDS ${files})
 endfunction()
