@@ -54,7 +54,7 @@ struct QPlcEmbeddedMaster::Private
     void run(std::promise<void> &isReady);
     void end();
     bool begin(std::chrono::milliseconds longest, const QStringList &nodes);
-    bool beginWithin(Patience &patience, const QStringList &nodes, QString *error);
+    bool beginWithin(Patience &patience, const QStringList &nodes, QString *reason);
     QString missing(const QStringList &nodes) const;
     void setError(const QString &text);
 
@@ -163,10 +163,10 @@ QString QPlcEmbeddedMaster::Private::missing(const QStringList &names) const
     return sentences.join(QStringLiteral("; "));
 }
 
-bool QPlcEmbeddedMaster::Private::beginWithin(Patience &patience, const QStringList &names, QString *error)
+bool QPlcEmbeddedMaster::Private::beginWithin(Patience &patience, const QStringList &names, QString *reason)
 {
     if (!patience.waitFor([&] { return missing(names).isEmpty(); })) {
-        *error = missing(names);
+        *reason = missing(names);
         return false;
     }
     using State = QPlcMasterNode::State;
@@ -176,10 +176,10 @@ bool QPlcEmbeddedMaster::Private::beginWithin(Patience &patience, const QStringL
         hasBegun = master->initializeAllStates() && patience.waitFor(isSettled) && master->arm();
     hasBegun = hasBegun && master->startRealTime();
     if (!patience.waitFor(isSettled)) {
-        *error = QStringLiteral("the nodes did not answer in time");
+        *reason = QStringLiteral("the nodes did not answer in time");
         return false;
     }
-    *error = master->errorString();
+    *reason = master->errorString();
     return hasBegun && (master->state() == State::RealTime || master->state() == State::SafeStop);
 }
 
