@@ -207,7 +207,10 @@ void addWinch(QPlcCoreApplication &application, const awe::RunSettings &run, awe
 
 int flyInProcesses(QPlcCoreApplication &application, const Settings &settings)
 {
-    const QStringList table{QStringLiteral("--signals=%1").arg(application.value(QStringLiteral("signals")))};
+    // Without one, each program has that of the example, or gets the one of the master.
+    const QStringList table = application.isSet(QStringLiteral("signals"))
+        ? QStringList{QStringLiteral("--signals=%1").arg(application.value(QStringLiteral("signals")))}
+        : QStringList();
     awe::ProcessArguments arguments;
     if (settings.isExported)
         arguments.modelProgram = QStringLiteral("awe_lawe_model");
