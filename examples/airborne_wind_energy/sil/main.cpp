@@ -227,8 +227,10 @@ int flyInProcesses(QPlcCoreApplication &application, const Settings &settings)
     if (settings.transport == multicast)
         arguments.master << QStringLiteral("--multicast=%1").arg(awe::defaultMulticastGroup().toString());
     const QStringList order = settings.sameCycle ? QStringList{QStringLiteral("--same-cycle")} : QStringList();
-    arguments.model
-        = table + processor + order + awe::givenPlantOptions(application) + awe::givenModelOptions(application);
+    // The generated program has no table of its own: the master sends it.
+    arguments.model = settings.isExported
+        ? processor + order
+        : table + processor + order + awe::givenPlantOptions(application) + awe::givenModelOptions(application);
     arguments.autopilot = table + processor + order + awe::givenAutopilotOptions(application);
     arguments.transport = settings.transport;
     if (settings.run.plant.hasDrive())
