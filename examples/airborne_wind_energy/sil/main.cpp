@@ -227,10 +227,9 @@ int flyInProcesses(QPlcCoreApplication &application, const Settings &settings)
     if (settings.transport == multicast)
         arguments.master << QStringLiteral("--multicast=%1").arg(awe::defaultMulticastGroup().toString());
     const QStringList order = settings.sameCycle ? QStringList{QStringLiteral("--same-cycle")} : QStringList();
-    // The generated program has no table of its own: the master sends it.
-    arguments.model = settings.isExported
-        ? processor + order
-        : table + processor + order + awe::givenPlantOptions(application) + awe::givenModelOptions(application);
+    arguments.model = table + processor + order;
+    if (!settings.isExported)  // that one is generated, and has no options of the example
+        arguments.model += awe::givenPlantOptions(application) + awe::givenModelOptions(application);
     arguments.autopilot = table + processor + order + awe::givenAutopilotOptions(application);
     arguments.transport = settings.transport;
     if (settings.run.plant.hasDrive())
