@@ -173,6 +173,8 @@ def example_messages():
                                outputsHash=hex64(fnv1a64(b"")), state="Off", token="00000000075bcd18",
                                probe=dict(question="0123456789abcdef", answer="fedcba9876543210"))),
         (5, "AttachCyclicChannel", dict(node=10, token="00000000075bcd18", cyclic="udp")),
+        (21, "RealTimeStarted", dict(period=10000000, clock="External", scale=0, profile="Simulation",
+                                     cycleZero=hex64(8192), firstCycle=hex64(8192))),
     ]
     # fmt: on
 
