@@ -165,7 +165,9 @@ int main(int argc, char **argv)
         return 2;
     void *library = open_library(argv[1]);
     *(void **)&discon = symbol(library, "DISCON");
+#ifndef QTPLC_IS_SHARED /* else dlsym() looks into its library, too */
     REQUIRE(dlsym(library, "_ZN13QPlcSlaveNodeD1Ev") == NULL); /* nothing else is exported */
+#endif
     wrong_files(argv[3]);
     wrong_calls(argv[2]);
     flight(argv[2]);
