@@ -24,7 +24,7 @@ static void call(int status, double time, const char *file)
     records[50] = file ? (float)strlen(file) : 0;
     fail = 99;
     discon(records + 1, &fail, file ? name : NULL, out, message);
-    snprintf(last_message, sizeof last_message, "%s", message);
+    snprintf(last_message, sizeof last_message, "%.*s", MESSAGE, message); /* it may have no end */
 }
 
 static void prepare(void)
