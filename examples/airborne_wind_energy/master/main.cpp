@@ -189,6 +189,7 @@ int main(int argc, char **argv)
     master.setBeacon(application.isSet(QStringLiteral("beacon")));
     QPlcServiceNotifier service(master);
     awe::FlightRun run(master, settings.run);
+    application.quitOnSignals([&run] { run.end(); });  // before anybody hears that it is ready
     if (!run.isValid() || !master.startServer(QPlcUnderlyingProtocol::tcp(settings.address, settings.port)))
         return QPlcCoreApplication::UsageError;
     std::printf("port %d\n", int(master.serverPort()));
@@ -200,7 +201,6 @@ int main(int argc, char **argv)
             std::fputs(qPrintable(awe::summary(run.report())), stdout);
         QCoreApplication::exit(exitCode);
     });
-    application.quitOnSignals([&run] { run.end(); });
     run.begin();
     return QCoreApplication::exec();
 }
