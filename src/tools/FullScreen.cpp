@@ -3,6 +3,7 @@
 
 #include "TerminalText.h"
 
+#include <cerrno>
 #include <unistd.h>
 
 namespace tools {
@@ -52,8 +53,9 @@ FullScreen::FullScreen()
 FullScreen::~FullScreen()
 {
     printText(usualScreen);
-    if (m_keys)
-        ::tcsetattr(STDIN_FILENO, TCSADRAIN, &m_before);
+    if (!m_keys)
+        return;
+    while (::tcsetattr(STDIN_FILENO, TCSADRAIN, &m_before) != 0 && errno == EINTR) {}  // a signal ends its wait
 }
 
 void FullScreen::show(const QStringList &lines)
