@@ -153,41 +153,33 @@ void FmuPort::attach(QPlcSignalType type)
 
 void FmuPort::load(const char *bytes)
 {
-    for (const Move &move : m_moves) {
-        if (move.way == Move::Copy) {
-            std::memcpy(move.number, bytes + move.offset, std::size_t(QPlcSignalType(m_scalar).elementSize()));
-        } else if (move.way == Move::Whole) {
-            qint64 value = 0;
-            QPlcPortDetail::loadElements(m_scalar, bytes + move.offset, &value, 1);
-            value = move.isBoolean ? qint64(value != 0) : value;
-            check(move, value, move.scalar);
-            QPlcPortDetail::storeElements(move.scalar, move.number, &value, 1);
-        } else {
-            double value = 0.0;
-            QPlcPortDetail::loadElements(m_scalar, bytes + move.offset, &value, 1);
-            value = move.converted(value);
-            QPlcPortDetail::storeElements(move.scalar, move.number, &value, 1);
-        }
-    }
+    for (const Move &move : m_moves)
+        carry(move, m_scalar, bytes + move.offset, move.scalar, move.number);
 }
 
 void FmuPort::store(char *bytes) const
 {
-    for (const Move &move : m_moves) {
-        if (move.way == Move::Copy) {
-            std::memcpy(bytes + move.offset, move.number, std::size_t(QPlcSignalType(m_scalar).elementSize()));
-        } else if (move.way == Move::Whole) {
-            qint64 value = 0;
-            QPlcPortDetail::loadElements(move.scalar, move.number, &value, 1);
-            value = move.isBoolean ? qint64(value != 0) : value;
-            check(move, value, m_scalar);
-            QPlcPortDetail::storeElements(m_scalar, bytes + move.offset, &value, 1);
-        } else {
-            double value = 0.0;
-            QPlcPortDetail::loadElements(move.scalar, move.number, &value, 1);
-            value = move.converted(value);
-            QPlcPortDetail::storeElements(m_scalar, bytes + move.offset, &value, 1);
-        }
+    for (const Move &move : m_moves)
+        carry(move, move.scalar, move.number, m_scalar, bytes + move.offset);
+}
+
+/// One number between a signal and the FMU, in either direction.
+void FmuPort::carry(const Move &move, QPlcSignalType::Scalar fromScalar, const char *from,
+                    QPlcSignalType::Scalar toScalar, char *to) const
+{
+    if (move.way == Move::Copy) {
+        std::memcpy(to, from, std::size_t(QPlcSignalType(toScalar).elementSize()));
+    } else if (move.way == Move::Whole) {
+        qint64 value = 0;
+        QPlcPortDetail::loadElements(fromScalar, from, &value, 1);
+        value = move.isBoolean ? qint64(value != 0) : value;
+        check(move, value, toScalar);
+        QPlcPortDetail::storeElements(toScalar, to, &value, 1);
+    } else {
+        double value = 0.0;
+        QPlcPortDetail::loadElements(fromScalar, from, &value, 1);
+        value = move.converted(value);
+        QPlcPortDetail::storeElements(toScalar, to, &value, 1);
     }
 }
 

@@ -65,6 +65,8 @@ private:
     void load(const char *bytes) override;
     void store(char *bytes) const override;
     char *plainBytes() const override { return m_plain; }
+    void carry(const Move &move, QPlcSignalType::Scalar fromScalar, const char *from, QPlcSignalType::Scalar toScalar,
+               char *to) const;
     void check(const Move &move, qint64 value, QPlcSignalType::Scalar scalar) const;
 
     int m_version;

@@ -75,6 +75,7 @@ public:
     }
     QVector<QPlcSignalIndex> all(Place::Kind kind) const;
     char *element(QPlcSignalIndex index, int element) const;
+    bool setElement(QPlcSignalIndex index, int element, const QPlcValue &value) const;
 
     QPlcSlaveNodePrivate &node;
     std::chrono::nanoseconds period;
@@ -295,6 +296,18 @@ char *QPlcNodeRunnerPrivate::element(QPlcSignalIndex index, int element) const
                                                                      : where.bytes + element * type.elementSize();
 }
 
+/// \return false when there is no such number of an input, or \a value does not fit
+bool QPlcNodeRunnerPrivate::setElement(QPlcSignalIndex index, int element, const QPlcValue &value) const
+{
+    char *bytes = place(index).kind == Place::Input ? this->element(index, element) : nullptr;
+    if (!bytes)
+        return false;
+    const QPlcValue converted = value.convertedTo(elementOf(table.at(index).type));
+    if (converted.isValid())
+        converted.toBytes(bytes);
+    return converted.isValid();
+}
+
 // ---- the public class ----
 
 QPlcNodeRunner::QPlcNodeRunner(QPlcSlaveNode &node, std::chrono::nanoseconds period)
@@ -507,24 +520,12 @@ bool QPlcNodeRunner::setValue(QPlcSignalIndex index, const QPlcValue &value)
 
 bool QPlcNodeRunner::setReal(QPlcSignalIndex index, double value, int element)
 {
-    char *bytes = isInput(index) ? d->element(index, element) : nullptr;
-    if (!bytes)
-        return false;
-    const QPlcValue converted = QPlcValue(value).convertedTo(elementOf(d->table.at(index).type));
-    if (converted.isValid())
-        converted.toBytes(bytes);
-    return converted.isValid();
+    return d->setElement(index, element, QPlcValue(value));
 }
 
 bool QPlcNodeRunner::setInteger(QPlcSignalIndex index, qint64 value, int element)
 {
-    char *bytes = isInput(index) ? d->element(index, element) : nullptr;
-    if (!bytes)
-        return false;
-    const QPlcValue converted = QPlcValue(value).convertedTo(elementOf(d->table.at(index).type));
-    if (converted.isValid())
-        converted.toBytes(bytes);
-    return converted.isValid();
+    return d->setElement(index, element, QPlcValue(value));
 }
 
 void QPlcNodeRunner::setBytes(QPlcSignalIndex index, const void *bytes)
