@@ -58,8 +58,7 @@
 ///     return 0;
 /// }
 /// \endcode
-/// docs/design/turned-clocks.md says how many steps a value needs from the program to a node and
-/// back.
+/// docs/delays.md says how many steps a value needs from the program to a node and back.
 ///
 /// There may be several objects in a program, one after the other or at the same time. If there is
 /// no QCoreApplication, the first object makes one in a thread of its own, and the last one ends
