@@ -34,6 +34,8 @@ private Q_SLOTS:
     void crashLosesTheNodeAndNotThePlant();
     void slowStepIsLateAndThePlantGoesOn();
     void hangingStepEndsWithItsProcess();
+    void hangingInitializationEndsWithItsProcess_data() { addVersions(); }
+    void hangingInitializationEndsWithItsProcess();
 
 private:
     struct Run
@@ -51,7 +53,8 @@ private:
     Run run(const QStringList &arguments) const;
     QString write(const QString &name, const QByteArray &text) const;
     /// Starts a node whose plant has a fault 0.05 s after the start.
-    void start(QProcess *process, const TestMaster &master, const QString &file, int fault) const;
+    void start(QProcess *process, const TestMaster &master, const QString &file, int fault,
+               const QStringList &options = {}) const;
 
     QTemporaryDir m_folder;
 };
@@ -88,7 +91,8 @@ QString tst_qtplc_fmu::write(const QString &name, const QByteArray &text) const
     return file.open(QIODevice::WriteOnly) && file.write(text) == text.size() ? file.fileName() : QString();
 }
 
-void tst_qtplc_fmu::start(QProcess *process, const TestMaster &master, const QString &file, int fault) const
+void tst_qtplc_fmu::start(QProcess *process, const TestMaster &master, const QString &file, int fault,
+                          const QStringList &options) const
 {
     const QString configuration = write(
         QStringLiteral("%1_%2.ini").arg(file).arg(fault),
@@ -99,7 +103,7 @@ void tst_qtplc_fmu::start(QProcess *process, const TestMaster &master, const QSt
             .toUtf8());
     process->setProcessChannelMode(QProcess::MergedChannels);
     process->start(QStringLiteral(QTPLC_FMU_PROGRAM),
-                   {"node", configuration, "--master", master.protocol("tcp").toString()});
+                   QStringList{"node", configuration, "--master", master.protocol("tcp").toString()} + options);
 }
 
 void tst_qtplc_fmu::helpNamesTheCommandsAndTheirOptions()
@@ -393,6 +397,28 @@ void tst_qtplc_fmu::hangingStepEndsWithItsProcess()
     const QString output = QString::fromUtf8(process.readAll());
     QVERIFY2(output.contains("the FMU does not return from fmi2DoStep; this process ends"), qPrintable(output));
     master.stop();
+}
+
+/// Its main thread, which SIGTERM asks for an end, is in the FMU, where a long work may take 5 min.
+void tst_qtplc_fmu::hangingInitializationEndsWithItsProcess()
+{
+    QFETCH(QString, file);
+    TestMaster master;
+    QVERIFY(master.listen());
+    QProcess process;
+    start(&process, master, file, 11, {"--stay"});
+    QVERIFY(waitUntil([&] { return master.nodes().size() == 1; }, 20000));
+    QVERIFY(master.startRealTime());
+    QString output;
+    const auto tells = [&](const char *text) {
+        output += QString::fromUtf8(process.readAll());
+        return output.contains(text);
+    };
+    QVERIFY2(waitUntil([&] { return tells("the plant hangs"); }, 20000), qPrintable(output));
+    process.terminate();
+    QVERIFY(waitUntil([&] { return process.state() == QProcess::NotRunning; }, 60000));
+    QCOMPARE(process.exitCode(), 1);
+    QVERIFY2(tells("EnterInitializationMode; this process ends"), qPrintable(output));
 }
 
 QTEST_GUILESS_MAIN(tst_qtplc_fmu)

@@ -3,7 +3,7 @@
 
 #include "models/FmuInstance.h"
 
-#include <array>
+#include <atomic>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
@@ -50,8 +50,9 @@ void tellCrash(int signal)
 }
 
 constexpr int mostPatience = 30;
-unsigned patience = 0;  // [s] of one alarm; 0: the process has to end
-int alarms = 0;         // since the loop was there
+// Handlers of signals use them, too.
+std::atomic<unsigned> patience{0};  // [s] of one alarm; 0: the process has to end
+std::atomic<int> alarms{0};         // since the loop was there
 
 void tellHang(int)
 {

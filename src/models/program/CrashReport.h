@@ -11,7 +11,8 @@ class CrashReport
 public:
     /// Watches for signals of a crash. They still end the process.
     static void install();
-    /// Ends the process if it still runs after \a time; with 0 no longer.
+    /// Ends the process if it still runs after \a time; with 0 no longer. A handler of a signal may
+    /// call it.
     static void endAfter(std::chrono::seconds time);
     /// Ends the process if the event loop of the main thread stands still for \a time, because it
     /// waits for an FMU that another thread has called. In the main thread an FMU has 30 times as

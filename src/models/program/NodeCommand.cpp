@@ -3,6 +3,7 @@
 #include "CrashReport.h"
 #include "QPlcFmuNode.h"
 #include "QPlcNodeApplication.h"
+#include "realtime/EndSignal.h"
 
 #include <QtCore/QTimer>
 
@@ -12,6 +13,19 @@ namespace {
 
 constexpr std::chrono::seconds longestEnd{5};
 constexpr std::chrono::seconds longestStandstill{10};  // of the event loop
+
+/// SIGTERM comes while the event loop may wait for the FMU. More signals do not prolong the time.
+void endAfterSignal()
+{
+    qplc::atEndSignal = nullptr;
+    CrashReport::endAfter(longestEnd);
+}
+
+void expectLoop()
+{
+    if (qplc::atEndSignal.load())
+        CrashReport::expectAgainWithin(longestStandstill);
+}
 
 QString termText(const QString &source, const QPlcFmuNode::Wire &wire)
 {
@@ -70,8 +84,9 @@ int runNode(int argc, char **argv)
         return QPlcNodeApplication::Success;
     }
     // An FMU that does not return would keep the process for ever when the connection is lost.
+    qplc::atEndSignal = &endAfterSignal;
     QTimer beat;
-    QObject::connect(&beat, &QTimer::timeout, [] { CrashReport::expectAgainWithin(longestStandstill); });
+    QObject::connect(&beat, &QTimer::timeout, &expectLoop);
     beat.start(1000);
     const int code = application.run(node);
     beat.stop();

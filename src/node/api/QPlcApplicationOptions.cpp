@@ -2,6 +2,7 @@
 #include "QPlcApplicationOptions.h"
 
 #include "QPlcMasterNode.h"
+#include "realtime/EndSignal.h"
 #include "realtime/LogWriter.h"
 #include "signals/MemoryNeed.h"
 #include "signals/MessageText.h"
@@ -21,11 +22,13 @@
 
 namespace {
 
-// The only thing that a signal handler may touch: one end of a pair of sockets.
+// What a signal handler writes to: one end of a pair of sockets.
 int signalSocket = -1;
 
 void handleSignal(int)
 {
+    if (void (*const hurry)() = qplc::atEndSignal.load())
+        hurry();
     const char byte = 1;
     const ssize_t written = ::write(signalSocket, &byte, 1);
     Q_UNUSED(written)

@@ -3,6 +3,7 @@
 #include "plant.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 #include <time.h>
 
@@ -56,6 +57,15 @@ static int fail(Plant *plant)
     default:
         return Ok;
     }
+}
+
+void plantInitialize(const Plant *plant)
+{
+    if (plant->fault != HangsInitializing)
+        return;
+    fputs("the plant hangs\n", stderr);
+    for (;;)
+        sleepFor(1000);
 }
 
 int plantStep(Plant *plant, double time, double step)

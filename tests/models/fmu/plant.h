@@ -19,7 +19,8 @@ enum Fault {
     Sleeps,
     Hangs,
     FloodsLog,
-    AccessesWrongly
+    AccessesWrongly,
+    HangsInitializing  // says so before
 };
 enum Reference { Time, U, X, Mode, X0, Limit, FaultKind, FaultTime, Gain, Enabled, Label, R1, R2, R3, RefCount };
 
@@ -46,5 +47,7 @@ int plantGetReal(const Plant *plant, unsigned reference, double *value);
 int plantSetReal(Plant *plant, unsigned reference, double value);
 /// Whether start values may be set now, or (\a isInput) inputs.
 bool plantMaySet(const Plant *plant, bool isInput);
+/// Start of the initialization: does not return if that is the fault.
+void plantInitialize(const Plant *plant);
 
 #endif

@@ -81,6 +81,7 @@ static int move(Plant *plant, enum State from, enum State to)
 
 int fmi2EnterInitializationMode(void *instance)
 {
+    plantInitialize(instance);
     return move(instance, Instantiated, Initialization);
 }
 

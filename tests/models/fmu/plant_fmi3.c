@@ -60,6 +60,7 @@ int fmi3EnterInitializationMode(void *instance, bool hasTolerance, double tolera
 {
     (void)hasTolerance, (void)tolerance, (void)hasStop, (void)stop;
     ((Plant *)instance)->time = start;
+    plantInitialize(instance);
     return move(instance, Instantiated, Initialization);
 }
 
