@@ -57,6 +57,7 @@ def groups(runs, build):
         },
         "instructions": {
             f"{build}: inprocess": instructions("master", "inprocess", 1),
+            f"{build}: steps": instructions("master", "steps", 1),
             f"{build}: inprocess, 10 nodes": instructions("master", "inprocess", 10),
             f"{build}: master, udp": instructions("master", "udp", 1),
             f"{build}: slave, udp": instructions("slave", "udp", 1),
