@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <cstdlib>
 #include <limits>
 
 extern "C" {
@@ -31,7 +30,12 @@ double nanosecondsOf(Step step)
 
 int main(int argc, char **argv)
 {
-    const int rounds = argc > 1 ? std::max(1, std::atoi(argv[1])) : 100;
+    const QString given = QString::fromLocal8Bit(argc > 1 ? argv[1] : "100");
+    const int rounds = given.toInt();
+    if (rounds < 1) {
+        std::fprintf(stderr, "'%s' rounds are not possible; use a number from 1\n", qPrintable(given));
+        return 2;
+    }
     const std::unique_ptr<QPlcSimulinkNode> node = make_awe_lawe_model();
     node->activateWorkloadMeasurement(QString());  // which reads clocks
     QPlcNodeRunner runner(*node, node->sampleTime());
