@@ -3,11 +3,12 @@
 // floods it, and how many answers are late while datagrams of strangers come in. With keys.
 //
 //   strangers [--master ADDRESS] [--foe ADDRESS] [--garbage N] [--silent N] [--friends N]
-//             [--datagrams N] [--rounds N] [--seconds S]
+//             [--datagrams N] [--rounds N] [--seconds S] [--hello]
 //
 // The program starts itself as master, node and foe. Friends have the address of the master: with
 // --foe of the same address, friend and foe share it. Addresses other than 127.0.0.0/8 have limits
-// that users of this machine do not have: try them in a network namespace.
+// that users of this machine do not have: try them in a network namespace. With --hello the garbage
+// is a wrong ClientHello.
 #include "../common/Processes.h"
 
 #include <QtCore/QCommandLineParser>
@@ -60,7 +61,15 @@ void useTable()
     QPlcSignalIndexTable::setCurrent(QPlcSignalTable::fromIni("[time]\ntype = Real64\n"));
 }
 
-/// Tells late answers, cycles and datagrams of strangers, each second.
+/// [us] that this thread has worked.
+qint64 workedSoFar()
+{
+    timespec time{};
+    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return qint64(time.tv_sec) * 1'000'000 + time.tv_nsec / 1000;
+}
+
+/// Tells late answers, cycles, datagrams of strangers and the work of the event loop, each second.
 int runMaster(const QString &keys, const QString &address)
 {
     useTable();
@@ -71,10 +80,11 @@ int runMaster(const QString &keys, const QString &address)
     QTimer teller;
     QObject::connect(&teller, &QTimer::timeout, &master, [&master] {
         const QPlcMasterStatistics statistics = master.statistics();
-        tell(QStringLiteral("figures %1 %2 %3")
+        tell(QStringLiteral("figures %1 %2 %3 %4")
                  .arg(statistics.lateAnswers)
                  .arg(statistics.cycles)
-                 .arg(statistics.strangers));
+                 .arg(statistics.strangers)
+                 .arg(workedSoFar()));
         if (master.state() == QPlcMasterNode::Off && !master.nodes().isEmpty())
             master.startRealTime();
     });
@@ -140,14 +150,18 @@ bool isEnded(int descriptor)
 }
 
 /// Garbage connections, and silent ones that come again when the master ends them.
-[[noreturn]] void runConnections(const QString &address, const Place &goal, int garbagePerSecond, int silentCount)
+[[noreturn]] void runConnections(const QString &address, const Place &goal, int garbagePerSecond, int silentCount,
+                                 const QString &kind)
 {
+    const QByteArray bytes = kind == QLatin1String("hello")
+        ? QByteArray("\x16\x03\x01\x00\x40\x01\x00\x00\x3c\x03\x03", 11) + QByteArray(58, '\0')
+        : QByteArray("GET / HTTP/1.1\r\n\r\n");
     std::vector<int> silent(std::size_t(silentCount), -1);
     std::deque<int> garbage;
     std::size_t place = 0;
     repeat(garbagePerSecond, [&] {
         garbage.push_back(socketFrom(address, SOCK_STREAM, goal));
-        ::send(garbage.back(), "GET / HTTP/1.1\r\n\r\n", 18, MSG_NOSIGNAL);
+        ::send(garbage.back(), bytes.constData(), std::size_t(bytes.size()), MSG_NOSIGNAL);
         if (garbage.size() > 100) {
             ::close(garbage.front());
             garbage.pop_front();
@@ -185,10 +199,19 @@ public:
         startNode();
     }
 
-    void connections(int garbage, int silent, int friends)
+    /// \param kind  of the garbage: "hello" or "text"
+    void connections(int garbage, int silent, int friends, const QString &kind)
     {
-        const Child flood({"connections", m_foe, m_place, QString::number(garbage), QString::number(silent)});
+        const Child flood({"connections", m_foe, m_place, QString::number(garbage), QString::number(silent), kind});
         pass(3000);  // longer than a master is patient
+        m_master.next("figures");
+        const qint64 before = m_master.next("figures").at(3).toLongLong();
+        constexpr int seconds = 5;
+        qint64 after = 0;
+        for (int second = 0; second < seconds; ++second)
+            after = m_master.next("figures").at(3).toLongLong();
+        tell(QStringLiteral("the event loop of the master works for %1 % of the time")
+                 .arg(double(after - before) / 1e4 / seconds, 0, 'f', 1));
         std::vector<double> operators;
         std::vector<double> nodes;
         for (int i = 0; i < friends; ++i) {
@@ -265,13 +288,15 @@ int runAll(const QCoreApplication &application)
     option("datagrams", "100000");
     option("rounds", "3");
     option("seconds", "10");
+    parser.addOption({QStringLiteral("hello"), {}});
     parser.addHelpOption();
     parser.process(application);
     const auto number = [&parser](const char *name) { return parser.value(QLatin1String(name)).toInt(); };
     const QTemporaryDir folder;
     Measurement measurement(makeKeys(folder, {{"operator", "Operator"}, {"Echo", "Node"}}),
                             parser.value(QStringLiteral("master")), parser.value(QStringLiteral("foe")));
-    measurement.connections(number("garbage"), number("silent"), number("friends"));
+    measurement.connections(number("garbage"), number("silent"), number("friends"),
+                            parser.isSet(QStringLiteral("hello")) ? QStringLiteral("hello") : QStringLiteral("text"));
     measurement.datagrams(number("datagrams"), number("rounds"), number("seconds"));
     return 0;
 }
@@ -288,7 +313,7 @@ int main(int argc, char **argv)
     if (arguments.value(1) == QLatin1String("node"))
         return runNode(arguments.at(2), Place(arguments.at(3)));
     if (arguments.value(1) == QLatin1String("connections"))
-        runConnections(arguments.at(2), Place(arguments.at(3)), number(4), number(5));
+        runConnections(arguments.at(2), Place(arguments.at(3)), number(4), number(5), arguments.at(6));
     if (arguments.value(1) == QLatin1String("datagrams"))
         runDatagrams(arguments.at(2), Place(arguments.at(3)), number(4));
     return runAll(application);

@@ -7,7 +7,7 @@ namespace qplc {
 
 namespace {
 
-constexpr qint64 LongestMemory = 2'000'000'000;  // of the budget of an address that is not here [ns]
+constexpr qint64 LongestMemory = 4'000'000'000;  // of the budgets of an address that is not here [ns]
 
 QByteArray bytesOf(const QHostAddress &address)
 {
@@ -24,14 +24,13 @@ QByteArray bytesOf(const QHostAddress &address)
 ConnectionGate::Admission ConnectionGate::admit(const QHostAddress &address, qint64 now)
 {
     const QByteArray key = bytesOf(address);
-    const bool isLocal = address.isLoopback();
-    Origin &origin = originOf(key, now);
+    Origin &origin = originOf(address, key, now);
     if (known() >= m_limits.connections)
         return {0, TooManyConnections, 0};
-    if (!isLocal && !origin.accepts.take(now))
+    if (!origin.isLocal && !origin.accepts.take(now))
         return {0, TooFast, 0};
     Admission admission;
-    if (!isLocal && origin.strangers >= m_limits.strangersOfAddress)
+    if (!origin.isLocal && origin.strangers >= m_limits.strangersOfAddress)
         admission.crowdedOut = leastOf([&](const Visit &visit) { return visit.origin == key; });
     else if (m_strangers >= m_limits.strangers + (origin.isTrusted ? m_limits.reserve : 0)) {
         admission.crowdedOut
@@ -46,11 +45,14 @@ ConnectionGate::Admission ConnectionGate::admit(const QHostAddress &address, qin
     return admission;
 }
 
-void ConnectionGate::hear(Ticket ticket)
+bool ConnectionGate::hear(Ticket ticket, qint64 now)
 {
     const auto visit = m_visits.find(ticket);
-    if (visit != m_visits.end())
-        ++visit->steps;
+    if (visit == m_visits.end())
+        return false;
+    ++visit->steps;
+    const auto origin = m_origins.find(visit->origin);  // kept: a stranger of it is here
+    return origin == m_origins.end() || origin->isLocal || origin->handshakes.take(now);
 }
 
 void ConnectionGate::renew(Ticket ticket, qint64 now)
@@ -140,7 +142,7 @@ ConnectionGate::Ticket ConnectionGate::leastOf(const std::function<bool(const Vi
 
 // ---- addresses ----
 
-ConnectionGate::Origin &ConnectionGate::originOf(const QByteArray &key, qint64 now)
+ConnectionGate::Origin &ConnectionGate::originOf(const QHostAddress &address, const QByteArray &key, qint64 now)
 {
     auto origin = m_origins.find(key);
     if (origin == m_origins.end()) {
@@ -148,7 +150,10 @@ ConnectionGate::Origin &ConnectionGate::originOf(const QByteArray &key, qint64 n
             forgetOrigins(now - LongestMemory);
         if (m_origins.size() >= MostOrigins)
             forgetOrigins(now);
-        origin = m_origins.insert(key, {TokenBucket(m_limits.acceptsPerSecond, m_limits.acceptsAtOnce), 0, false, 0});
+        origin = m_origins.insert(key,
+                                  {TokenBucket(m_limits.acceptsPerSecond, m_limits.acceptsAtOnce),
+                                   TokenBucket(m_limits.handshakesPerSecond, m_limits.handshakesAtOnce),
+                                   address.isLoopback(), 0, false, 0});
     }
     origin->seen = now;
     return *origin;
@@ -182,6 +187,8 @@ const char *ConnectionGate::textOf(Refusal refusal)
         return "too many connections of this identity";
     case TooFast:
         return "too many new connections in a short time";
+    case TooManyHandshakes:
+        return "too many TLS handshakes of this address in a short time";
     }
     return "";
 }

@@ -33,12 +33,14 @@ public:
         int strangersOfAddress = 64;
         int acceptsPerSecond = 5000;      // of an address, on the long run
         int acceptsAtOnce = 1000;         // of an address, after a pause
+        int handshakesPerSecond = 100;    // of an address, on the long run; each takes about 1 ms
+        int handshakesAtOnce = 320;       // of an address, after a pause: a whole plant behind a router
         qint64 patience = 2'000'000'000;  // with a stranger [ns]
 
         /// Of the connections, those that only nodes and operators get.
         int reserved() const { return connections / 8; }
     };
-    enum Refusal : quint8 { Admitted, TooManyConnections, TooManyOfIdentity, TooFast };
+    enum Refusal : quint8 { Admitted, TooManyConnections, TooManyOfIdentity, TooFast, TooManyHandshakes };
     enum Guest : quint8 { Observer, NodeOrOperator };
     using Ticket = quint64;  // of a connection; never 0
 
@@ -54,8 +56,9 @@ public:
 
     /// Takes somebody in as a stranger if there is a place.
     Admission admit(const QHostAddress &address, qint64 now);
-    /// The stranger has begun a handshake.
-    void hear(Ticket ticket);
+    /// The stranger wants to begin a handshake, which costs much more than to take it in. \return
+    /// false when its address has begun too many: he is to be closed
+    bool hear(Ticket ticket, qint64 now);
     /// The stranger has ended a step and gets time for the next one.
     void renew(Ticket ticket, qint64 now);
     /// The stranger has proven to be \a identity. \return false when there are too many of it: he
@@ -90,13 +93,15 @@ private:
     struct Origin
     {
         TokenBucket accepts;
+        TokenBucket handshakes;
+        bool isLocal = false;
         int strangers = 0;
         bool isTrusted = false;
         qint64 seen = 0;
     };
     static constexpr int MostOrigins = 1024;
 
-    Origin &originOf(const QByteArray &key, qint64 now);
+    Origin &originOf(const QHostAddress &address, const QByteArray &key, qint64 now);
     bool isProtected(const QByteArray &origin) const;
     void forgetOrigins(qint64 before);
     void endStranger(Visit *visit);

@@ -38,6 +38,8 @@ private Q_SLOTS:
     void allConnectionsTogetherAreLimited();
     void connectionsOfOneIdentityAreLimited();
     void theRateOfAnAddressIsLimited();
+    void handshakesOfAnAddressAreLimited();
+    void localHandshakesAreNotLimited();
     void strangersAreOverdueAfterTwoSeconds();
     void handshakeStepRenewsTheTimeOfAStranger();
     void knownPeerIsNeverOverdue();
@@ -83,18 +85,18 @@ void tst_ConnectionGate::silentStrangersMakeRoomFirst()
     const quint64 begun = admit(far());
     for (int i = 2; i < 64; ++i)
         admit(far());
-    m_gate.hear(begun);
-    m_gate.hear(entered);
+    m_gate.hear(begun, 0);
+    m_gate.hear(entered, 0);
     m_gate.renew(entered, 0);
     quint64 silent = begun;
     for (int i = 2; i < 64; ++i) {
         const quint64 next = admit(far());
         QCOMPARE(m_admission.crowdedOut, ++silent);
         m_gate.leave(silent);
-        m_gate.hear(next);
+        m_gate.hear(next, 0);
     }
     for (const quint64 victim : {begun, silent + 1}) {  // of those that have begun, the oldest
-        m_gate.hear(admit(far()));
+        m_gate.hear(admit(far()), 0);
         QCOMPARE(m_admission.crowdedOut, victim);
         m_gate.leave(victim);
     }
@@ -252,6 +254,38 @@ void tst_ConnectionGate::theRateOfAnAddressIsLimited()
         admitted += comeAndGo(now) ? 1 : 0;
     QVERIFY2(admitted >= 50'000 && admitted <= 51'000, qPrintable(QString::number(admitted)));
     QVERIFY(admit(QHostAddress::LocalHost, 111 * second) != 0);
+}
+
+/// Each costs the event loop about 1 ms: 100 in a second are a tenth of it.
+void tst_ConnectionGate::handshakesOfAnAddressAreLimited()
+{
+    cleanup();
+    const auto greets = [this](qint64 now, const char *address = "192.0.2.1") {
+        const quint64 ticket = admit(far(address), now);
+        const bool mayBegin = m_gate.hear(ticket, now);
+        m_gate.leave(ticket);
+        return mayBegin;
+    };
+    for (int i = 0; i < 320; ++i)  // all nodes and tools of a plant behind a router
+        QVERIFY(greets(100 * second));
+    QVERIFY(!greets(100 * second));
+    QVERIFY(greets(100 * second, "192.0.2.2"));
+    QVERIFY(admit(far(), 100 * second) != 0);  // it may speak without TLS
+    int begun = 0;
+    for (qint64 now = 100 * second; now < 110 * second; now += second / 1000)
+        begun += greets(now) ? 1 : 0;
+    QVERIFY2(begun >= 999 && begun <= 1001, qPrintable(QString::number(begun)));
+    QVERIFY(!m_gate.hear(12345, 111 * second));  // who is gone begins nothing
+}
+
+void tst_ConnectionGate::localHandshakesAreNotLimited()
+{
+    cleanup();
+    for (int i = 0; i < 1000; ++i) {
+        const quint64 ticket = admit(QHostAddress::LocalHost);
+        QVERIFY(m_gate.hear(ticket, 0));
+        m_gate.leave(ticket);
+    }
 }
 
 void tst_ConnectionGate::strangersAreOverdueAfterTwoSeconds()

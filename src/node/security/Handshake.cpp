@@ -88,8 +88,9 @@ void Handshake::look()
     if (language == Language::NotYetKnown)
         return;
     if (language == Language::Tls) {
-        if (m_tls)
-            beginTls();
+        m_isTls = m_tls != nullptr;
+        if (m_isTls)
+            Q_EMIT tlsWanted();
         else
             refuseTls();
         return;
@@ -136,8 +137,6 @@ void Handshake::fail(const QString &reason)
 
 void Handshake::beginTls()
 {
-    m_isTls = true;
-    Q_EMIT began();
     QString error;
     if (!TlsSettings::read(m_security, QPlcSecurity::MasterSide, &m_settings, &error)) {
         m_socket->readAll();

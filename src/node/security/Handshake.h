@@ -35,12 +35,14 @@ public:
     /// There is no room for who is there, after succeeded() with TLS: it is told so, and the
     /// connection is closing.
     void turnAway(const QString &reason);
+    /// Begins the handshake that tlsWanted() has told.
+    void beginTls();
     /// Why it takes so long.
     QString stage() const;
 
 Q_SIGNALS:
-    /// The other end has begun a TLS handshake.
-    void began();
+    /// The other end wants a TLS handshake, which costs much: it waits for beginTls().
+    void tlsWanted();
     /// peer() is who is there, on an encrypted connection or, without security, on a plain one.
     void succeeded();
     /// The other end was told so as far as it understands, and the connection is closing. \param
@@ -51,7 +53,6 @@ private:
     void look();
     void refusePlain();
     void refuseTls();
-    void beginTls();
     QByteArray keyOf(const QString &identity);
     void encrypted();
     bool identify(QString *reason);

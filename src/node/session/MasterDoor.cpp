@@ -20,6 +20,8 @@ MasterDoor::MasterDoor(QObject *parent)
     m_sweeper.setInterval(sweepInterval);
     connect(&m_sweeper, &QTimer::timeout, this, &MasterDoor::sweep);
     connect(&m_listener, &ControlListener::arrived, this, &MasterDoor::acceptAll);
+    m_beginner.setInterval(0);  // a single shot that starts itself again may ring twice in a turn
+    connect(&m_beginner, &QTimer::timeout, this, &MasterDoor::beginHandshakes);
 }
 
 MasterDoor::~MasterDoor()
@@ -37,13 +39,18 @@ void MasterDoor::close()
     m_listener.close();
     while (!m_handshakes.empty())
         forget(m_handshakes.begin()->first);
+    m_beginning.clear();
+    m_beginner.stop();
     m_sweeper.stop();
 }
 
 /// A few in each turn of the event loop: those who came before say something in between. Who is
-/// closed at once costs little, and must not fill the queue of the system.
+/// closed at once costs little, and must not fill the queue of the system. While many handshakes
+/// wait for their turn, newcomers wait there: else they would crowd those out.
 void MasterDoor::acceptAll()
 {
+    if (m_beginning.size() >= std::size_t(admittedAtOnce))
+        return;
     const std::int64_t end = monotonicNow() + longestAccepting;
     for (int admitted = 0; admitted < admittedAtOnce && monotonicNow() < end;) {
         const int descriptor = m_listener.take();
@@ -69,7 +76,7 @@ bool MasterDoor::accept(int descriptor)
         showOut(admission.crowdedOut, QStringLiteral("too many connections have not sent Hello"));
     auto *handshake = new Handshake(descriptor, m_security, this);
     m_handshakes[admission.ticket] = handshake;
-    connect(handshake, &Handshake::began, this, [this, number = admission.ticket] { m_gate.hear(number); });
+    connect(handshake, &Handshake::tlsWanted, this, [this, number = admission.ticket] { handshakeWanted(number); });
     connect(handshake, &Handshake::succeeded, this, [this, number = admission.ticket] { handshakeEnded(number); });
     connect(handshake, &Handshake::failed, this, [this, number = admission.ticket, handshake](const QString &reason) {
         const QString identity = handshake->claimedIdentity();
@@ -81,6 +88,36 @@ bool MasterDoor::accept(int descriptor)
         Q_EMIT refused(identity, from, reason);
     });
     return true;
+}
+
+/// Whoever has used up the handshakes of his address is closed before one costs anything.
+void MasterDoor::handshakeWanted(ConnectionGate::Ticket ticket)
+{
+    if (m_gate.hear(ticket, monotonicNow())) {
+        m_beginning.push_back(ticket);
+        if (!m_beginner.isActive())
+            m_beginner.start();
+        return;
+    }
+    const QString from = m_handshakes[ticket]->address();
+    forget(ticket);
+    ++m_turnedAway;
+    Q_EMIT refused(QString(), from, QString::fromLatin1(ConnectionGate::textOf(ConnectionGate::TooManyHandshakes)));
+}
+
+/// A few in each turn of the event loop, whoever and however many they are.
+void MasterDoor::beginHandshakes()
+{
+    for (int begun = 0; begun < HandshakesInATurn && !m_beginning.empty();) {
+        const auto found = m_handshakes.find(m_beginning.front());
+        m_beginning.pop_front();
+        if (found == m_handshakes.end())
+            continue;
+        found->second->beginTls();
+        ++begun;
+    }
+    if (m_beginning.empty())
+        m_beginner.stop();
 }
 
 void MasterDoor::handshakeEnded(ConnectionGate::Ticket ticket)

@@ -8,6 +8,7 @@
 
 #include <QtCore/QTimer>
 
+#include <deque>
 #include <map>
 
 namespace qplc {
@@ -18,6 +19,8 @@ class MasterDoor : public QObject
 {
     Q_OBJECT
 public:
+    static constexpr int HandshakesInATurn = 2;  // of the event loop; each takes about 1 ms
+
     explicit MasterDoor(QObject *parent = nullptr);
     ~MasterDoor() override;
 
@@ -55,6 +58,8 @@ Q_SIGNALS:
 private:
     void acceptAll();
     bool accept(int descriptor);
+    void handshakeWanted(ConnectionGate::Ticket ticket);
+    void beginHandshakes();
     void handshakeEnded(ConnectionGate::Ticket ticket);
     void turnAway(ConnectionGate::Ticket ticket, Handshake *handshake);
     void forget(ConnectionGate::Ticket ticket);
@@ -65,7 +70,9 @@ private:
     ConnectionGate m_gate;
     QPlcSecurity m_security;
     std::map<ConnectionGate::Ticket, Handshake *> m_handshakes;
+    std::deque<ConnectionGate::Ticket> m_beginning;  // of m_handshakes, or gone meanwhile: wait for their turn
     QTimer m_sweeper;
+    QTimer m_beginner;  // rings while they wait
     quint64 m_turnedAway = 0;
     quint64 m_failedHandshakes = 0;
 };
