@@ -3,7 +3,6 @@
 
 #include "QPlcDriverSettings.h"
 #include "node/session/BackOff.h"
-#include "realtime/TimeSource.h"
 #include "signals/MessageText.h"
 
 #include <QtCore/QRandomGenerator>
@@ -392,14 +391,14 @@ void DriverRunner::waitFor(std::chrono::nanoseconds time)
         return;  // somebody else has read it: nobody does
 }
 
-bool DriverRunner::openNow()
+bool DriverRunner::openNow(const std::function<qint64()> &now)
 {
     prepare();
-    m_driver->m_now = monotonicNow();
+    m_driver->m_now = now();
     if (!attempt("open", [this] { return m_driver->open(); }))
         return false;
     takeOrders();
-    if (!writeDevice(monotonicNow()) || !readDevice(monotonicNow())) {  // before the cycle may come between
+    if (!writeDevice(now()) || !readDevice(now())) {  // before the cycle may come between
         closeDevice();
         return false;
     }

@@ -6,6 +6,7 @@
 #include "QPlcReadChannel.h"
 #include "QPlcWriteChannel.h"
 #include "realtime/SnapshotBuffer.h"
+#include "realtime/TimeSource.h"
 
 #include <atomic>
 #include <functional>
@@ -73,7 +74,8 @@ public:
 
     // ---- without start(): for tests and commissioning; one call after the other ----
     /// Opens the device and exchanges values with it: only what answers is open.
-    bool openNow();
+    /// \param now  the time of each of these steps [ns]
+    bool openNow(const std::function<qint64()> &now = monotonicNow);
     void closeNow();
     bool readNow(qint64 now);
     bool writeNow(qint64 now);

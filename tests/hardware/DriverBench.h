@@ -55,7 +55,7 @@ public:
     bool open()
     {
         m_now = qplc::monotonicNow();
-        return m_runner.openNow();
+        return m_runner.openNow([this] { return m_now; });
     }
     void close() { m_runner.closeNow(); }
     bool isOnline() const { return m_runner.isOnline(); }

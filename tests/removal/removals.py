@@ -853,7 +853,7 @@ REMOVALS = [
             "        forget(&m_readings);  //", "        copyChannels(&m_readings);  //",
             "tst_DriverRunner", "aDeviceThatFailsHasNoValues"),
     Removal("a device that can be opened but does not answer", "src/hardware/DriverRunner.cpp",
-            "if (!writeDevice(monotonicNow()) || !readDevice(monotonicNow()))", "if (!writeDevice(monotonicNow()))",
+            "if (!writeDevice(now()) || !readDevice(now()))", "if (!writeDevice(monotonicNow()))",
             "tst_DriverRunner", "aDeviceThatOpensAndDoesNotAnswerIsMissing"),
     Removal("code of a driver that throws", "src/hardware/DriverRunner.cpp",
             "return attempt(\"read\", [this] { return m_driver->read(); });", "return m_driver->read();",
