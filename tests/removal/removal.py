@@ -31,7 +31,15 @@ def source_of(program):
     return program.removeprefix("awe_")
 
 
+def name_of(removal):
+    """As docs/faults.md names the test."""
+    return f"{source_of(removal.program)}::{removal.test}" if removal.test else removal.program
+
+
 def test_exists(root, removal):
+    if not removal.test:
+        lists = [path.read_text() for path in (root / "tests").rglob("CMakeLists.txt")]
+        return any(f"add_test(NAME {removal.program} " in text for text in lists)
     sources = [
         path.read_text()
         for folder in ("tests", "examples")
@@ -48,7 +56,7 @@ def errors_of(root, removals):
         if count != 1:
             errors.append(f"{removal.fault}: {removal.file} has what is to be taken away {count} times, not once")
         if not test_exists(root, removal):
-            errors.append(f"{removal.fault}: there is no {removal.program}::{removal.test}")
+            errors.append(f"{removal.fault}: there is no {name_of(removal)}")
     return errors
 
 
@@ -56,11 +64,11 @@ def faults_of(root):
     """Each row of the tables that say by which tests a fault is shown: the fault, and the tests."""
     tables = re.findall(r"^\|.*\| shown by \|\n\|[-|]+\|\n((?:\|.*\n)+)", (root / "docs/faults.md").read_text(), re.M)
     rows = [row.strip("|").split("|") for row in "".join(tables).splitlines()]
-    return [(row[0].strip(), re.findall(r"`(tst_\w+::\w+)`", row[-1])) for row in rows]
+    return [(row[0].strip(), re.findall(r"`(\w+(?:::\w+)?)`", row[-1])) for row in rows]
 
 
 def faults_without_removal(root):
-    noticed = {f"{source_of(removal.program)}::{removal.test}" for removal in REMOVALS}
+    noticed = {name_of(removal) for removal in REMOVALS}
     faults = faults_of(root)
     if not faults:
         return ["docs/faults.md: no table says by which tests a fault is shown"]
@@ -102,8 +110,11 @@ def build(folder, jobs, *targets):
 def passes(folder, removal):
     try:
         offscreen = {**os.environ, "QT_QPA_PLATFORM": "offscreen"}
-        program = folder / "bin" / removal.program
-        return run(program, removal.test, timeout=PATIENCE, cwd=folder, env=offscreen).returncode == 0
+        if removal.test:
+            command = [folder / "bin" / removal.program, removal.test]
+        else:
+            command = ["ctest", "--no-tests=error", "--tests-regex", f"^{removal.program}$"]
+        return run(*command, timeout=PATIENCE, cwd=folder, env=offscreen).returncode == 0
     except subprocess.TimeoutExpired:
         return False
 
@@ -148,11 +159,9 @@ def prove(root, work, jobs, removals):
     for removal in removals:
         result = outcome(source, folder, jobs, removal)
         failed += result != "noticed"
-        print(f"{result:12} {removal.fault:55} {removal.program}::{removal.test}", flush=True)
+        print(f"{result:12} {removal.fault:55} {name_of(removal)}", flush=True)
     log = build(folder, jobs, *sorted({removal.program for removal in removals}))
-    broken = sorted(
-        {f"{removal.program}::{removal.test}" for removal in removals if log or not passes(folder, removal)}
-    )
+    broken = sorted({name_of(removal) for removal in removals if log or not passes(folder, removal)})
     for test in broken:
         print(f"fails with its defence, too: {test}")
     print(f"{len(removals)} defences taken away, {failed} of them without notice")

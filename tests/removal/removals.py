@@ -2,11 +2,11 @@
 """The defences of QtPLC, how each of them is taken away, and the test that must notice.
 
 Name of the fault (as in docs/faults.md), source file, what stands there (exactly once), what stands
-there without the defence, test program, test function.
+there without the defence, test program, test function (none: the program is one test of CTest).
 """
 from collections import namedtuple
 
-Removal = namedtuple("Removal", "fault file old new program test")
+Removal = namedtuple("Removal", "fault file old new program test", defaults=[""])
 
 # fmt: off
 REMOVALS = [
@@ -1056,6 +1056,50 @@ REMOVALS = [
     Removal("a value of an enumeration that does not fit", "src/models/FmuPort.cpp",
             "        move.isChecked = variable.isEnumeration;\n", "",
             "tst_FmuNode", "enumerationsThatDoNotFitAreAFault"),
+    Removal("host of an FMU calls in the wrong order", "src/export/FmuInstance.cpp",
+            "    return (m_phase & phases) != 0\n", "    return (m_phase & (phases | Instantiated)) != 0\n",
+            "misuse_fmi2"),
+    Removal("host of an FMU makes a step of a wrong size", "src/export/FmuInstance.cpp",
+            "std::abs(size - count * period) > 1e-6 * size", "std::abs(size - count * period) > period",
+            "misuse_fmi3"),
+    Removal("host of an FMU makes a step at a wrong time", "src/export/FmuInstance.cpp",
+            "    if (!isNow(begin))\n", "    if (!std::isfinite(begin))\n",
+            "misuse_fmi2"),
+    Removal("description of an FMU that belongs to another library", "src/export/FmuInstance.cpp",
+            "    if (given != own) {", "    if (given.isEmpty()) {",
+            "misuse_fmi3"),
+    Removal("host of an FMU uses a variable as another type", "src/export/FmuInstance.cpp",
+            "    if (!variable || variable->kind == kind)\n",
+            "    if (!variable || kind != FmuVariable::String)\n",
+            "misuse_fmi2"),
+    Removal("host of an FMU writes an output", "src/export/FmuInstance.cpp",
+            "    return variable.isInput\n", "    return variable.kind != FmuVariable::String\n",
+            "misuse_fmi3"),
+    Removal("host of an FMU gives NaN", "src/export/FmuInstance.cpp",
+            "        if (isRefused && !m_isRefused[i])", "        if (isRefused && m_isRefused[i])",
+            "misuse_fmi2"),
+    Removal("node in an FMU throws an exception", "src/export/FmuInstance.cpp",
+            "            m_phase = Failed;\n            return fail", "            return fail",
+            "misuse_fmi2"),
+    Removal("file of records of a controller DLL: the direction of a signal", "src/export/DisconMapping.cpp",
+            "    if (isInput != runner.isInput(index)) {", "    if (isInput && !runner.isInput(index)) {",
+            "call_discon"),
+    Removal("file of records of a controller DLL: the records of the host", "src/export/DisconMapping.cpp",
+            "    if (std::find(reserved.begin(), reserved.end(), record) != reserved.end())",
+            "    if (record == reserved.back())",
+            "call_discon"),
+    Removal("host of a controller DLL makes no first call", "src/export/Discon.cpp",
+            "    if (!m_isRunning)\n", "    if (!m_node)\n",
+            "call_discon"),
+    Removal("host of a controller DLL gives a wrong period", "src/export/Discon.cpp",
+            "    if (!(given >= 1e-5 && given <= 10.0))", "    if (given > 10.0)",
+            "call_discon"),
+    Removal("host of a controller DLL goes back in time", "src/export/Discon.cpp",
+            "    if (!(now >= next - 1.0 && now < 1e12))", "    if (!(now < 1e12))",
+            "call_discon"),
+    Removal("host of a controller DLL has little room for messages", "src/export/Discon.cpp",
+            "std::min(std::size_t(given), LongestMessage) - 1;", "LongestMessage - 1;",
+            "call_discon"),
     Removal("files that a crash has left", "src/models/FmuFolder.cpp",
             "    removeLeftovers();\n    QByteArray", "    QByteArray",
             "tst_FmuModel", "foldersAreRemovedAtTheEndAndAfterACrash"),
