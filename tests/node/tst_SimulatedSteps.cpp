@@ -17,6 +17,7 @@ private Q_SLOTS:
     void theLimitIsThatOfAllStages();
     void stopEndsTheStepWithoutDelay();
     void aNodeIsWaitedForAgainWhenItHasAnswered();
+    void aPlantIsResetWhenItsNodeAnswersAgain();
 };
 
 namespace {
@@ -152,6 +153,28 @@ void tst_SimulatedSteps::aNodeIsWaitedForAgainWhenItHasAnswered()
     QCOMPARE(stepAside(master), StepResult::Late);  // takes the answers to the cycles before
     for (int cycle = 0; cycle < 5; ++cycle)
         QCOMPARE(stepAside(master), StepResult::Complete);
+    master.stop();
+}
+
+/// Its answers in a safe stop take a while, as on every network.
+void tst_SimulatedSteps::aPlantIsResetWhenItsNodeAnswersAgain()
+{
+    External master(50ms);
+    HangingNode node;
+    node.setCritical(true);
+    QVERIFY(master.listen() && master.admit(node, "sim"));
+    QVERIFY(master.begin());
+    node.hangs = true;
+    QCOMPARE(stepAside(master), StepResult::SafeStop);
+    QVERIFY(master.waitForState(QPlcMasterNode::SafeStop));
+    pass(1s);
+    QVERIFY(!master.reset());
+    QVERIFY2(master.errorString().contains("still answers late"), qPrintable(master.errorString()));
+    node.hangs = false;
+    pass(300ms);
+    QVERIFY2(master.reset(), qPrintable(master.errorString()));
+    QVERIFY(master.begin());
+    QCOMPARE(stepAside(master), StepResult::Complete);
     master.stop();
 }
 

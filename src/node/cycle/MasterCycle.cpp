@@ -263,7 +263,7 @@ void MasterCycle::run() noexcept
         if (isBeyondLimit(m_number + 1))
             break;
         if (m_guard.isTripped() && m_phase.clock.isLockstep())
-            pause();
+            pauseSince(m_time.now());
     }
     end();
     m_reports.post({CycleEvent::Ended, 0, 0, m_number});
@@ -309,16 +309,17 @@ MasterCycle::Step MasterCycle::runStep() noexcept
 void MasterCycle::runSafely() noexcept
 {
     while (!m_stop.load(std::memory_order_relaxed)) {
+        const std::int64_t begin = m_time.now();
         runCycle(m_clock->next([] { return false; }));
-        pause();
+        pauseSince(begin);
     }
 }
 
 /// Nobody is waited for in a safe stop: without a clock something else has to hold the cycles back.
-void MasterCycle::pause() noexcept
+void MasterCycle::pauseSince(std::int64_t begin) noexcept
 {
     constexpr std::int64_t longest = 50'000'000;  // [ns] a stop is never noticed later than this
-    m_time.sleepUntil(m_time.now() + std::min(m_phase.period.count(), longest));
+    m_time.sleepUntil(begin + std::min(m_phase.period.count(), longest));
 }
 
 /// One cycle. Everything that happens in it stands here, in order.

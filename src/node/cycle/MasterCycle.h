@@ -161,7 +161,7 @@ private:
     {
         return m_phase.cycleLimit > 0 && cycle >= m_phase.cycleLimit && !m_guard.isTripped();
     }
-    void pause() noexcept;
+    void pauseSince(std::int64_t begin) noexcept;
     void takeCommands() noexcept;
     void carryOut(const SetCommand &command) noexcept;
     void endTerms(const CycleClock::Tick &tick) noexcept;

@@ -288,6 +288,8 @@ bool NodeExchange::collectAnswers(std::size_t stage) noexcept
         waitForStep();
     else if (anyMissing(true))
         waitForLateNodes(end);
+    else if (isLast && m_isSafe && m_clock.isExternal())
+        hearSafeNodes();
     else if (isLast && m_roster->anyRemote && !m_hasReceived)
         receive(0);  // what listeners have to say, and nodes that are behind
     if (isLast && m_clock.isExternal() && !m_stop.load(std::memory_order_relaxed) && !m_guard.isTripped())
@@ -362,6 +364,19 @@ void NodeExchange::waitForStep() noexcept
             continue;
         resendRequests();
         resendAt = time + ResendAfter;
+    }
+}
+
+/// Nothing depends on their answers, but those that come in time say that a node is well again. It
+/// takes a period at most, as in real time.
+void NodeExchange::hearSafeNodes() noexcept
+{
+    const std::int64_t end = m_time.now() + std::min<std::int64_t>(m_period.count(), Slice);
+    while (anyMissing(false) && !m_stop.load(std::memory_order_relaxed)) {
+        const std::int64_t left = end - m_time.now();
+        if (left <= 0)
+            return;
+        receive(continueRequests() ? std::min(left, ContinueAfter) : left);
     }
 }
 

@@ -68,6 +68,7 @@ private:
     bool collectAnswers(std::size_t stage) noexcept;
     void waitForLateNodes(std::int64_t deadline) noexcept;
     void waitForStep() noexcept;
+    void hearSafeNodes() noexcept;
     void giveUp(std::int64_t waited) noexcept;
     void reportLateNodes() noexcept;
     std::uint16_t nodeToReport() const noexcept;
