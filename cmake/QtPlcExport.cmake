@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-# A node for the programs of others: qtplc_add_fmu() and qtplc_add_discon(). find_package(QtPlc
-# COMPONENTS Export) offers them.
+# A node, or the master of a plant, for the programs of others: qtplc_add_fmu(), qtplc_add_discon(),
+# qtplc_add_master_fmu() and qtplc_add_master_discon(). find_package(QtPlc COMPONENTS Export) offers
+# them.
 #
 #   qtplc_add_fmu(NAME NODE class HEADER file SIGNALS file PERIOD time
 #       [SOURCES file ...] [LIBRARIES target ...] [VERSIONS 2 3] [DESCRIPTION text] [FOLDER folder])
@@ -14,6 +15,14 @@
 # makes FOLDER/libNAME.so with the function DISCON of Bladed and OpenFAST, by the target
 # NAME_discon. FOLDER is ${CMAKE_BINARY_DIR}/discon by default. Without PERIOD the host gives it.
 #
+#   qtplc_add_master_fmu(NAME CONFIGURATION file SIGNALS file PERIOD time
+#       [VERSIONS 2 3] [DESCRIPTION text] [FOLDER folder])
+#   qtplc_add_master_discon(NAME CONFIGURATION file SIGNALS file [PERIOD time] [FOLDER folder])
+#
+# make the same files with a master in them: the host turns the clock of a plant whose nodes are on
+# the network. CONFIGURATION says which nodes these are, where the master listens, and which signals
+# the host writes and reads (docs/howto/master-in-a-host.md).
+#
 # NODE is a class with a default constructor, which HEADER declares. PERIOD is a number with a unit:
 # 10ms, 500us. The libraries contain QtPLC and export nothing but the functions of their interface.
 # Static LIBRARIES have to be compiled with POSITION_INDEPENDENT_CODE.
@@ -22,13 +31,22 @@ if(NOT EXISTS ${QTPLC_EXPORT_SOURCES})
     set(QTPLC_EXPORT_SOURCES ${CMAKE_CURRENT_LIST_DIR}/../src/export) # of QtPLC itself
 endif()
 
-# Reads the arguments that both functions have, and writes down what the library is.
+# Reads the arguments that all functions have, and writes down what the library is.
 macro(qtplc_prepare_export function name)
-    cmake_parse_arguments(arg "" "NODE;HEADER;SIGNALS;PERIOD;DESCRIPTION;FOLDER" "SOURCES;LIBRARIES;VERSIONS" ${ARGN})
+    cmake_parse_arguments(arg "" "NODE;HEADER;CONFIGURATION;SIGNALS;PERIOD;DESCRIPTION;FOLDER"
+        "SOURCES;LIBRARIES;VERSIONS" ${ARGN})
     if(NOT "${name}" MATCHES "^[A-Za-z_][A-Za-z0-9_]*$")
         message(FATAL_ERROR "${function}(${name}): use a name of letters, digits and underscores, as in C")
     endif()
-    foreach(argument NODE HEADER SIGNALS)
+    set(needed NODE HEADER SIGNALS)
+    if("${function}" MATCHES "_master_")
+        set(needed CONFIGURATION SIGNALS)
+        if(arg_NODE OR arg_HEADER OR arg_SOURCES OR arg_LIBRARIES)
+            message(FATAL_ERROR "${function}(${name}): the nodes of the plant are programs of their own; leave out "
+                "NODE, HEADER, SOURCES and LIBRARIES")
+        endif()
+    endif()
+    foreach(argument IN LISTS needed)
         if(NOT arg_${argument})
             message(FATAL_ERROR "${function}(${name}): ${argument} is missing")
         endif()
@@ -45,6 +63,20 @@ macro(qtplc_prepare_export function name)
     endif()
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${signals})
     file(READ ${signals} table)
+    set(configuration)
+    if(arg_CONFIGURATION)
+        get_filename_component(configuration_file ${arg_CONFIGURATION} ABSOLUTE)
+        if(NOT EXISTS ${configuration_file})
+            message(FATAL_ERROR "${function}(${name}): the configuration ${configuration_file} does not exist")
+        endif()
+        set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${configuration_file})
+        file(READ ${configuration_file} configuration)
+        set(configuration "R\"QtPLC(${configuration})QtPLC\"")
+        set(arg_NODE qplc_export::HeldPlantNode)
+        set(arg_HEADER HeldPlantNode.h)
+        list(APPEND arg_SOURCES ${QTPLC_EXPORT_SOURCES}/HeldPlantConfiguration.cpp
+            ${QTPLC_EXPORT_SOURCES}/HeldPlantNode.cpp)
+    endif()
     set(period 0)
     if(arg_PERIOD)
         set(period "std::chrono::round<std::chrono::nanoseconds>(${arg_PERIOD}).count()")
@@ -61,7 +93,9 @@ namespace qplc_export {
 using namespace std::chrono_literals;
 
 const Identity identity{"@name@", R"QtPLC(@arg_DESCRIPTION@)QtPLC", R"QtPLC(@table@)QtPLC", @period@,
-                        []() -> std::unique_ptr<QPlcSlaveNode> { return std::make_unique<@arg_NODE@>(); }};
+                        []() -> std::unique_ptr<QPlcSlaveNode> {
+                            return std::make_unique<@arg_NODE@>(@configuration@);
+                        }};
 
 }  // namespace qplc_export
 ]])
@@ -114,10 +148,10 @@ function(qtplc_pack_fmu version file library program)
         VERBATIM)
 endfunction()
 
-function(qtplc_add_fmu name)
-    qtplc_prepare_export(qtplc_add_fmu ${name} ${ARGN})
+function(qtplc_make_fmu function name)
+    qtplc_prepare_export(${function} ${name} ${ARGN})
     if(NOT arg_PERIOD)
-        message(FATAL_ERROR "qtplc_add_fmu(${name}): PERIOD is missing")
+        message(FATAL_ERROR "${function}(${name}): PERIOD is missing")
     endif()
     if(NOT arg_VERSIONS)
         set(arg_VERSIONS 2 3)
@@ -131,7 +165,7 @@ function(qtplc_add_fmu name)
     list(TRANSFORM arg_SOURCES REPLACE "^([^/].*)" "${CMAKE_CURRENT_SOURCE_DIR}/\\1")
     add_library(${objects} OBJECT ${work}/identity.cpp ${arg_SOURCES}
         ${QTPLC_EXPORT_SOURCES}/ExportedNode.cpp ${QTPLC_EXPORT_SOURCES}/FmuDescription.cpp
-        ${QTPLC_EXPORT_SOURCES}/FmuVariables.cpp)
+        ${QTPLC_EXPORT_SOURCES}/FmuVariables.cpp ${QTPLC_EXPORT_SOURCES}/IniText.cpp)
     qtplc_complete_export(${objects} "${arg_LIBRARIES}")
     qtplc_add_export_library(${library} "fmi2*; fmi3*;" $<TARGET_OBJECTS:${objects}>
         ${QTPLC_EXPORT_SOURCES}/FmuInstance.cpp ${QTPLC_EXPORT_SOURCES}/Fmi2.cpp ${QTPLC_EXPORT_SOURCES}/Fmi3.cpp)
@@ -149,7 +183,7 @@ function(qtplc_add_fmu name)
         elseif(version EQUAL 3)
             list(APPEND files ${arg_FOLDER}/${name}_fmi3.fmu)
         else()
-            message(FATAL_ERROR "qtplc_add_fmu(${name}): there is no FMI version '${version}'; use 2 or 3")
+            message(FATAL_ERROR "${function}(${name}): there is no FMI version '${version}'; use 2 or 3")
         endif()
         list(GET files -1 file)
         qtplc_pack_fmu(${version} ${file} ${library} ${program})
@@ -157,14 +191,30 @@ function(qtplc_add_fmu name)
     add_custom_target(${name}_fmu ALL DEPENDS ${files})
 endfunction()
 
-function(qtplc_add_discon name)
-    qtplc_prepare_export(qtplc_add_discon ${name} ${ARGN})
+function(qtplc_make_discon function name)
+    qtplc_prepare_export(${function} ${name} ${ARGN})
     if(NOT arg_FOLDER)
         set(arg_FOLDER ${CMAKE_BINARY_DIR}/discon)
     endif()
     qtplc_add_export_library(${name}_discon "DISCON;" ${work}/identity.cpp ${arg_SOURCES}
         ${QTPLC_EXPORT_SOURCES}/ExportedNode.cpp ${QTPLC_EXPORT_SOURCES}/Discon.cpp
-        ${QTPLC_EXPORT_SOURCES}/DisconMapping.cpp)
+        ${QTPLC_EXPORT_SOURCES}/DisconMapping.cpp ${QTPLC_EXPORT_SOURCES}/IniText.cpp)
     qtplc_complete_export(${name}_discon "${arg_LIBRARIES}")
     set_target_properties(${name}_discon PROPERTIES OUTPUT_NAME ${name} LIBRARY_OUTPUT_DIRECTORY ${arg_FOLDER})
+endfunction()
+
+function(qtplc_add_fmu name)
+    qtplc_make_fmu(qtplc_add_fmu ${name} ${ARGN})
+endfunction()
+
+function(qtplc_add_discon name)
+    qtplc_make_discon(qtplc_add_discon ${name} ${ARGN})
+endfunction()
+
+function(qtplc_add_master_fmu name)
+    qtplc_make_fmu(qtplc_add_master_fmu ${name} ${ARGN})
+endfunction()
+
+function(qtplc_add_master_discon name)
+    qtplc_make_discon(qtplc_add_master_discon ${name} ${ARGN})
 endfunction()

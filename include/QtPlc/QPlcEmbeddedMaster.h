@@ -98,8 +98,17 @@ public:
         return call(make) && add(node) ? node.get() : nullptr;
     }
 
-    /// Initializes all nodes and begins the real-time phase; the first step() is cycle 0. Waits
-    /// before until all nodes are there that the manifest or \a nodes name.
+    /// Initializes all nodes: afterwards the ports of the nodes of addNode() have their initial
+    /// values, and start() only has to begin. Waits before until all nodes are there that the
+    /// manifest or \a nodes name. You may call it again before start(), for other initial values.
+    /// \param longest  for all of it, 1 ms to 24 h
+    /// \param nodes  names of remote nodes that have to be connected
+    /// \return false when it was not possible in that time: errorString() says why, and which nodes
+    ///     are missing
+    bool initialize(std::chrono::milliseconds longest, const QStringList &nodes = {});
+    /// Begins the real-time phase; the first step() is cycle 0. Waits before until all nodes are
+    /// there that the manifest or \a nodes name, and initializes all nodes unless initialize() has
+    /// done it.
     /// \param longest  for all of it, 1 ms to 24 h
     /// \param nodes  names of remote nodes that have to be connected
     /// \return false when it was not possible in that time: errorString() says why, and which nodes

@@ -46,6 +46,8 @@ public:
     /// \return false, with a sentence in text()
     bool call(const Call &call);
     QString text() const { return m_text; }
+    /// What was wrong although the call has succeeded; empty: nothing.
+    QString warning() const { return m_node && m_node->plant() ? m_node->plant()->warning() : QString(); }
 
 private:
     bool fail(const QString &text)
@@ -77,8 +79,8 @@ bool Controller::call(const Call &call)
                         .arg(status));
     if (status > 0)
         return step(call);
-    m_node->runner().stop();
     m_isRunning = false;
+    m_node.reset();
     return true;
 }
 
@@ -87,18 +89,22 @@ bool Controller::begin(const Call &call)
     m_isRunning = false;
     m_node = std::make_unique<ExportedNode>();
     QString error;
-    if (!m_node->make(&error) || !m_mapping.read(call.fileName(), *m_node, &error))
+    if (!m_node->make(&error))
+        return fail(error);
+    QPlcNodeRunner &runner = m_node->runner();
+    if (!runner.reset())
+        return fail(runner.errorString());
+    if (!m_mapping.read(call.fileName(), *m_node, &error))
         return fail(error);
     if (!setPeriod(call.record(PeriodRecord)))
         return false;
     m_start = double(call.record(TimeRecord));
     if (!std::isfinite(m_start))
         return fail(QStringLiteral("the time in record 2 is not a finite number"));
-    QPlcNodeRunner &runner = m_node->runner();
-    if (!runner.reset())
-        return fail(runner.errorString());
     if (!readInputs(call))
         return false;
+    if (!m_node->open(&error))
+        return fail(error);
     if (!runner.initialize())
         return fail(runner.errorString());
     m_isRunning = true;
@@ -144,7 +150,8 @@ bool Controller::step(const Call &call)
         if (!hasComputed)
             return m_isRunning = false, fail(runner.errorString());
         if (runner.wantsSafeStop())
-            return fail(QStringLiteral("the controller wants a safe stop"));
+            return fail(m_node->plant() ? m_node->plant()->endReason()
+                                        : QStringLiteral("the controller wants a safe stop"));
         return true;
     }
     writeOutputs(call);
@@ -196,6 +203,7 @@ extern "C" __attribute__((visibility("default"))) void DISCON(float *avrSWAP, in
         return;
     const Call call{avrSWAP, accINFILE};
     const bool isDone = controller.call(call);
-    *aviFAIL = isDone ? 0 : -1;
-    tell(call, controller.text(), isDone ? nullptr : avcMSG);
+    const QString warning = controller.warning();
+    *aviFAIL = !isDone ? -1 : warning.isEmpty() ? 0 : 1;
+    tell(call, isDone ? warning : controller.text(), *aviFAIL == 0 ? nullptr : avcMSG);
 }

@@ -50,7 +50,7 @@ bool readEntry(const QString &text, DisconMapping::Entry *entry, QString *error)
 
 }  // namespace
 
-bool DisconMapping::read(const QString &fileName, const ExportedNode &node, QString *error)
+bool DisconMapping::read(const QString &fileName, ExportedNode &node, QString *error)
 {
     *this = DisconMapping();
     if (fileName.isEmpty()) {
@@ -64,13 +64,12 @@ bool DisconMapping::read(const QString &fileName, const ExportedNode &node, QStr
                      .arg(fileName, file.isOpen() ? QStringLiteral("it is longer than 1 MiB") : file.errorString());
         return false;
     }
-    const QStringList lines = QString::fromUtf8(file.readAll()).split(QLatin1Char('\n'));
-    for (int number = 0; number < lines.size(); ++number) {
-        if (readLine(lines.at(number), node, error))
-            continue;
-        *error = QStringLiteral("%1:%2: %3").arg(fileName).arg(number + 1).arg(*error);
+    QStringList sections{QStringLiteral("read"), QStringLiteral("write"), QStringLiteral("constant")};
+    if (node.plant())
+        sections << QStringLiteral("plant");
+    const auto take = [&](const IniLine &line, QString *reason) { return addLine(line, node, reason); };
+    if (!readIni(file.readAll(), fileName, sections, QStringLiteral("SIGNAL = RECORD"), take, error))
         return false;
-    }
     if (!m_inputs.empty() || !m_outputs.empty())
         return true;
     *error
@@ -78,37 +77,18 @@ bool DisconMapping::read(const QString &fileName, const ExportedNode &node, QStr
     return false;
 }
 
-bool DisconMapping::readLine(const QString &line, const ExportedNode &node, QString *error)
+bool DisconMapping::addLine(const IniLine &line, ExportedNode &node, QString *error)
 {
-    const QString text = line.section(QLatin1Char(';'), 0, 0).section(QLatin1Char('#'), 0, 0).trimmed();
-    if (text.isEmpty())
-        return true;
-    if (text.startsWith(QLatin1Char('[')))
-        return enter(text, error);
-    const int equals = text.indexOf(QLatin1Char('='));
-    const QString name = text.left(equals).trimmed();
-    const QString value = text.mid(equals + 1).trimmed();
-    if (equals < 1 || m_section == None) {
-        *error = QStringLiteral("'%1' is not expected here; write SIGNAL = RECORD in a section [read] or [write]")
-                     .arg(text);
-        return false;
-    }
-    return m_section == Constants ? addConstant(name, value, error) : addSignal(name, value, node, error);
+    if (line.section == QLatin1String("constant"))
+        return addConstant(line.key, line.value, error);
+    if (line.section == QLatin1String("plant"))
+        return node.setSetting(line.key, line.value, error);
+    return addSignal(line.section == QLatin1String("read"), line.key, line.value, node, error);
 }
 
-bool DisconMapping::enter(const QString &line, QString *error)
+bool DisconMapping::addSignal(bool isInput, const QString &name, const QString &records, const ExportedNode &node,
+                              QString *error)
 {
-    static const QStringList sections{QStringLiteral("[read]"), QStringLiteral("[write]"),
-                                      QStringLiteral("[constant]")};
-    m_section = Section(sections.indexOf(line) + 1);
-    if (m_section == None)
-        *error = QStringLiteral("unknown section %1; use [read], [write] or [constant]").arg(line);
-    return m_section != None;
-}
-
-bool DisconMapping::addSignal(const QString &name, const QString &records, const ExportedNode &node, QString *error)
-{
-    const bool isInput = m_section == Read;
     const QPlcNodeRunner &runner = node.runner();
     const QPlcSignalIndex index = runner.indexOf(name);
     if (index == QPlcInvalidSignalIndex) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "ExportedNode.h"
+#include "IniText.h"
 
 #include <vector>
 
@@ -18,6 +19,8 @@ namespace qplc_export {
 ///     bladePitch      = 42, 43, 44       ; the elements of an array
 ///     [constant]
 ///     35 = 1                             ; record = value, in each call
+///     [plant]                            ; of a plant: settings in place of those in its library
+///     port = 50001
 class DisconMapping
 {
 public:
@@ -35,20 +38,17 @@ public:
     };
 
     /// \return false, with file, line and remedy in \a error
-    bool read(const QString &fileName, const ExportedNode &node, QString *error);
+    bool read(const QString &fileName, ExportedNode &node, QString *error);
     const std::vector<Entry> &inputs() const { return m_inputs; }
     const std::vector<Entry> &outputs() const { return m_outputs; }
     const std::vector<Constant> &constants() const { return m_constants; }
 
 private:
-    enum Section : quint8 { None, Read, Write, Constants };
-    bool readLine(const QString &line, const ExportedNode &node, QString *error);
-    bool enter(const QString &line, QString *error);
-    bool addSignal(const QString &name, const QString &records, const ExportedNode &node, QString *error);
+    bool addLine(const IniLine &line, ExportedNode &node, QString *error);
+    bool addSignal(bool isInput, const QString &name, const QString &records, const ExportedNode &node, QString *error);
     bool addConstant(const QString &record, const QString &value, QString *error);
     bool mayWrite(int record, QString *error) const;
 
-    Section m_section = None;
     std::vector<Entry> m_inputs;
     std::vector<Entry> m_outputs;
     std::vector<Constant> m_constants;

@@ -2,6 +2,7 @@
 #include "ExportedNode.h"
 
 #include <exception>
+#include <vector>
 
 namespace qplc_export {
 
@@ -18,12 +19,15 @@ bool ExportedNode::make(QString *error)
                                 "std::exception");
         return false;
     }
+    m_plant = dynamic_cast<HeldPlant *>(m_node.get());
     QVector<QPlcParseError> errors;
-    const QPlcSignalTable table = QPlcSignalTable::fromIni(identity.table, &errors, QStringLiteral("signal table"));
+    QPlcSignalTable table = QPlcSignalTable::fromIni(identity.table, &errors, QStringLiteral("signal table"));
     if (!errors.isEmpty()) {
         *error = QPlcParseError::toString(errors);
         return false;
     }
+    if (m_plant && !m_plant->prepare(table, &table, error))
+        return false;
     m_runner = std::make_unique<QPlcNodeRunner>(*m_node);
     if ((identity.period != 0 && !m_runner->setPeriod(std::chrono::nanoseconds(identity.period)))
         || !m_runner->bind(table)) {
@@ -31,6 +35,36 @@ bool ExportedNode::make(QString *error)
         return false;
     }
     return true;
+}
+
+bool ExportedNode::open(QString *error)
+{
+    if (!m_plant)
+        return true;
+    if (!m_plant->open(*m_runner, error))
+        return false;
+    const QVector<QPlcSignalIndex> inputs = m_runner->inputs();
+    std::vector<QByteArray> given;
+    for (const QPlcSignalIndex input : inputs)
+        given.emplace_back(m_runner->bytes(input), signal(input).type.size());
+    if (!m_runner->reset()) {
+        *error = m_runner->errorString();
+        return false;
+    }
+    for (int i = 0; i < inputs.size(); ++i)
+        m_runner->setBytes(inputs.at(i), given[std::size_t(i)].constData());
+    return true;
+}
+
+bool ExportedNode::setSetting(const QString &key, const QString &text, QString *error)
+{
+    QPlcValue value;
+    if (!m_plant->readSetting(key, text, &value, error))
+        return false;
+    if (m_runner->set(QLatin1String(SettingPrefix) + key, value))
+        return true;
+    *error = m_runner->errorString();
+    return false;
 }
 
 }  // namespace qplc_export

@@ -53,6 +53,8 @@ FmuInstance::Log logOf(const Callbacks *callbacks, const char *instanceName)
             return logger(environment, name.c_str(), Warning, "logStatusWarning", "%s", text);
         case FmuInstance::Level::Discard:
             return logger(environment, name.c_str(), Discard, "logStatusDiscard", "%s", text);
+        case FmuInstance::Level::Info:
+            return logger(environment, name.c_str(), Ok, "logEvents", "%s", text);
         }
     };
 }
@@ -265,10 +267,14 @@ FMI2_FUNCTION int fmi2DoStep(Component component, double time, double size, int)
         return Error;
     auto *fmu = static_cast<Fmu2 *>(component);
     bool wantsStop = false;
-    if (!instance->allows("fmi2DoStep", FmuInstance::Stepping) || !instance->doStep(time, size, &wantsStop))
+    using Result = FmuInstance::StepResult;
+    const Result result = instance->allows("fmi2DoStep", FmuInstance::Stepping)
+        ? instance->doStep(time, size, &wantsStop)
+        : Result::Failed;
+    if (result == Result::Failed)
         return fmu->lastStep = Error;
     fmu->isTerminated = wantsStop;
-    return fmu->lastStep = wantsStop ? Discard : Ok;
+    return fmu->lastStep = wantsStop ? Discard : result == Result::Warned ? Warning : Ok;
 }
 
 FMI2_FUNCTION int fmi2GetStatus(Component component, int kind, int *value)

@@ -35,6 +35,8 @@ FmuInstance::Log logOf(Logger logger, void *environment)
             return logger(environment, Warning, "logStatusWarning", text);
         case FmuInstance::Level::Discard:
             return logger(environment, Discard, "logStatusDiscard", text);
+        case FmuInstance::Level::Info:
+            return logger(environment, Ok, "logEvents", text);
         }
     };
 }
@@ -241,7 +243,8 @@ FMI3_FUNCTION int fmi3DoStep(Instance instance, double time, double size, bool, 
     if (!instance || !of(instance)->allows("fmi3DoStep", FmuInstance::Stepping))
         return Error;
     bool wants = false;
-    const bool isDone = of(instance)->doStep(time, size, &wants);
+    using Result = FmuInstance::StepResult;
+    const Result result = of(instance)->doStep(time, size, &wants);
     if (needsEvents)
         *needsEvents = false;
     if (wantsStop)
@@ -250,7 +253,7 @@ FMI3_FUNCTION int fmi3DoStep(Instance instance, double time, double size, bool, 
         *isEarly = false;
     if (last)
         *last = of(instance)->time();
-    return isDone ? Ok : Error;
+    return result == Result::Failed ? Error : result == Result::Warned ? Warning : Ok;
 }
 
 // ---- values ----

@@ -66,9 +66,13 @@ QByteArray Description::write(const QString &token)
     writeUnits();
     writeTypes();
     m_xml.writeStartElement(QStringLiteral("LogCategories"));
-    for (const char *category : {"logStatusError", "logStatusWarning", "logStatusDiscard"}) {
+    QStringList categories{QStringLiteral("logStatusError"), QStringLiteral("logStatusWarning"),
+                           QStringLiteral("logStatusDiscard")};
+    if (m_node.plant())
+        categories << QStringLiteral("logEvents");
+    for (const QString &category : qAsConst(categories)) {
         m_xml.writeStartElement(QStringLiteral("Category"));
-        m_xml.writeAttribute(QStringLiteral("name"), QLatin1String(category));
+        m_xml.writeAttribute(QStringLiteral("name"), category);
         m_xml.writeEndElement();
     }
     m_xml.writeEndElement();
@@ -169,10 +173,14 @@ void Description::writeVariable(const FmuVariable &variable, int reference)
     if (!description.isEmpty())
         m_xml.writeAttribute(QStringLiteral("description"), description);
     m_xml.writeAttribute(QStringLiteral("causality"),
-                         variable.isInput ? QStringLiteral("input") : QStringLiteral("output"));
+                         variable.isSetting     ? QStringLiteral("parameter")
+                             : variable.isInput ? QStringLiteral("input")
+                                                : QStringLiteral("output"));
     const bool isReal = m_node.signal(variable.signal).type.isReal();
     m_xml.writeAttribute(QStringLiteral("variability"),
-                         isReal ? QStringLiteral("continuous") : QStringLiteral("discrete"));
+                         variable.isSetting ? QStringLiteral("fixed")
+                             : isReal       ? QStringLiteral("continuous")
+                                            : QStringLiteral("discrete"));
     if (!variable.isInput)
         m_xml.writeAttribute(QStringLiteral("initial"), QStringLiteral("calculated"));
     if (isOld())

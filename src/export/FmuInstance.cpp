@@ -47,6 +47,8 @@ std::unique_ptr<FmuInstance> FmuInstance::make(Standard standard, const char *in
                            .arg(given, own));
         return nullptr;
     }
+    if (HeldPlant *plant = instance->m_node.plant())
+        plant->setTeller([one = instance.get()](const QString &text) { one->tell(Level::Info, text); });
     instance->m_variables = variablesOf(instance->m_node, standard);
     instance->m_texts.resize(instance->m_variables.size());
     instance->m_isRefused.resize(instance->m_variables.size());
@@ -86,8 +88,9 @@ bool FmuInstance::setStart(double start)
 /// The inputs that the host has set are kept: the node has been reset already.
 bool FmuInstance::enterInitialization()
 {
-    m_phase = Initializing;
-    return true;
+    QString error;
+    m_phase = m_node.open(&error) ? Initializing : Failed;
+    return m_phase == Initializing || fail(error);
 }
 
 bool FmuInstance::exitInitialization()
@@ -107,35 +110,51 @@ bool FmuInstance::isNow(double other) const
     return std::abs(other - time()) <= 0.01e-9 * double(runner().period().count()) + 1e-9 * std::abs(other);
 }
 
-bool FmuInstance::doStep(double begin, double size, bool *wantsStop)
+FmuInstance::StepResult FmuInstance::doStep(double begin, double size, bool *wantsStop)
 {
     const double period = double(runner().period().count()) * 1e-9;
-    if (!isNow(begin))
-        return fail(QStringLiteral("a step at %1 s is not possible, because the node is at %2 s; steps follow each "
-                                   "other without gaps")
-                        .arg(number(begin), number(time())));
     const double count = std::round(size / period);
-    if (!(count >= 1.0 && count <= 1e9) || std::abs(size - count * period) > 1e-6 * size + 1e-12 * std::abs(begin))
-        return fail(QStringLiteral("a step of %1 s is not possible; use %2 s, the period of the node, or a whole "
-                                   "multiple of it")
-                        .arg(number(size), number(period)));
-    return runCycles(qint64(count), wantsStop);
+    if (!isNow(begin))
+        fail(QStringLiteral("a step at %1 s is not possible, because the node is at %2 s; steps follow each other "
+                            "without gaps")
+                 .arg(number(begin), number(time())));
+    else if (!(count >= 1.0 && count <= 1e9) || std::abs(size - count * period) > 1e-6 * size + 1e-12 * std::abs(begin))
+        fail(QStringLiteral("a step of %1 s is not possible; use %2 s, the period of the node, or a whole multiple of "
+                            "it")
+                 .arg(number(size), number(period)));
+    else
+        return runCycles(qint64(count), wantsStop);
+    return StepResult::Failed;
 }
 
-bool FmuInstance::runCycles(qint64 count, bool *wantsStop)
+FmuInstance::StepResult FmuInstance::runCycles(qint64 count, bool *wantsStop)
 {
+    bool isWarned = false;
     for (qint64 cycle = 0; cycle < count && !*wantsStop; ++cycle) {
         if (!runner().step()) {
             m_phase = Failed;
-            return fail(runner().errorString());
+            fail(runner().errorString());
+            return StepResult::Failed;
         }
         if (m_isLogging)
             warnOfRefusedInputs();
+        isWarned = warnOfPlant() || isWarned;
         *wantsStop = runner().wantsSafeStop();
     }
+    const QString reason = m_node.plant() ? m_node.plant()->endReason() : QString();
     if (*wantsStop)
-        tell(Level::Discard, QStringLiteral("the node wants a safe stop in cycle %1").arg(runner().nextCycle() - 1));
-    return true;
+        tell(Level::Discard,
+             reason.isEmpty() ? QStringLiteral("the node wants a safe stop in cycle %1").arg(runner().nextCycle() - 1)
+                              : reason);
+    return isWarned ? StepResult::Warned : StepResult::Complete;
+}
+
+bool FmuInstance::warnOfPlant()
+{
+    const QString warning = m_node.plant() ? m_node.plant()->warning() : QString();
+    if (!warning.isEmpty())
+        tell(Level::Warning, warning);
+    return !warning.isEmpty();
 }
 
 /// The first one of a row.
@@ -161,6 +180,8 @@ bool FmuInstance::reset()
 {
     m_phase = Instantiated;
     m_start = 0.0;
+    if (m_node.plant())
+        m_node.plant()->close();
     std::fill(m_isRefused.begin(), m_isRefused.end(), false);
     if (runner().reset())
         return true;
@@ -192,6 +213,9 @@ const FmuVariable *FmuInstance::find(const char *function, unsigned reference, F
 
 bool FmuInstance::isSettable(const char *function, const FmuVariable &variable) const
 {
+    if (variable.isSetting && m_phase != Instantiated)
+        return fail(QStringLiteral("%1: '%2' is a parameter; set it before the initialization begins")
+                        .arg(QLatin1String(function), variable.name));
     return variable.isInput
         || fail(QStringLiteral("%1: '%2' is an output of the node; set inputs only")
                     .arg(QLatin1String(function), variable.name));

@@ -14,7 +14,8 @@ class FmuInstance
 {
 public:
     enum Phase : quint8 { Instantiated = 1, Initializing = 2, Stepping = 4, Terminated = 8, Failed = 16 };
-    enum class Level : quint8 { Error, Warning, Discard };
+    enum class Level : quint8 { Error, Warning, Discard, Info };
+    enum class StepResult : quint8 { Complete, Warned, Failed };
     /// How the host wants to be told; not empty.
     using Log = std::function<void(Level level, const char *text)>;
 
@@ -30,7 +31,7 @@ public:
     bool enterInitialization();
     bool exitInitialization();
     /// \param wantsStop  set when the node wants the simulation to end
-    bool doStep(double time, double size, bool *wantsStop);
+    StepResult doStep(double time, double size, bool *wantsStop);
     void terminate();
     bool reset();
     double time() const;
@@ -56,7 +57,8 @@ private:
     }
     void tell(Level level, const QString &text) const;
     bool isNow(double time) const;
-    bool runCycles(qint64 count, bool *wantsStop);
+    StepResult runCycles(qint64 count, bool *wantsStop);
+    bool warnOfPlant();
     void warnOfRefusedInputs();
 
     const Standard m_standard;

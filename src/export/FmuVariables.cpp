@@ -60,7 +60,8 @@ void add(std::vector<FmuVariable> *variables, const ExportedNode &node, QPlcSign
 {
     const QPlcSignalDefinition &signal = node.signal(index);
     FmuVariable variable{
-        signal.name, index, 0, signal.type.count(), kindOf(signal, standard), node.runner().isInput(index)};
+        signal.name,          index, 0, signal.type.count(), kindOf(signal, standard), node.runner().isInput(index),
+        node.isSetting(index)};
     if (standard == Standard::Fmi3 || !signal.type.isArray()) {
         variables->push_back(variable);
         return;

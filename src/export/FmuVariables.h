@@ -35,6 +35,7 @@ struct FmuVariable
     int count = 1;    // of elements
     Kind kind = Real;
     bool isInput = false;
+    bool isSetting = false;  // of a plant: an input that is set before the initialization
 };
 
 /// Variable i has the value reference i + 1; inputs first, in the order of their declaration.

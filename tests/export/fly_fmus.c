@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Model and autopilot as FMUs, coupled as simulators do it: all inputs, then all steps. Prints the
- * energy, so that a test compares it with the flight of a plant. No Qt.
+ * energy, so that a test compares it with the flight of a plant. With PROGRAM, the autopilot is this
+ * program, and its FMU is the master awe_flight_control. No Qt.
  *
- * usage: fly_fmus 2|3 MODEL_FOLDER AUTOPILOT_FOLDER SECONDS   (folders of unpacked FMUs)
+ * usage: fly_fmus 2|3 MODEL_FOLDER AUTOPILOT_FOLDER SECONDS [PROGRAM]   (folders of unpacked FMUs)
  */
-#include "fmu_host.h"
+#include "plant_host.h"
 
 #define MOST 24
 
-static const char *measured[] = {"bodyPosition_earth",     "bodyVelocity_earth", "windVelocity_earth",
-                                 "bodyControlOrientation", "angleOfAttack",      "tetherForce_earth",
-                                 "tetherLength"};
+static const char *measured[]
+    = {"bodyPosition_earth", "bodyVelocity_earth", "windVelocity_earth", "bodyControlOrientation",
+       "angleOfAttack",      "tetherForce_earth",  "tetherLength"};
 static const int measured_size[] = {3, 3, 3, 3, 1, 3, 1};
 static const char *commands[] = {"bodyControlPitchSpeed", "bodyControlYawSpeed", "tetherSpeed"};
 
@@ -50,6 +51,29 @@ static Unit load(const char *folder, const char *name)
         REQUIRE(unit.component != NULL);
         REQUIRE(unit.fmi3.enter(unit.component, false, 0, 0, false, 0) == STATUS_OK);
     }
+    return unit;
+}
+
+static const char *program;
+
+static void start_autopilot(Plant *plant)
+{
+    char master[80];
+    snprintf(master, sizeof master, "--master=udp://127.0.0.1:%d", plant->port);
+    char *arguments[] = {(char *)program, master, "--same-cycle", NULL};
+    plant->nodes[0] = start_program(arguments);
+}
+
+/* The master whose node is the autopilot. */
+static Unit load_master(const char *folder, Plant *plant, Library *library)
+{
+    char path[1024];
+    snprintf(path, sizeof path, "%s/binaries/%s/awe_flight_control.so", folder,
+             version == 2 ? "linux64" : "x86_64-linux");
+    *library = load_library(version, folder, path);
+    make_plant(plant, library, start_autopilot);
+    REQUIRE(set_integer(plant, "plant.port", 0) == STATUS_OK && enter_plant(plant) == STATUS_OK);
+    Unit unit = {library->description, library->library, library->fmi2, library->fmi3, plant->component, ""};
     return unit;
 }
 
@@ -121,10 +145,14 @@ static void end(const Unit *unit)
 
 int main(int argc, char **argv)
 {
-    if (argc != 5)
+    Library library;
+    Plant plant;
+    if (argc != 5 && argc != 6)
         return 2;
     version = atoi(argv[1]);
-    const Unit model = load(argv[2], "awe_model"), autopilot = load(argv[3], "awe_autopilot");
+    program = argc == 6 ? argv[5] : NULL;
+    const Unit model = load(argv[2], "awe_model");
+    const Unit autopilot = program ? load_master(argv[3], &plant, &library) : load(argv[3], "awe_autopilot");
     const long cycles = lround(atof(argv[4]) * 100);
     uint32_t from[MOST], to[MOST], from_command[MOST], to_command[MOST];
     double values[MOST];
@@ -165,5 +193,6 @@ int main(int argc, char **argv)
     printf("%.17g\n", values[0]);
     end(&model);
     end(&autopilot);
+    REQUIRE(!program || finish(&plant.nodes[0]) == 0);
     return 0;
 }

@@ -5,7 +5,7 @@ are its programs.
 
 usage: typed_howtos.py PAGE SOURCE_FOLDER BUILD_FOLDER
 PAGE: wire-a-sensor, simulink-model, fmu-as-a-node, write-a-panel, test-a-node, test-a-plant,
-my-node-as-an-fmu or my-controller-as-a-dll
+my-node-as-an-fmu, my-controller-as-a-dll or master-in-a-host
 """
 import ctypes
 import re
@@ -34,6 +34,7 @@ NOT_TYPED = {
     "test-a-plant": {},
     "my-node-as-an-fmu": {},
     "my-controller-as-a-dll": {},
+    "master-in-a-host": {},
 }
 
 
@@ -196,6 +197,13 @@ def my_controller_as_a_dll(plant):
     return {"cmake --build build": Expectation(after=lambda: call_the_controller(plant.home / "turbine"))}
 
 
+def master_in_a_host(plant):
+    return {
+        "qtplc_fmu info build/fmu/winch_plant.fmu": Expectation(shows=r"(?s)plant\.port.*tetherSpeed.*tetherLength"),
+        "tail -n 1 length.csv": Expectation(shows=r"1,(302|301\.9999|302\.0000)"),
+    }
+
+
 def test_a_plant(_plant):
     return {"build/tst_Winch -silent": Expectation(shows=r"Totals: 4 passed, 0 failed")}
 
@@ -215,7 +223,7 @@ def after_the_tutorial(home, source, build):
     for path in (source / "docs" / "tutorial" / "code").glob("[!.]*"):
         (winch / path.name).write_text(path.read_text())
     run("cmake", "-S", winch, "-B", winch / "build", f"-DCMAKE_PREFIX_PATH={home / 'qtplc'}")
-    run("cmake", "--build", winch / "build", "--target", "winch_master", "winch_operator")
+    run("cmake", "--build", winch / "build", "--target", "winch_master", "winch_operator", "winch")
 
 
 def main():
@@ -236,6 +244,7 @@ def main():
                 "test-a-node": (test_a_node, "node_tests"),
                 "my-node-as-an-fmu": (my_node_as_an_fmu, "winch_fmu"),
                 "my-controller-as-a-dll": (my_controller_as_a_dll, "turbine"),
+                "master-in-a-host": (master_in_a_host, "winch_plant"),
                 "test-a-plant": (test_a_plant, "winch_tests"),
             }[page]
             if page == "fmu-as-a-node":

@@ -27,6 +27,9 @@ private Q_SLOTS:
     void severalPeriodsAreSeveralCycles();
     void startNamesMissingNodes();
     void startThatFailsSaysWhy();
+    void initializeShowsAndTakesInitialValues_data();
+    void initializeShowsAndTakesInitialValues();
+    void initializeNamesMissingNodes();
     void startAfterAStopBeginsAgain();
     void stopEndsTheStepOfAnotherThread();
     void exceptionOfACallIsAnError();
@@ -240,6 +243,61 @@ void tst_EmbeddedMaster::startThatFailsSaysWhy()
     QVERIFY(!embedded.start(10s));
     QVERIFY2(embedded.errorString().contains("no oil"), qPrintable(embedded.errorString()));
     QCOMPARE(embedded.step(), StepResult::Stopped);
+}
+
+void tst_EmbeddedMaster::initializeShowsAndTakesInitialValues_data()
+{
+    QTest::addColumn<bool>("isArmed");
+    QTest::newRow("a start") << false;
+    QTest::newRow("a start that has to be armed") << true;
+}
+
+void tst_EmbeddedMaster::initializeShowsAndTakesInitialValues()
+{
+    class Beginning : public QPlcCompactSlaveNode
+    {
+    public:
+        Beginning()
+            : QPlcCompactSlaveNode("Beginning")
+        {
+        }
+
+    private:
+        QPlcInput<double> m_command{this, "command", QPlcInputTiming::SameCycle};
+        QPlcOutput<double> m_measurement{this, "measurement"};
+        double m_first = 0.0;
+        void reset() override { m_measurement = 1.5; }
+        void initialized() override { m_first = m_command; }
+        void step(const QPlcCycle &) override { m_measurement = m_first; }
+    };
+    QFETCH(bool, isArmed);
+    QPlcEmbeddedMaster embedded;
+    listen(embedded);
+    embedded.call([&](QPlcMasterNode &master) { master.setArmingRequired(isArmed); });
+    auto *command = embedded.addNode<Command>();
+    auto *measurement = embedded.addNode<Measurement>();
+    QVERIFY(command && measurement && embedded.addNode<Beginning>());
+    command->value = 4.0;
+    QVERIFY2(embedded.initialize(10s), qPrintable(embedded.errorString()));
+    QCOMPARE(double(measurement->value), 1.5);
+    QCOMPARE(embedded.step(), StepResult::Stopped);
+    command->value = 7.0;
+    QVERIFY2(embedded.initialize(10s), qPrintable(embedded.errorString()));
+    command->value = 9.0;  // too late: a start does not initialize again
+    QVERIFY2(embedded.start(10s), qPrintable(embedded.errorString()));
+    QCOMPARE(embedded.step(), StepResult::Complete);
+    QCOMPARE(double(measurement->value), 7.0);
+}
+
+void tst_EmbeddedMaster::initializeNamesMissingNodes()
+{
+    QPlcEmbeddedMaster embedded;
+    const quint16 port = listen(embedded);
+    QVERIFY(!embedded.initialize(10ms, {"Winch", "Kite"}));
+    for (const QString &word : {QString("initialize"), QString("'Winch', 'Kite'"), QString::number(port)})
+        QVERIFY2(embedded.errorString().contains(word), qPrintable(embedded.errorString()));
+    QVERIFY(!embedded.initialize(0ms));
+    QVERIFY2(embedded.errorString().contains("out of range"), qPrintable(embedded.errorString()));
 }
 
 void tst_EmbeddedMaster::startAfterAStopBeginsAgain()

@@ -53,8 +53,11 @@ struct QPlcEmbeddedMaster::Private
 
     void run(std::promise<void> &isReady);
     void end();
-    bool begin(std::chrono::milliseconds longest, const QStringList &nodes);
-    bool beginWithin(Patience &patience, const QStringList &nodes, QString *reason);
+    using Phase = bool (Private::*)(Patience &patience, QString *reason);
+    bool begin(const char *what, std::chrono::milliseconds longest, const QStringList &nodes, Phase phase);
+    bool settle(Patience &patience, QString *reason);
+    bool initialize(Patience &patience, QString *reason);
+    bool start(Patience &patience, QString *reason);
     QString missing(const QStringList &nodes) const;
     void setError(const QString &text);
 
@@ -163,36 +166,58 @@ QString QPlcEmbeddedMaster::Private::missing(const QStringList &names) const
     return sentences.join(QStringLiteral("; "));
 }
 
-bool QPlcEmbeddedMaster::Private::beginWithin(Patience &patience, const QStringList &names, QString *reason)
+bool QPlcEmbeddedMaster::Private::settle(Patience &patience, QString *reason)
 {
-    if (!patience.waitFor([&] { return missing(names).isEmpty(); })) {
-        *reason = missing(names);
-        return false;
-    }
-    using State = QPlcMasterNode::State;
-    const auto isSettled = [this] { return master->state() != State::Initializing; };
-    bool hasBegun = true;
-    if (master->isArmingRequired())
-        hasBegun = master->initializeAllStates() && patience.waitFor(isSettled) && master->arm();
-    hasBegun = hasBegun && master->startRealTime();
-    if (!patience.waitFor(isSettled)) {
+    const bool isSettled = patience.waitFor([this] { return master->state() != QPlcMasterNode::Initializing; });
+    if (!isSettled)
         *reason = QStringLiteral("the nodes did not answer in time");
-        return false;
-    }
-    *reason = master->errorString();
-    return hasBegun && (master->state() == State::RealTime || master->state() == State::SafeStop);
+    return isSettled;
 }
 
-bool QPlcEmbeddedMaster::Private::begin(std::chrono::milliseconds longest, const QStringList &names)
+bool QPlcEmbeddedMaster::Private::initialize(Patience &patience, QString *reason)
 {
+    const bool hasBegun = master->initializeAllStates();
+    if (!settle(patience, reason))
+        return false;
+    *reason = master->errorString();
+    return hasBegun && master->state() == QPlcMasterNode::Ready;
+}
+
+bool QPlcEmbeddedMaster::Private::start(Patience &patience, QString *reason)
+{
+    if (master->isArmingRequired()) {
+        const bool isReady = master->state() == QPlcMasterNode::Ready || initialize(patience, reason);
+        if (!isReady || !master->arm())
+            return false;
+    }
+    const bool hasBegun = master->startRealTime();
+    if (!settle(patience, reason))
+        return false;
+    *reason = master->errorString();
+    return hasBegun && (master->state() == QPlcMasterNode::RealTime || master->state() == QPlcMasterNode::SafeStop);
+}
+
+/// In the thread of the master. \param what  "start"
+bool QPlcEmbeddedMaster::Private::begin(const char *what, std::chrono::milliseconds longest, const QStringList &names,
+                                        Phase phase)
+{
+    if (longest < 1ms || longest > 24h) {
+        setError(QStringLiteral("to %1 within %2 s is out of range; use 0.001 ... 86400 s")
+                     .arg(QLatin1String(what))
+                     .arg(double(longest.count()) * 1e-3));
+        return false;
+    }
     Patience patience(longest);
     QString reason;
-    if (beginWithin(patience, names, &reason)) {
+    if (!patience.waitFor([&] { return missing(names).isEmpty(); }))
+        reason = missing(names);
+    else if ((this->*phase)(patience, &reason)) {
         setError({});
         return true;
     }
     master->stop();
-    setError(QStringLiteral("the plant did not start within %1 s: %2")
+    setError(QStringLiteral("the plant did not %1 within %2 s: %3")
+                 .arg(QLatin1String(what))
                  .arg(double(longest.count()) * 1e-3)
                  .arg(reason.isEmpty() ? master->stateReason() : reason));
     return false;
@@ -253,15 +278,17 @@ bool QPlcEmbeddedMaster::add(const std::shared_ptr<QPlcSlaveNode> &node)
     return isAdded;
 }
 
+bool QPlcEmbeddedMaster::initialize(std::chrono::milliseconds longest, const QStringList &nodes)
+{
+    bool hasBegun = false;
+    return call([&](QPlcMasterNode &) { hasBegun = d->begin("initialize", longest, nodes, &Private::initialize); })
+        && hasBegun;
+}
+
 bool QPlcEmbeddedMaster::start(std::chrono::milliseconds longest, const QStringList &nodes)
 {
-    if (longest < 1ms || longest > 24h) {
-        d->setError(QStringLiteral("a start within %1 s is out of range; use 0.001 ... 86400 s")
-                        .arg(double(longest.count()) * 1e-3));
-        return false;
-    }
     bool hasBegun = false;
-    if (!call([&](QPlcMasterNode &) { hasBegun = d->begin(longest, nodes); }) || !hasBegun)
+    if (!call([&](QPlcMasterNode &) { hasBegun = d->begin("start", longest, nodes, &Private::start); }) || !hasBegun)
         return false;
     static const bool isKnown = Private::Living::endAtExit();  // of what a start has made, too
     Q_UNUSED(isKnown)
