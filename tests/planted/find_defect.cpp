@@ -56,7 +56,8 @@ int main(int argc, char **argv)
     const quint64 seeds = application.arguments().value(1).toULongLong();
     const soak::Scenario *scenarios[]
         = {soak::Scenario::named(QStringLiteral("all")), soak::Scenario::named(QStringLiteral("storm")),
-           soak::Scenario::named(QStringLiteral("restarts")), soak::Scenario::named(QStringLiteral("admissions"))};
+           soak::Scenario::named(QStringLiteral("restarts")), soak::Scenario::named(QStringLiteral("admissions")),
+           soak::Scenario::named(QStringLiteral("turned"))};
     for (quint64 seed = 1; seed <= seeds; ++seed) {
         for (const soak::Scenario *scenario : scenarios) {
             const soak::SimulatedPlan plan = planOf(*scenario, seconds, seed);

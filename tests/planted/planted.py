@@ -93,6 +93,17 @@ DEFECTS = {
         "src/node/cycle/NodeRegistry.cpp",
         [("if (signal.safety && *signal.safety != ", "if (signal.safety && !*signal.safety && *signal.safety != ")],
     ),
+    "devices_run_on": Defect(
+        "a node with devices does not notice that the program hangs that turns the clock",
+        "src/node/cycle/SlaveCycle.cpp",
+        [
+            (
+                "    if (m_phase.clock.isExternal() && m_runtime.traits().hardware)\n"
+                "        return m_phase.watchdog.count();\n",
+                "",
+            )
+        ],
+    ),
     "silent_stays": Defect(
         "a node that answers nothing ends each start, and is never dropped",
         "src/node/session/SequenceStep.cpp",

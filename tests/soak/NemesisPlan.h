@@ -135,6 +135,7 @@ struct Profile
     double restless = 1.0;      // share of the nodes that have faults
     int attemptsPerSecond = 0;  // of strangers to get in; the plant is secured then
     bool hasManifest = false;   // which needs all nodes
+    bool isTurned = false;      // the program of the master turns the clock, and all nodes have devices
     bool hasProcesses = true;   // whose resources are judged; a simulated plant has none
     std::array<int, FaultKinds> weights{};
 

@@ -92,6 +92,13 @@ const std::vector<Scenario> &Scenario::all()
             made.profile.hasManifest = true;
             return made;
         }(),
+        [] {
+            Weights weights = programs;
+            weights.insert(weights.end(), roads.begin(), roads.end());
+            Scenario made = scenario("turned", "those of programs and roads, while a program turns the clock", weights);
+            made.profile.isTurned = true;
+            return made;
+        }(),
         scenario("all", "those of soak, programs, roads and tools, one after the other", everything),
         scenario(
             "storm", "all of programs and roads, while the plant has not recovered from the last",

@@ -42,6 +42,20 @@ private:
     QPlcInput<quint32> m_counter{this, "n0.counter"};
 };
 
+/// Once in each period; after a stop it catches up, as a simulation does that a person has stopped.
+void turnClock(SimulatedHost &host, QPlcMasterNode &master, std::int64_t period)
+{
+    std::int64_t next = host.now();
+    while (!host.isMute()) {
+        if (!host.sleepUntil(next))
+            continue;
+        const auto result = master.step();
+        const bool isComputed
+            = result == QPlcMasterNode::StepResult::Complete || result == QPlcMasterNode::StepResult::Late;
+        next = (isComputed ? next : host.now()) + period;
+    }
+}
+
 std::unique_ptr<SimulatedHost> newHost(qplc::Simulator &simulator, int node)
 {
     const QString name = node < 0 ? QStringLiteral("Master") : nodeName(node);
@@ -164,10 +178,17 @@ bool SimulatedPlant::startMaster(QString *error)
         history.append(Record::Born, Record::Nobody, {0, quint64(m_edition)});
         if (m_profile.hasManifest)
             program->setManifest(manifest());
+        if (m_profile.isTurned) {
+            program->setClock(QPlcClock::external());
+            program->setLongestWait(std::chrono::microseconds(m_profile.periodUs / 2));
+        }
         listens = program->start(std::chrono::microseconds(m_profile.periodUs), master());
         *error = program->errorString();
         return program;
     });
+    if (m_profile.isTurned)
+        m_master.host->startThread([&host = *m_master.host, &master = *m_masterProgram,
+                                    period = m_profile.periodUs * 1000] { turnClock(host, master, period); });
     m_runnerHistory.append(Record::Started, -1, {0, m_master.life});
     return listens;
 }
@@ -188,6 +209,7 @@ void SimulatedPlant::startNode(int node, const QString &linkFaults)
         program->activateWatchdog(std::chrono::microseconds(m_profile.shape.hold * m_profile.periodUs));
         program->setFaultPlan(linkFaults);
         program->setCritical(isCritical(node));
+        program->setHardware(m_profile.isTurned);
         program->setReconnectPolicy(QPlcSlaveNode::ReconnectAlways);
         program->connectToMaster(cyclicPlace());
         return program;
