@@ -178,7 +178,7 @@ void tst_PlantClocks::plotReportsMissingValuesAtTheFrozenTime()
     QTRY_COMPARE(hint(), QString());
     window.time()->freeze();
     QTRY_VERIFY2(hint().contains(QStringLiteral("No values at this time")), qPrintable(hint()));
-    QTRY_COMPARE(plot.findChild<PlotLegend *>()->entries().first().value, QStringLiteral("–"));
+    QTRY_COMPARE(plot.findChild<PlotLegend *>()->entries().value(0).value, QStringLiteral("–"));
     window.time()->jumpTo(now);
     QTRY_COMPARE(hint(), QString());
 }
@@ -189,7 +189,7 @@ void tst_PlantClocks::livePlotLegendUsesTheTimeOfItsPlant()
     TwoClocks window;
     QPlcTimePlot plot;
     QVERIFY(window.show(&plot, R"({"curves":[{"signal":"kite/count"}]})"));
-    const auto value = [&plot] { return plot.findChild<PlotLegend *>()->entries().first().value; };
+    const auto value = [&plot] { return plot.findChild<PlotLegend *>()->entries().value(0).value; };
     QTRY_COMPARE(value(), QStringLiteral("199"));
     window.time()->setPointer(now - s);
     QTRY_COMPARE(value(), QStringLiteral("99"));

@@ -99,8 +99,8 @@ void tst_PlotAxes::aCurveOfAnotherUnitHasAnAxisInItsColour()
     QCOMPARE(titleOf(window, 0), QStringLiteral("m/s"));
     QCOMPARE(titleOf(window, 1), QStringLiteral("N"));
     QVERIFY(window.canvas()->isAxisVisible(1));
-    QTRY_COMPARE(colorOf(window, 0), window.legend()->entries().at(0).color);
-    QCOMPARE(colorOf(window, 1), window.legend()->entries().at(1).color);
+    QTRY_COMPARE(colorOf(window, 0), window.legend()->entries().value(0).color);
+    QCOMPARE(colorOf(window, 1), window.legend()->entries().value(1).color);
     QVERIFY(topOf(window, 0) < 1000.0);
     QVERIFY(topOf(window, 1) > 4000.0);
 }
@@ -244,10 +244,10 @@ void tst_PlotAxes::axesAndLegendHaveThePrefixThatFits()
     QTRY_COMPARE(titleOf(window, 0), QStringLiteral("MW"));
     QCOMPARE(window.canvas()->scaleWidget(0)->scaleDraw()->label(1e6).text().toDouble(), 1.0);
     QCOMPARE(titleOf(window, 1), QStringLiteral("deg"));
-    QTRY_COMPARE(window.legend()->entries().at(0).unit, QStringLiteral("MW"));
-    QCOMPARE(window.legend()->entries().at(0).value, QStringLiteral("1.0080"));
-    QCOMPARE(window.legend()->entries().at(1).unit, QStringLiteral("deg"));
-    QCOMPARE(window.legend()->entries().at(1).value, QStringLiteral("74.750"));
+    QTRY_COMPARE(window.legend()->entries().value(0).unit, QStringLiteral("MW"));
+    QCOMPARE(window.legend()->entries().value(0).value, QStringLiteral("1.0080"));
+    QCOMPARE(window.legend()->entries().value(1).unit, QStringLiteral("deg"));
+    QCOMPARE(window.legend()->entries().value(1).value, QStringLiteral("74.750"));
 }
 
 QTEST_MAIN(tst_PlotAxes)

@@ -119,7 +119,7 @@ void tst_PlotEditing::aClickInTheLegendHidesAndSelects()
     QTest::mouseClick(legend, Qt::LeftButton, {}, legend->entryRect(1).center());
     QCOMPARE(window.settings(), QByteArray(R"({"curves":[{"signal":"count"},{"signal":"sum","visible":false}]})"));
     QCOMPARE(edited.size(), 1);
-    QVERIFY(legend->entries()[1].isSelected && !legend->entries()[1].isVisible);
+    QVERIFY(legend->entries().value(1).isSelected && !legend->entries().value(1).isVisible);
     QCOMPARE(window.canvas()->itemList(QwtPlotItem::Rtti_PlotUserItem + 1).size(), 1);
     QTest::mouseClick(legend, Qt::LeftButton, {}, legend->entryRect(1).center());
     QCOMPARE(window.canvas()->itemList(QwtPlotItem::Rtti_PlotUserItem + 1).size(), 2);
@@ -134,7 +134,7 @@ void tst_PlotEditing::fromTheNinthOnCurvesHaveDashes()
     window.plot->applySettings({{"curves", wanted}});
     QVERIFY(window.run(0.2));
     auto *legend = window.part<PlotLegend>();
-    QTRY_VERIFY(legend->isVisible() && legend->entries().size() == 17 && legend->entries().first().isTrusted);
+    QTRY_VERIFY(legend->isVisible() && legend->entries().size() == 17 && legend->entries().value(0).isTrusted);
     const QList<QwtPlotItem *> curves = window.canvas()->itemList(QwtPlotItem::Rtti_PlotUserItem + 1);
     QCOMPARE(curves.size(), 17);
     QImage picture(legend->size(), QImage::Format_RGB32);
@@ -142,7 +142,7 @@ void tst_PlotEditing::fromTheNinthOnCurvesHaveDashes()
     for (int i = 0; i < 17; ++i) {
         const Qt::PenStyle expected = i < 8 ? Qt::SolidLine : i < 16 ? Qt::DashLine : Qt::DotLine;
         QCOMPARE(static_cast<const StoreCurve *>(curves[i])->penStyle(), expected);
-        const PlotLegend::Entry entry = legend->entries()[i];
+        const PlotLegend::Entry entry = legend->entries().value(i);
         QCOMPARE(entry.penStyle, expected);
         // The swatch: pieces of its colour, from left to right.
         const QRect rect = legend->entryRect(i);
@@ -390,11 +390,11 @@ void tst_PlotEditing::legendShowsTheQualityAtThePointer()
     const SignalStore::Row newest = *store->newestRow();
     auto *legend = window.part<PlotLegend>();
     window.time()->setPointer(store->time(newest));
-    QTRY_COMPARE(legend->entries().first().doubt, QStringLiteral("safe"));
-    QVERIFY(!legend->entries().first().isTrusted);
+    QTRY_COMPARE(legend->entries().value(0).doubt, QStringLiteral("safe"));
+    QVERIFY(!legend->entries().value(0).isTrusted);
     window.time()->setPointer(store->time(newest - 1));
-    QTRY_COMPARE(legend->entries().first().doubt, QString());
-    QVERIFY(legend->entries().first().isTrusted);
+    QTRY_COMPARE(legend->entries().value(0).doubt, QString());
+    QVERIFY(legend->entries().value(0).isTrusted);
 }
 
 void tst_PlotEditing::staleValuesAreNotTrusted()
@@ -402,12 +402,12 @@ void tst_PlotEditing::staleValuesAreNotTrusted()
     PlotWindow window(R"({"curves":[{"signal":"count"}]})");
     QVERIFY(window.run(0.1));
     auto *legend = window.part<PlotLegend>();
-    QTRY_VERIFY(legend->entries().first().isTrusted);
+    QTRY_VERIFY(legend->entries().value(0).isTrusted);
     const int height = legend->heightForWidth(300);
     window.context.plants()->at(0)->close();
-    QTRY_VERIFY(!legend->entries().first().isTrusted);
-    QTRY_VERIFY2(legend->entries().first().doubt.contains(QLatin1Char('s')),
-                 qPrintable(legend->entries().first().doubt));
+    QTRY_VERIFY(!legend->entries().value(0).isTrusted);
+    QTRY_VERIFY2(legend->entries().value(0).doubt.contains(QLatin1Char('s')),
+                 qPrintable(legend->entries().value(0).doubt));
     QCOMPARE(legend->heightForWidth(300), height);
 }
 

@@ -84,7 +84,7 @@ void tst_PlotTrigger::anEventIsShownInThisPlotOnly()
     QTRY_VERIFY(std::abs(window.canvas()->begin() - (event - s / 4)) < s / 100);
     QVERIFY(std::abs(window.canvas()->end() - (event + 3 * s / 4)) < s / 100);
     QVERIFY(window.time()->isLive());
-    QTRY_VERIFY(window.part<PlotLegend>()->entries().first().value.toDouble() != 0.0);  // not what is still to come
+    QTRY_VERIFY(window.part<PlotLegend>()->entries().value(0).value.toDouble() != 0.0);  // not what is still to come
     QVERIFY(!window.canvas()->canvas()->findChild<QToolButton *>()->isVisible());
     QTRY_VERIFY(*trigger.shownEvent() > event);
     for (std::size_t i = 1; i < trigger.events().size(); ++i)

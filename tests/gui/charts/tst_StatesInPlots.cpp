@@ -147,7 +147,7 @@ void tst_StatesInPlots::theLegendHasTheColourOfTheBand()
 {
     FedPlotWindow window(R"({"curves":[{"signal":"speed"},{"bands":true,"signal":"phase"}],"grid":false})");
     QVERIFY(window.show());
-    const auto swatch = [&] { return window.legend()->entries().at(1).color; };
+    const auto swatch = [&] { return window.legend()->entries().value(1).color; };
     QTRY_COMPARE(swatch(), window.colorAt(0.97, 0.98));
     window.context.timeAxis()->setPointer(window.canvas()->timeAt(0.2 * window.canvas()->canvas()->width()));
     QTRY_COMPARE(swatch(), window.colorAt(0.1, 0.98));

@@ -115,11 +115,11 @@ void tst_TimePlot::missingSignalIsReportedAndFoundLater()
     PlotWindow window(R"({"curves":[{"signal":"count"}]})");
     window.plot->show();
     QTRY_VERIFY(window.hint().contains(QStringLiteral("Missing: count")));
-    QCOMPARE(window.part<PlotLegend>()->entries().first().value, QStringLiteral("missing"));
-    QVERIFY(!window.part<PlotLegend>()->entries().first().isTrusted);
+    QCOMPARE(window.part<PlotLegend>()->entries().value(0).value, QStringLiteral("missing"));
+    QVERIFY(!window.part<PlotLegend>()->entries().value(0).isTrusted);
     QVERIFY(window.run(0.1));
     QTRY_COMPARE(window.hint(), QString());
-    QTRY_VERIFY(window.part<PlotLegend>()->entries().first().value.toDouble() > 0.0);
+    QTRY_VERIFY(window.part<PlotLegend>()->entries().value(0).value.toDouble() > 0.0);
 }
 
 void tst_TimePlot::aLivePlotShowsTheNewestValues()
@@ -131,7 +131,7 @@ void tst_TimePlot::aLivePlotShowsTheNewestValues()
     QVERIFY(std::abs(window.canvas()->end() - window.time()->newest()) < s);
     QCOMPARE((window.canvas()->end() - window.canvas()->begin() + s / 2) / s, window.time()->span() / s);
     const double top = window.canvas()->valueAt(PlotCurveSettings::Left, 0.0);
-    QVERIFY(top > window.part<PlotLegend>()->entries().first().value.toDouble() * 0.9);
+    QVERIFY(top > window.part<PlotLegend>()->entries().value(0).value.toDouble() * 0.9);
     QVERIFY(!liveButton(window)->isVisible());
 }
 
