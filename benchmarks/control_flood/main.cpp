@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How soon Stop acts, how exactly leases end and how late cycles begin while eight tools with keys
-// ask the most expensive questions, over TLS, from other processes.
+// ask the most expensive questions, over TLS, from other processes. Also what the event loop of the
+// master does in one step while one of them registers with a long message.
 //
 //   control_flood [--signals N] [--connections N] [--stops N] [--leases N] [--rounds N]
 //                 [--seconds S]
@@ -16,6 +17,7 @@
 #include <QtCore/QTimer>
 
 #include <chrono>
+#include <ctime>
 
 namespace {
 
@@ -64,9 +66,39 @@ private:
     qint64 m_begin = 0;
 };
 
+/// The longest step of an event loop, in processor time of its thread: what else the machine does
+/// makes it no longer.
+class LongestStep
+{
+public:
+    LongestStep()
+    {
+        m_timer.setTimerType(Qt::PreciseTimer);
+        QObject::connect(&m_timer, &QTimer::timeout, [this] {
+            const qint64 worked = workedSoFar();
+            m_longest = std::max(m_longest, worked - std::exchange(m_last, worked));
+        });
+        m_timer.start(1);
+    }
+    /// [ns] since the last call
+    qint64 take() { return std::exchange(m_longest, 0); }
+
+private:
+    static qint64 workedSoFar()
+    {
+        timespec time{};
+        ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+        return qint64(time.tv_sec) * 1'000'000'000 + time.tv_nsec;
+    }
+    QTimer m_timer;
+    qint64 m_last = workedSoFar();
+    qint64 m_longest = 0;
+};
+
 int runMaster(const QString &keys, int signalCount)
 {
     QPlcSignalIndexTable::setCurrent(table(signalCount));
+    LongestStep longestStep;
     Watcher watcher;
     QPlcMasterNode master;
     master.setProfile(QPlcProfile::Plant);
@@ -80,10 +112,11 @@ int runMaster(const QString &keys, int signalCount)
         if (state == QPlcMasterNode::Off && isMoving) {
             const qint64 time = now();
             const QPlcCycleStatistics statistics = master.cycleStatistics();
-            tell(QStringLiteral("stopped %1 %2 %3")
+            tell(QStringLiteral("stopped %1 %2 %3 %4")
                      .arg(time)
                      .arg(statistics.lateness.sinceStart.p99)
-                     .arg(statistics.execution.sinceStart.p99));
+                     .arg(statistics.execution.sinceStart.p99)
+                     .arg(longestStep.take()));
             QTimer::singleShot(0, &master, [&] { master.startRealTime(); });
         }
         isMoving = state == QPlcMasterNode::RealTime;
@@ -117,20 +150,35 @@ void askMost(Tool &tool, int number, int signalCount)
         tool.send(QPlcMessage::GetStatistics, {{"histograms", true}});
 }
 
-/// Registers as a listener of all signals, leaves, and comes again, without end.
+/// What else a tool does, without end.
+enum class Registering : quint8 {
+    Nothing,
+    Signals,  // a listener of all signals registers and leaves
+    Fields    // a registration with a million fields is refused
+};
+
+QJsonObject registrationOf(Registering kind, int signalCount)
+{
+    QJsonArray inputs;
+    for (int i = 1; kind == Registering::Signals && i < signalCount; ++i)
+        inputs << QJsonObject{{"name", signalName(i)}, {"type", "Int8"}, {"unit", ""}};
+    QJsonObject registration{{"name", "observer"}, {"policy", "SilentZeroOrderHold"}, {"listener", true},
+                             {"inputs", inputs},   {"outputs", QJsonArray()},         {"cyclic", "udp"},
+                             {"udpPort", 9}};
+    for (int i = 0; kind == Registering::Fields && i < 1'000'000; ++i)  // behind the others
+        registration.insert(QStringLiteral("x%1").arg(i, 6, 10, QLatin1Char('0')), 12345);
+    return registration;
+}
+
+/// Registers and leaves, or is refused, and comes again, without end.
 class Registrant
 {
 public:
-    Registrant(const QString &keys, quint16 port, int signalCount)
+    Registrant(const QString &keys, quint16 port, Registering kind, int signalCount)
         : m_keys(keys)
         , m_port(port)
+        , m_registration(registrationOf(kind, signalCount))
     {
-        QJsonArray inputs;
-        for (int i = 1; i < signalCount; ++i)
-            inputs << QJsonObject{{"name", signalName(i)}, {"type", "Int8"}, {"unit", ""}};
-        m_registration
-            = {{"name", "observer"}, {"policy", "SilentZeroOrderHold"}, {"listener", true}, {"inputs", inputs},
-               {"cyclic", "udp"},    {"outputs", QJsonArray()},         {"udpPort", 9}};
         begin();
     }
 
@@ -151,16 +199,15 @@ private:
 
     const QString m_keys;
     const quint16 m_port;
-    QJsonObject m_registration;
+    const QJsonObject m_registration;
     std::unique_ptr<Tool> m_tool;
 };
 
-/// \param isRegistering  a listener also registers and leaves
-int runFlood(const QString &keys, quint16 port, int connections, int signalCount, bool isRegistering)
+int runFlood(const QString &keys, quint16 port, int connections, int signalCount, Registering registering)
 {
     std::unique_ptr<Registrant> registrant;
-    if (isRegistering)
-        registrant = std::make_unique<Registrant>(keys, port, signalCount);
+    if (registering != Registering::Nothing)
+        registrant = std::make_unique<Registrant>(keys, port, registering, signalCount);
     std::vector<std::unique_ptr<Tool>> tools;
     quint64 answers = 0;
     for (int i = 0; i < connections; ++i) {
@@ -208,18 +255,27 @@ public:
         m_person.onMessage = {};
     }
 
-    void stops(int count, bool isRegistering)
+    void stops(int count, Registering registering)
     {
-        const std::unique_ptr<Child> flood = makeFlood(m_port, isRegistering);
+        const std::unique_ptr<Child> flood = makeFlood(m_port, registering);
         std::vector<double> delays;
+        std::vector<double> steps;
         for (int i = 0; i < count; ++i) {
             pass(QRandomGenerator::global()->bounded(20, 40));
             delays.push_back(stop());
+            steps.push_back(m_figures.at(3).toDouble() * 1e-6);
         }
         checkThatItGoesOn(*flood);
-        if (isRegistering)
+        if (registering == Registering::Signals)
             flood->next("Registered");
-        show(isRegistering ? "stop, while a listener of all signals registers and leaves" : "stop", delays, "ms");
+        if (registering == Registering::Fields)
+            flood->next("Rejected");
+        const QString meanwhile = registering == Registering::Nothing ? QString()
+            : registering == Registering::Signals
+            ? QStringLiteral(", while a listener of all signals registers and leaves")
+            : QStringLiteral(", while a registration with a million fields is refused");
+        show(qPrintable("stop" + meanwhile), delays, "ms");
+        show(qPrintable("longest step of the event loop between two stops" + meanwhile), steps, "ms");
     }
 
     void leases(int count)
@@ -267,11 +323,11 @@ public:
     }
 
 private:
-    std::unique_ptr<Child> makeFlood(const QString &port, bool isRegistering = false)
+    std::unique_ptr<Child> makeFlood(const QString &port, Registering registering = Registering::Nothing)
     {
         auto flood
             = std::make_unique<Child>(QStringList{"flood", m_keys, port, QString::number(m_connections),
-                                                  QString::number(m_signals), QString::number(int(isRegistering))});
+                                                  QString::number(m_signals), QString::number(int(registering))});
         flood->next("floods");
         return flood;
     }
@@ -318,8 +374,9 @@ int runAll(const QCoreApplication &application)
     const QTemporaryDir folder;
     Measurement measurement(makeKeys(folder, {{"operator", "Operator"}, {"observer", "Observer"}}), number("signals"),
                             number("connections"));
-    measurement.stops(number("stops"), false);
-    measurement.stops(number("stops") / 4, true);
+    measurement.stops(number("stops"), Registering::Nothing);
+    measurement.stops(number("stops") / 4, Registering::Signals);
+    measurement.stops(number("stops") / 4, Registering::Fields);
     measurement.leases(number("leases"));
     measurement.cycles(number("rounds"), number("seconds"));
     return 0;
@@ -335,6 +392,6 @@ int main(int argc, char **argv)
         return runMaster(arguments.at(2), arguments.at(3).toInt());
     if (arguments.value(1) == QLatin1String("flood"))
         return runFlood(arguments.at(2), quint16(arguments.at(3).toInt()), arguments.at(4).toInt(),
-                        arguments.at(5).toInt(), arguments.at(6) == QLatin1String("1"));
+                        arguments.at(5).toInt(), Registering(arguments.at(6).toInt()));
     return runAll(application);
 }

@@ -37,6 +37,11 @@ int nestingDepth(const QByteArray &json)
     return deepest;
 }
 
+QString placeText(quint64 position)
+{
+    return QStringLiteral(" at byte %1 of the stream").arg(position);
+}
+
 QString jsonErrorText(const QJsonParseError &error)
 {
     if (error.error == QJsonParseError::NoError)
@@ -74,32 +79,65 @@ void ControlFrameReader::append(const QByteArray &bytes)
     m_buffer.append(bytes);
 }
 
-bool ControlFrameReader::next(QPlcMessage *message)
+/// Whether the next frame is there, of \a length behind its length field. A length that is not
+/// allowed is an error.
+bool ControlFrameReader::findWhole(quint32 *length)
 {
     const int available = m_buffer.size() - m_begin;
     if (m_error != NoError || available < LengthSize)
         return false;
-    const quint32 length = loadLittle<quint32>(m_buffer.constData() + m_begin);
-    if (length < quint32(KindSize))
-        return setError(FrameTooShort, QStringLiteral("control frame of 0 bytes%1; the kind needs one").arg(place()));
-    if (m_mayBeLong && length > UsualControlFrame && length <= m_limit && available < LengthSize + KindSize)
+    *length = loadLittle<quint32>(m_buffer.constData() + m_begin);
+    if (*length < quint32(KindSize))
+        return fail(FrameTooShort,
+                    QStringLiteral("control frame of 0 bytes%1; the kind needs one").arg(placeText(m_position)));
+    if (m_mayBeLong && *length > UsualControlFrame && *length <= m_limit && available < LengthSize + KindSize)
         return false;  // its limit is not known yet
-    if (const quint32 limit = limitAt(m_begin); length > limit) {
+    if (const quint32 limit = limitAt(m_begin); *length > limit) {
         const QString text = QStringLiteral("control frame of %1 bytes%2; at most %3 are allowed");
-        return setError(FrameTooLong, text.arg(length).arg(place()).arg(limit));
+        return fail(FrameTooLong, text.arg(*length).arg(placeText(m_position)).arg(limit));
     }
-    if (available - LengthSize < int(length))
-        return false;
+    return available - LengthSize >= int(*length);
+}
 
-    const QByteArray frame = m_buffer.mid(m_begin, LengthSize + int(length));
-    if (!parse(frame, message))
-        return false;
+/// The next frame, of \a bytes, is used.
+void ControlFrameReader::pass(int bytes)
+{
     m_wasTakenAhead = !m_ahead.empty() && m_ahead.front() == m_position;
     if (m_wasTakenAhead)
         m_ahead.pop_front();
-    m_begin += frame.size();
-    m_position += quint64(frame.size());
-    m_lastFrame = frame;
+    m_begin += bytes;
+    m_position += quint64(bytes);
+}
+
+bool ControlFrameReader::next(QPlcMessage *message)
+{
+    quint32 length = 0;
+    if (!findWhole(&length))
+        return false;
+    const UnreadControlFrame frame{m_buffer.mid(m_begin, LengthSize + int(length)), m_position};
+    QString text;
+    if (const Error error = read(frame, message, &text); error != NoError)
+        return fail(error, text);
+    pass(frame.bytes.size());
+    m_lastFrame = frame.bytes;
+    return true;
+}
+
+bool ControlFrameReader::takeLong(UnreadControlFrame *frame)
+{
+    quint32 length = 0;
+    if (!findWhole(&length) || length <= ReadAtOnce)
+        return false;
+    const int size = LengthSize + int(length);
+    const quint64 position = m_position;
+    const bool isAll = m_begin == 0 && m_buffer.size() == size;  // to copy megabytes takes milliseconds
+    const QByteArray bytes = isAll ? m_buffer : m_buffer.mid(m_begin, size);
+    pass(size);
+    if (isAll) {
+        m_buffer = QByteArray();
+        m_begin = 0;
+    }
+    *frame = {bytes, position};
     return true;
 }
 
@@ -135,10 +173,12 @@ bool ControlFrameReader::takeAhead(bool (*isUrgent)(QPlcMessage::Kind), QPlcMess
     for (int begin; m_error == NoError && isComplete(begin = m_begin + int(m_lookedAt - m_position), &length);) {
         const quint64 position = m_lookedAt;
         m_lookedAt += quint64(LengthSize) + length;
-        if (!isUrgent(QPlcMessage::Kind(quint8(m_buffer.at(begin + LengthSize)))))
+        if (length > ReadAtOnce || !isUrgent(QPlcMessage::Kind(quint8(m_buffer.at(begin + LengthSize)))))
             continue;
-        if (!parse(m_buffer.mid(begin, LengthSize + int(length)), message))
-            return false;
+        QString text;
+        const UnreadControlFrame frame{m_buffer.mid(begin, LengthSize + int(length)), position};
+        if (const Error error = read(frame, message, &text); error != NoError)
+            return fail(error, text);
         m_ahead.push_back(position);
         return true;
     }
@@ -154,38 +194,44 @@ QByteArray ControlFrameReader::takeRest()
     return rest;
 }
 
-bool ControlFrameReader::parse(const QByteArray &frame, QPlcMessage *message)
+ControlFrameReader::Error ControlFrameReader::read(const UnreadControlFrame &unread, QPlcMessage *message,
+                                                   QString *text)
 {
-    const auto kind = QPlcMessage::Kind(quint8(frame.at(LengthSize)));
+    const QByteArray &frame = unread.bytes;
+    const QPlcMessage::Kind kind = unread.kind();
     const int jsonBegin = LengthSize + KindSize;
     const QByteArray json = QByteArray::fromRawData(frame.constData() + jsonBegin, frame.size() - jsonBegin);
     if (json.isEmpty()) {
         *message = QPlcMessage(kind);
-        return true;
+        return NoError;
     }
 
-    const auto thing = [&] { return QStringLiteral("control frame (%1)%2").arg(QPlcMessage::kindName(kind), place()); };
+    const auto thing = [&] {
+        return QStringLiteral("control frame (%1)%2").arg(QPlcMessage::kindName(kind), placeText(unread.position));
+    };
     const int depth = nestingDepth(json);
     if (depth > MaximumControlDepth) {
-        const QString text = QStringLiteral("%1: arrays and objects %2 deep; at most %3 are allowed");
-        return setError(NestedTooDeep, text.arg(thing()).arg(depth).arg(MaximumControlDepth));
+        *text = QStringLiteral("%1: arrays and objects %2 deep; at most %3 are allowed")
+                    .arg(thing())
+                    .arg(depth)
+                    .arg(MaximumControlDepth);
+        return NestedTooDeep;
     }
-    if (const std::optional<QString> name = doubledJsonName(json))
-        return setError(InvalidJson, QStringLiteral("%1: the name '%2' stands twice in an object").arg(thing(), *name));
+    if (const std::optional<QString> name = doubledJsonName(json)) {
+        *text = QStringLiteral("%1: the name '%2' stands twice in an object").arg(thing(), *name);
+        return InvalidJson;
+    }
     QJsonParseError error;
     const QJsonDocument document = QJsonDocument::fromJson(json, &error);
-    if (!document.isObject())
-        return setError(InvalidJson, QStringLiteral("%1: %2").arg(thing(), jsonErrorText(error)));
+    if (!document.isObject()) {
+        *text = QStringLiteral("%1: %2").arg(thing(), jsonErrorText(error));
+        return InvalidJson;
+    }
     *message = QPlcMessage(kind, document.object());
-    return true;
+    return NoError;
 }
 
-QString ControlFrameReader::place() const
-{
-    return QStringLiteral(" at byte %1 of the stream").arg(m_position);
-}
-
-bool ControlFrameReader::setError(Error error, const QString &text)
+bool ControlFrameReader::fail(Error error, const QString &text)
 {
     m_error = error;
     m_errorString = text;

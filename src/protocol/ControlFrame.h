@@ -24,6 +24,16 @@ QByteArray encodeControlFrame(const QPlcMessage &message, quint32 limit = UsualC
 /// The bytes of a message whose fields are \a json already; empty when they are too long.
 QByteArray encodeControlFrame(QPlcMessage::Kind kind, const QByteArray &json, quint32 limit = UsualControlFrame);
 
+/// A control frame that was cut out of its stream, and not read yet.
+struct UnreadControlFrame
+{
+    QByteArray bytes;      // all of it
+    quint64 position = 0;  // [byte] of the stream at which it begins
+
+    /// \pre it is not empty
+    QPlcMessage::Kind kind() const { return QPlcMessage::Kind(quint8(bytes.at(int(sizeof(quint32))))); }
+};
+
 /// Cuts a byte stream into control messages. Nothing is allocated for a frame before its length has
 /// been checked.
 ///
@@ -40,6 +50,9 @@ public:
         InvalidJson  ///< not UTF-8, not JSON, not an object, or a name stands twice in one
     };
 
+    /// To read a longer message takes milliseconds [byte].
+    static constexpr quint32 ReadAtOnce = 64 * 1024;
+
     /// Frames behind those that were taken already may have so many bytes behind their length
     /// field; UsualControlFrame unless set.
     void setLimit(quint32 bytes) { m_limit = bytes; }
@@ -50,8 +63,17 @@ public:
     void append(const QByteArray &bytes);
     /// Takes the next complete message. \return false when there is none (yet), or error() is set
     bool next(QPlcMessage *message);
-    /// Takes the next complete message of a kind that \a isUrgent, before those in front of it.
-    /// next() gives it once more when it comes to its place: wasTakenAhead() is true then.
+    /// Takes the next message as it is, if it is complete and has more than ReadAtOnce bytes.
+    /// fail() is for the one who reads it later.
+    bool takeLong(UnreadControlFrame *frame);
+    /// Reads what takeLong() has taken. \return NoError, or what is wrong with it, with a sentence
+    /// in \a text. \threadsafe yes
+    static Error read(const UnreadControlFrame &frame, QPlcMessage *message, QString *text);
+    /// From now on there is this error.
+    bool fail(Error error, const QString &text);
+    /// Takes the next complete message of a kind that \a isUrgent, and that is not long, before
+    /// those in front of it. next() gives it once more when it comes to its place: wasTakenAhead()
+    /// is true then.
     bool takeAhead(bool (*isUrgent)(QPlcMessage::Kind), QPlcMessage *message);
     /// Whether next() has returned a message that takeAhead() has returned before.
     bool wasTakenAhead() const { return m_wasTakenAhead; }
@@ -74,9 +96,8 @@ public:
 private:
     quint32 limitAt(int begin) const;
     bool isComplete(int begin, quint32 *length) const;
-    bool parse(const QByteArray &frame, QPlcMessage *message);
-    QString place() const;
-    bool setError(Error error, const QString &text);
+    bool findWhole(quint32 *length);
+    void pass(int bytes);
 
     quint32 m_limit = UsualControlFrame;               // [byte]
     bool (*m_mayBeLong)(QPlcMessage::Kind) = nullptr;  // null: all

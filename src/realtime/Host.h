@@ -68,6 +68,11 @@ public:
     /// The contrary. \return whether it was readable
     virtual bool consumeWakeUp(int descriptor) noexcept = 0;
 
+    // ---- threads ----
+
+    /// Whether a program on this host may make threads: see Worker.
+    virtual bool hasThreads() const noexcept { return true; }
+
     // ---- cycles ----
 
     /// What runs cycles in place of a thread. Null: threads do.

@@ -22,6 +22,7 @@ public:
     bool sleepUntil(std::int64_t) noexcept override { return true; }
     std::int64_t wallClock() noexcept override { return now(); }
     bool hasKernelTimers() const noexcept override { return false; }
+    bool hasThreads() const noexcept override { return false; }
     std::uint64_t random() override { return m_random.next(); }
     int openWakeUp(int *error) noexcept override
     {

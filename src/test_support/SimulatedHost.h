@@ -80,6 +80,7 @@ public:
     bool sleepUntil(std::int64_t deadline) noexcept override;
     std::int64_t wallClock() noexcept override { return now() + m_clocks.wallOffset; }
     bool hasKernelTimers() const noexcept override { return false; }
+    bool hasThreads() const noexcept override { return false; }
     std::uint64_t random() override { return m_random.next(); }
     int openWakeUp(int *error) noexcept override;
     void closeWakeUp(int descriptor) noexcept override;

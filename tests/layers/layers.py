@@ -214,6 +214,7 @@ OF_MACHINE = (
     ("ends the waits of a thread", "a thread", "realtime/InterruptibleWaits.cpp realtime/InterruptibleWaits.h"),
     ("ends the waits of a thread", "a timer", "realtime/InterruptibleWaits.cpp"),
     ("wakes a wait of the kernel, where a host has kernel timers", "a timer", "realtime/AlarmTime.cpp"),
+    ("does long work beside an event loop where a host has threads", "a thread", "realtime/Worker.cpp"),
     ("writes the log of the machine behind the cycles", "a sleep, a thread", "realtime/LogWriter.cpp"),
     (
         "sets up or measures the machine",

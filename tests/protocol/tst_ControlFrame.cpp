@@ -33,6 +33,9 @@ private Q_SLOTS:
     void readerReturnsTheRestOfTheStream();
     void urgentMessageIsTakenBeforeTheOthers();
     void lookingAheadEndsWhereTheStreamIsBroken();
+    void longMessageIsTakenUnread();
+    void longMessageThatIsNoneIsAnErrorForItsReader();
+    void longUrgentMessageDoesNotOvertake();
     void manyMessagesInOnePieceAreFast();
     void doubledNamesAreFoundWhateverIsBetween();
     void flippedBitsNeverCrash();
@@ -355,6 +358,75 @@ void tst_ControlFrame::lookingAheadEndsWhereTheStreamIsBroken()
     broken.append(rawFrame(QPlcMessage::Stop, "?") + stop);
     QVERIFY(!broken.takeAhead(&isStop, &message));
     QCOMPARE(broken.error(), ControlFrameReader::InvalidJson);
+}
+
+void tst_ControlFrame::longMessageIsTakenUnread()
+{
+    const QPlcMessage brief(QPlcMessage::GetState);
+    const QPlcMessage large(QPlcMessage::SetSignals,
+                            {{QStringLiteral("x"), QString(int(ControlFrameReader::ReadAtOnce), QLatin1Char('x'))}});
+    for (const bool isAlone : {true, false}) {
+        const QByteArray bytes = isAlone ? stream({large}) : stream({brief, large, brief});
+        ControlFrameReader reader;
+        UnreadControlFrame frame;
+        QPlcMessage message;
+        reader.append(bytes.left(1000));
+        QVERIFY(!reader.takeLong(&frame));  // in front of it stands a brief one, or it is not there yet
+        QCOMPARE(reader.next(&message), !isAlone);
+        QVERIFY(!reader.takeLong(&frame));
+        reader.append(bytes.mid(1000));
+        QVERIFY(reader.takeLong(&frame));
+        QCOMPARE(frame.kind(), QPlcMessage::SetSignals);
+        QString text;
+        QCOMPARE(ControlFrameReader::read(frame, &message, &text), ControlFrameReader::NoError);
+        QCOMPARE(message, large);
+        QVERIFY(!reader.takeLong(&frame));
+        QCOMPARE(reader.next(&message), !isAlone);
+        QCOMPARE(reader.waiting(), 0);
+        reader.append(stream({brief}));
+        QVERIFY(reader.next(&message));
+        QCOMPARE(message, brief);
+        QCOMPARE(reader.error(), ControlFrameReader::NoError);
+    }
+}
+
+void tst_ControlFrame::longMessageThatIsNoneIsAnErrorForItsReader()
+{
+    ControlFrameReader reader;
+    reader.append(stream({QPlcMessage(QPlcMessage::GetState)}));
+    reader.append(rawFrame(QPlcMessage::Register, QByteArray(int(ControlFrameReader::ReadAtOnce), 'x')));
+    UnreadControlFrame frame;
+    QPlcMessage message;
+    QVERIFY(reader.next(&message));
+    QVERIFY(reader.takeLong(&frame));
+    QCOMPARE(reader.error(), ControlFrameReader::NoError);
+    QString text;
+    const ControlFrameReader::Error error = ControlFrameReader::read(frame, &message, &text);
+    QCOMPARE(error, ControlFrameReader::InvalidJson);
+    QVERIFY2(text.contains(QStringLiteral("control frame (Register) at byte 7 of the stream")), qPrintable(text));
+    reader.fail(error, text);
+    reader.append(stream({QPlcMessage(QPlcMessage::GetState)}));
+    QVERIFY(!reader.next(&message));
+    QCOMPARE(reader.errorString(), text);
+}
+
+void tst_ControlFrame::longUrgentMessageDoesNotOvertake()
+{
+    const QPlcMessage stop(QPlcMessage::Stop, {{QStringLiteral("how"), QStringLiteral("a button")}});
+    const QPlcMessage longStop(
+        QPlcMessage::Stop, {{QStringLiteral("how"), QString(int(ControlFrameReader::ReadAtOnce), QLatin1Char('x'))}});
+    ControlFrameReader reader;
+    reader.append(stream({QPlcMessage(QPlcMessage::GetState), longStop, stop}));
+    QPlcMessage message;
+    QVERIFY(reader.takeAhead(&isStop, &message));
+    QCOMPARE(message, stop);
+    QVERIFY(!reader.takeAhead(&isStop, &message));
+    UnreadControlFrame frame;
+    QVERIFY(reader.next(&message));
+    QVERIFY(reader.takeLong(&frame));
+    QVERIFY(!reader.wasTakenAhead() && reader.isOvertaken());
+    QVERIFY(reader.next(&message));
+    QVERIFY(reader.wasTakenAhead());
 }
 
 void tst_ControlFrame::manyMessagesInOnePieceAreFast()

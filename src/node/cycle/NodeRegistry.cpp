@@ -51,6 +51,10 @@ bool NodeDeclaration::fromMessage(const messages::Register &message, NodeDeclara
     *error = nameError(declaration->name);
     if (error->isEmpty() && !knownPolicy)
         *error = QStringLiteral("unknown policy '%1'").arg(message.policy);
+    if (error->isEmpty() && message.transport.size() > messages::Register::mostOthers)
+        *error = QStringLiteral("%1 fields that this master does not know; send at most %2 besides those of Register")
+                     .arg(message.transport.size())
+                     .arg(messages::Register::mostOthers);
     declaration->policy = QPlcSlaveNode::RealTimeViolationPolicy(policy);
     return error->isEmpty();
 }

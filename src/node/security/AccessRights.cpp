@@ -29,12 +29,17 @@ struct WrittenSignals
     void operator()(const messages::ReleaseLease &wish) { names = wish.signals.value_or(QStringList()); }
 };
 
+bool writesAll(const Peer &peer)
+{
+    return peer.mayWriteAll && peer.role != Role::Observer;
+}
+
 /// The signals that somebody may write.
 class Writable
 {
 public:
     explicit Writable(const Peer &peer)
-        : m_areAll(peer.mayWriteAll && peer.role != Role::Observer)
+        : m_areAll(writesAll(peer))
     {
         if (m_areAll || peer.role == Role::Observer)
             return;
@@ -106,16 +111,24 @@ QStringList signalsWrittenBy(const QPlcMessage &message)
     return written.names;
 }
 
-QString refusalOf(const Peer &peer, const QPlcMessage &message)
+QString refusalOf(const Peer &peer, QPlcMessage::Kind kind)
 {
-    if (peer.isCyclicOnly && message.kind() != QPlcMessage::AttachCyclicChannel)
-        return QStringLiteral("Denied: %1 on a connection without TLS").arg(message.kindName());
+    if (peer.isCyclicOnly && kind != QPlcMessage::AttachCyclicChannel)
+        return QStringLiteral("Denied: %1 on a connection without TLS").arg(QPlcMessage::kindName(kind));
     if (!peer.isSecured)
         return {};
-    const Roles roles = whoMaySend(message.kind());
+    const Roles roles = whoMaySend(kind);
     if (!roles.isEmpty() && !roles.contains(peer.role))
-        return QStringLiteral("Denied: role %1 may not send %2").arg(roleName(peer.role), message.kindName());
-    return message.kind() == QPlcMessage::Register ? QString() : writingRefusal(peer, signalsWrittenBy(message));
+        return QStringLiteral("Denied: role %1 may not send %2").arg(roleName(peer.role), QPlcMessage::kindName(kind));
+    return {};
+}
+
+QString refusalOf(const Peer &peer, const QPlcMessage &message)
+{
+    const QString refusal = refusalOf(peer, message.kind());
+    if (!refusal.isEmpty() || !peer.isSecured || message.kind() == QPlcMessage::Register || writesAll(peer))
+        return refusal;
+    return writingRefusal(peer, signalsWrittenBy(message));
 }
 
 QString refusalOf(const Peer &peer, const messages::Register &registration)

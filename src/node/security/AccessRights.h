@@ -51,6 +51,8 @@ QString shownName(const Peer &peer, const QString &called);
 
 /// Signals that \a message would write, as it names them; none of a message that cannot be read.
 QStringList signalsWrittenBy(const QPlcMessage &message);
+/// Why \a peer may not send messages of \a kind at all; empty: it may send some.
+QString refusalOf(const Peer &peer, QPlcMessage::Kind kind);
 /// Why \a peer may not send \a message: "Denied: role Observer may not send StartRealTime"; empty:
 /// it may. Looks at the kind, and at the signals that the message writes. What only masters send,
 /// and what cannot be read, is left to those who answer that it makes no sense; and so is what a

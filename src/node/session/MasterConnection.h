@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "LongRead.h"
 #include "NodeSession.h"
 #include "QPlcSlaveSocket.h"
 #include "node/cycle/NodeRegistry.h"
@@ -52,6 +53,7 @@ struct MasterConnection
     quint64 eventsTold = 0;                              // sequence number of the newest event that was sent
     std::function<void()> nextStep{};                    // of a message that is carried out in steps; null: none
     std::unique_ptr<messages::ListAnswer> listAnswer{};  // being made; null: none. What it asks next waits
+    std::shared_ptr<LongRead> longRead{};                // null: none. What it sends next waits
     bool isAhead = false;                                // the message at hand has overtaken others of it
     std::deque<QPlcMessage> keptAnswers{};               // to such messages, until it is their turn
 

@@ -192,15 +192,30 @@ void MasterServer::open(MasterConnection *connection, const messages::ClientHell
 
 void MasterServer::open(MasterConnection *connection, messages::Register registration)
 {
+    open(connection, std::make_shared<const messages::Register>(std::move(registration)));
+}
+
+void MasterServer::open(MasterConnection *connection, const std::shared_ptr<const messages::Register> &registration)
+{
     if (connection->isNode()) {
         reject(connection, messages::errorWord::wrongState,
                QStringLiteral("node '%1' registers twice").arg(connection->name));
         return;
     }
-    const QString denial = refusalOf(connection->peer, registration);
+    const std::size_t most = std::size_t(m_image.table().size());
+    if (registration->inputs.size() > most || registration->outputs.size() > most) {
+        reject(connection, messages::errorWord::malformedMessage,
+               QStringLiteral("node '%1' declares %2 inputs and %3 outputs, and the table has %4 signals; declare each "
+                              "of them once")
+                   .arg(connection->name)
+                   .arg(registration->inputs.size())
+                   .arg(registration->outputs.size())
+                   .arg(most));
+        return;
+    }
+    const QString denial = refusalOf(connection->peer, *registration);
     if (denial.isEmpty())
-        connection->nextStep
-            = [this, connection, registered = std::move(registration)] { admit(connection, registered); };
+        connection->nextStep = [this, connection, registration] { admit(connection, *registration); };
     else
         deny(connection, denial, true);
 }

@@ -248,6 +248,8 @@ void MasterServer::forget(MasterConnection *connection)
     m_door.leave(connection->ticket);
     m_turns.remove(connection);
     longMessageEnded(connection);
+    connection->nextStep = nullptr;
+    freeLongRead(connection);
     PacedReading::begin(*connection->socket, [] {});
     connection->socket->disconnect(this);
     connection->socket->deleteLater();
@@ -383,6 +385,15 @@ void MasterServer::takeTurn()
 /// more
 bool MasterServer::serve(MasterConnection *connection)
 {
+    std::shared_ptr<LongRead> kept = connection->longRead;  // whoever ends the connection does not free it here
+    const bool wantsMore = serveStep(connection);
+    if (kept)
+        m_reader.begin([kept = std::move(kept)] {});
+    return wantsMore;
+}
+
+bool MasterServer::serveStep(MasterConnection *connection)
+{
     if (connection->nextStep) {
         const QScopedValueRollback<MasterConnection *> receiving(m_receiving, connection);
         std::exchange(connection->nextStep, nullptr)();
@@ -393,9 +404,15 @@ bool MasterServer::serve(MasterConnection *connection)
             sendListAnswer(connection);
         return true;
     }
-    if (PacedReading::next(*connection->socket))
+    if (connection->longRead && connection->longRead->stage == LongRead::Given)
+        freeLongRead(connection);
+    if (connection->longRead && connection->longRead->stage == LongRead::Ended) {
+        giveLongRead(connection);
         return true;
-    if (isThere(connection))  // it may take in no answers
+    }
+    if (!connection->longRead && (beginLongRead(connection) || PacedReading::next(*connection->socket)))
+        return true;
+    if (isThere(connection))  // it may take in no answers, or a long message of it is being read
         lookAhead(connection);
     return false;
 }
@@ -452,11 +469,64 @@ void MasterServer::dropOverdue()
 {
     for (LongMessages::Client client : m_longMessages.overdue(monotonicNow())) {
         auto *connection = static_cast<MasterConnection *>(client);
-        if (isThere(connection))
+        if (isThere(connection) && !connection->longRead)  // else all of it has arrived
             reject(connection, messages::errorWord::timedOut,
                    QStringLiteral("a message of '%1' does not end; send it at more than 1 MB in a second")
                        .arg(connection->shownName()));
     }
+}
+
+// ---- long messages ----
+
+/// Lets another thread read the next message if it is long. Who may not send such a message gets
+/// its answer before anybody reads it. \return false: the next message is not there, or not long
+bool MasterServer::beginLongRead(MasterConnection *connection)
+{
+    auto read = std::make_shared<LongRead>();
+    if (!PacedReading::takeLong(*connection->socket, &read->frame))
+        return false;
+    connection->longRead = read;
+    const QPlcMessage::Kind kind = read->frame.kind();
+    if (!refusalOf(connection->peer, kind).isEmpty()) {
+        read->stage = LongRead::Ended;
+        read->message = QPlcMessage(kind);
+        return true;
+    }
+    const QPointer<QPlcSlaveSocket> socket(connection->socket);
+    m_reader.begin([read = std::move(read)] { read->read(); }, [this, socket] { longReadEnded(socket); });
+    if (!m_readerNotifier && m_reader.descriptor() >= 0) {
+        m_readerNotifier = std::make_unique<QSocketNotifier>(m_reader.descriptor(), QSocketNotifier::Read);
+        connect(m_readerNotifier.get(), &QSocketNotifier::activated, this, [this] { m_reader.collect(); });
+    }
+    return true;
+}
+
+/// Of somebody who may be gone: then nobody wants it any more.
+void MasterServer::longReadEnded(const QPlcSlaveSocket *socket)
+{
+    MasterConnection *connection = socket ? connectionOf(socket) : nullptr;
+    if (!connection)
+        return;
+    connection->longRead->stage = LongRead::Ended;
+    arrived(connection);
+}
+
+/// What was read is carried out, in steps.
+void MasterServer::giveLongRead(MasterConnection *connection)
+{
+    const std::shared_ptr<LongRead> read = connection->longRead;
+    read->stage = LongRead::Given;
+    if (read->error == ControlFrameReader::NoError)
+        PacedReading::giveLong(*connection->socket, read->message);
+    else
+        PacedReading::refuseLong(*connection->socket, read->error, read->errorText);
+}
+
+/// To give back the memory of a million fields also takes long.
+void MasterServer::freeLongRead(MasterConnection *connection)
+{
+    if (connection->longRead)
+        m_reader.begin([read = std::move(connection->longRead)] {});
 }
 
 /// Whether a message was dealt with because of one that has overtaken others: its own answer is
@@ -507,6 +577,13 @@ void MasterServer::carryOut(MasterConnection *connection, const Message &message
     if (connection->stage == MasterConnection::Silent && !begins) {
         reject(connection, messages::errorWord::wrongState,
                QStringLiteral("%1 before Hello; greet first").arg(message.kindName()));
+        return;
+    }
+    if (connection->longRead && message.kind() == Message::Register) {
+        if (connection->longRead->registration)
+            open(connection, connection->longRead->registration);
+        else
+            reject(connection, messages::errorWord::malformedMessage, connection->longRead->fault);
         return;
     }
     QString fault;

@@ -10,10 +10,12 @@
 #include "QPlcUnderlyingProtocol.h"
 #include "node/security/RightsWatch.h"
 #include "protocol/messages/HelloText.h"
+#include "realtime/Worker.h"
 #include "transport/LocalName.h"
 
 #include <QtCore/QObject>
 #include <QtCore/QPointer>
+#include <QtCore/QSocketNotifier>
 
 #include <functional>
 #include <memory>
@@ -95,8 +97,13 @@ private:
     bool admitsLong(MasterConnection *connection, quint32 length);
     void longMessageEnded(MasterConnection *connection);
     void dropOverdue();
+    bool beginLongRead(MasterConnection *connection);
+    void longReadEnded(const QPlcSlaveSocket *socket);
+    void giveLongRead(MasterConnection *connection);
+    void freeLongRead(MasterConnection *connection);
     void takeTurn();
     bool serve(MasterConnection *connection);
+    bool serveStep(MasterConnection *connection);
     void lookAhead(MasterConnection *connection);
     bool isThere(const MasterConnection *connection) const;
     bool isSettled(MasterConnection *connection, const QPlcMessage &message);
@@ -108,6 +115,7 @@ private:
     void receiveGarbage(MasterConnection *connection);
     void open(MasterConnection *connection, const messages::ClientHello &greeting);
     void open(MasterConnection *connection, messages::Register registration);
+    void open(MasterConnection *connection, const std::shared_ptr<const messages::Register> &registration);
     void open(MasterConnection *connection, const messages::AttachCyclicChannel &wish);
     void admit(MasterConnection *connection, const messages::Register &registration);
     Refusal transportRefusal(MasterConnection *connection, NodeDeclaration *declaration) const;
@@ -146,6 +154,8 @@ private:
     FairTurns m_turns;
     LongMessages m_longMessages;
     QTimer m_longMessageTimer;
+    Worker m_reader;  // of long messages
+    std::unique_ptr<QSocketNotifier> m_readerNotifier;
     QTimer m_nextTurn;
     bool m_isBusy = false;                    // somebody waits since the last turn
     MasterConnection *m_receiving = nullptr;  // whose message is at hand

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "QPlcAbstractSocket.h"
+#include "protocol/ControlFrame.h"
 
 #include <functional>
 
@@ -23,6 +24,13 @@ public:
     /// Emits messageReceived() for the next message. A receiver may delete the connection.
     /// \return false if there is no message, or if the other end does not read its answers
     static bool next(QPlcAbstractSocket &socket);
+    /// Takes the next message unread if it is whole and takes long to be read. Its owner reads it
+    /// elsewhere, gives it back, and calls neither next() nor takeLong() before.
+    static bool takeLong(QPlcAbstractSocket &socket, UnreadControlFrame *frame);
+    /// Emits messageReceived() for what takeLong() has taken. A receiver may delete the connection.
+    static void giveLong(QPlcAbstractSocket &socket, const QPlcMessage &message);
+    /// Ends the connection: what takeLong() has taken is no message.
+    static void refuseLong(QPlcAbstractSocket &socket, ControlFrameReader::Error error, const QString &text);
     /// See ControlFrameReader::takeAhead(). Works also when the other end takes in no answers.
     static bool takeAhead(QPlcAbstractSocket &socket, bool (*isUrgent)(QPlcMessage::Kind), QPlcMessage *message);
     /// Whether the message at hand was taken ahead.

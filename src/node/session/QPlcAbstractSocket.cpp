@@ -37,6 +37,16 @@ struct QPlcAbstractSocket::Private
         if (socket->isOpen())  // who got a message may have ended the connection, or taken it
             reader.append(socket->readAll());
     }
+    /// Nobody knows where the next message begins.
+    void endStream(QPlcAbstractSocket *owner) const
+    {
+        const QPointer<QPlcAbstractSocket> self(owner);
+        owner->setError(ProtocolError,
+                        QStringLiteral("%1 sent bytes that are not a QtPLC message: %2")
+                            .arg(owner->peerName(), reader.errorString()));
+        if (self)
+            owner->abort();
+    }
 };
 
 namespace {
@@ -280,13 +290,8 @@ bool QPlcAbstractSocket::readMessage()
         Q_EMIT messageReceived(message);
         return true;
     }
-    if (d->reader.error() == qplc::ControlFrameReader::NoError)
-        return false;
-    const QPointer<QPlcAbstractSocket> self(this);
-    setError(ProtocolError,
-             QStringLiteral("%1 sent bytes that are not a QtPLC message: %2").arg(peerName(), d->reader.errorString()));
-    if (self)
-        abort();
+    if (d->reader.error() != qplc::ControlFrameReader::NoError)
+        d->endStream(this);
     return false;
 }
 
@@ -309,6 +314,25 @@ void PacedReading::setLong(QPlcAbstractSocket &socket, bool (*mayBeLong)(QPlcMes
 bool PacedReading::next(QPlcAbstractSocket &socket)
 {
     return socket.readMessage();
+}
+
+bool PacedReading::takeLong(QPlcAbstractSocket &socket, UnreadControlFrame *frame)
+{
+    QPlcAbstractSocket::Private &d = *socket.d;
+    return socket.bytesToSend() <= MostUnread
+        && (d.reader.takeLong(frame) || (d.mayReadMore() && (d.readMore(), d.reader.takeLong(frame))));
+}
+
+void PacedReading::giveLong(QPlcAbstractSocket &socket, const QPlcMessage &message)
+{
+    qCDebug(lcControl).noquote() << "from" << socket.peerName() << message.kindName() << "which is long";
+    Q_EMIT socket.messageReceived(message);
+}
+
+void PacedReading::refuseLong(QPlcAbstractSocket &socket, ControlFrameReader::Error error, const QString &text)
+{
+    socket.d->reader.fail(error, text);
+    socket.d->endStream(&socket);
 }
 
 bool PacedReading::takeAhead(QPlcAbstractSocket &socket, bool (*isUrgent)(QPlcMessage::Kind), QPlcMessage *message)

@@ -178,9 +178,9 @@ bool fromObject(const QJsonObject &object, Struct *value, QString *error)
 
 // ---- fields of somebody else ----
 
-/// All fields of a message, for somebody who knows those that the struct itself does not name.
+/// The fields of a message that its struct does not name, for somebody who knows them.
 ///
-/// Reading takes a copy of all; writing adds those that no other description has written.
+/// Writing adds those that no other description has written.
 template<typename Owner>
 struct Rest
 {
@@ -208,7 +208,10 @@ void write(const Struct &value, const Rest<Owner> &rest, QJsonObject *object)
 template<typename Struct, typename Owner>
 bool read(const QJsonObject &object, const Rest<Owner> &rest, Struct *value, QString *)
 {
-    value->*rest.member = object;
+    QJsonObject others = object;
+    const auto removeThose = [&others](const auto &...each) { (others.remove(QLatin1String(each.name)), ...); };
+    std::apply(removeThose, fieldsIn<Struct>());
+    value->*rest.member = others;
     return true;
 }
 

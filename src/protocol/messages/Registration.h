@@ -31,6 +31,7 @@ struct Register
     using Answer = NoAnswer;
     static constexpr int longestInterval = 1'000'000;   // [cycles]
     static constexpr double longestWatchdog = 86400e9;  // [ns]
+    static constexpr int mostOthers = 64;               // fields of a transport, or of a later version
     QString name;
     QString uuid;
     QString policy;
