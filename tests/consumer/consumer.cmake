@@ -129,9 +129,11 @@ file(COPY ${SOURCE}/docs/howto/code/fmu/ ${SOURCE}/docs/tutorial/code/Winch.h ${
     DESTINATION ${WORK}/fmu_project)
 build_project(fmu ${WORK}/fmu_project)
 build_project(turbine ${SOURCE}/examples/wind_turbine)
+build_project(turbine_plant ${SOURCE}/examples/wind_turbine/network)
 build_project(export ${SOURCE}/tests/consumer/export)
 expect_interface(${WORK}/fmu/qtplc_add_fmu/winch/library/winch.so "fmi[23]")
 expect_interface(${WORK}/turbine/discon/libdiscon_example.so "DISCON ")
+expect_interface(${WORK}/turbine_plant/discon/libdiscon_plant.so "DISCON ")
 expect_interface(${WORK}/export/qtplc_add_fmu/doubler/library/doubler.so "fmi[23]")
 
 if(EXISTS ${prefix}/include/QtPlc/QPlcHardwareNode.h)

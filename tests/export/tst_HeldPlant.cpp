@@ -44,9 +44,17 @@ private Q_SLOTS:
     void nodesEndWithTheHost_data() { versions(); }
     void nodesEndWithTheHost() { run("ends"); }
 
+    void valuesPassThroughRecords() { call("values_pass"); }
+    void wrongSettingsOfALibraryAreNamed() { call("wrong_settings"); }
+    void killedRequiredNodeIsAWarningOfTheLibrary() { call("killed_required"); }
+    void killedCriticalNodeIsAFailureOfTheLibrary() { call("killed_critical"); }
+    void stopByAPersonIsAFailureOfTheLibrary() { call("stop_by_a_person"); }
+
 private:
     static void versions();
     static void run(const char *scenario);
+    static void call(const char *scenario);
+    static void expectSuccess(const char *program, const QStringList &arguments);
 };
 
 namespace {
@@ -144,12 +152,23 @@ void tst_HeldPlant::versions()
 void tst_HeldPlant::run(const char *scenario)
 {
     QFETCH(int, version);
+    expectSuccess(HOLD_PLANT,
+                  {scenario, QString::number(version), QLatin1String(version == 2 ? HELD_PLANT_FMI2 : HELD_PLANT_FMI3),
+                   QLatin1String(PLANT_PART), QLatin1String(QTPLC), QLatin1String(WORK_FOLDER)});
+}
+
+void tst_HeldPlant::call(const char *scenario)
+{
+    expectSuccess(HOLD_TURBINE,
+                  {scenario, QLatin1String(HELD_TURBINE), QLatin1String(HELD_TURBINE_RECORDS),
+                   QLatin1String(WORK_FOLDER), QLatin1String(PLANT_PART), QLatin1String(QTPLC)});
+}
+
+void tst_HeldPlant::expectSuccess(const char *program, const QStringList &arguments)
+{
     QProcess host;
     host.setProcessChannelMode(QProcess::MergedChannels);
-    const QString folder = QLatin1String(version == 2 ? HELD_PLANT_FMI2 : HELD_PLANT_FMI3);
-    host.start(QLatin1String(HOLD_PLANT),
-               {scenario, QString::number(version), folder, QLatin1String(PLANT_PART), QLatin1String(QTPLC),
-                QLatin1String(WORK_FOLDER)});
+    host.start(QLatin1String(program), arguments);
     const bool hasEnded = host.waitForFinished(50000);
     const QByteArray output = host.readAll();
     if (!hasEnded) {
