@@ -481,6 +481,10 @@ Q_SIGNALS:
     /// Emitted when the cycles run and the local nodes are started; stateChanged(RealTime) came
     /// before.
     void realTimeHasStarted();
+    /// Emitted before the first cycle of a phase, when the memory is there from which its cycles
+    /// are recorded. A recorder that begins in a slot that is connected directly gets all cycles.
+    /// \param file  of that memory, for `qtplc record --ring`
+    void ringIsReady(const QString &file);
     /// Emitted when the phase has ended: by stop(), at the cycle limit, or because of an error
     /// (errorOccurred() came before).
     void realTimeHasStopped();

@@ -392,6 +392,10 @@ bool QPlcMasterNodePrivate::startRealTime(quint64 cycles, quint64 token)
                                         "program of its own, or set another clock")
                              .arg(device));
     error.clear();
+    const QString plant
+        = serverSettings.localName.isEmpty() ? QCoreApplication::applicationName() : serverSettings.localName;
+    parts->phase.ring().setPlant(plant.isEmpty() ? QStringLiteral("master") : plant, session);
+    parts->phase.ring().setCallback([this](const QString &file) { Q_EMIT q->ringIsReady(file); });
     const quint64 cyclesOfThisPhase = std::exchange(phaseSettings.cyclesWanted, cycles);
     const bool isArmed = arming.permitsStart(token, qplc::monotonicNow(), serverSettings.isArmingRequired());
     if (apply(!isArmed ? Event::StartUnarmed : missingText().isEmpty() ? Event::Start : Event::StartIncomplete))

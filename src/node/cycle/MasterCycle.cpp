@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace qplc {
 
@@ -17,6 +18,7 @@ MasterCycle::MasterCycle(const QPlcSignalTable &table, CyclicHub &hub, bool tapF
     , m_reports(tapFrames)
     , m_guard(m_reports)
     , m_exchange(m_image, m_signalGuard, m_hub, m_reports, m_statistics, m_time, m_guard, m_stop)
+    , m_tap(m_image, m_time)
     , m_snapshot(m_image.totalSize())
     , m_roster(std::make_unique<Roster>())
 {
@@ -49,6 +51,7 @@ bool MasterCycle::start(const Phase &phase)
         slot->bucket = 0;
         slot->isSafe = slot->behind = false;
         slot->nextTurn = 0;
+        slot->exchange = {};
         if (slot->local)
             slot->local->beginPhase(!isTimed, m_time, phase.usualHold);
     }
@@ -59,6 +62,8 @@ bool MasterCycle::start(const Phase &phase)
                    isTimed ? phase.overrunLimit : 0});
     startGuard();
     m_exchange.start(*m_clock, phase.period, phase.clock, m_cycleZero, phase.realTimeOptions.spin);
+    m_tap.start(phase.ring, !isTimed, m_wallStart);
+    m_hasNewNodes = true;
     m_snapshot.publish(m_image.data(), 0);
     if (phase.clock.isExternal()) {
         m_clock->start();
@@ -271,6 +276,7 @@ void MasterCycle::run() noexcept
 
 void MasterCycle::end() noexcept
 {
+    m_tap.end();
     m_statistics.fold();
     for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes)
         slot->statistics.fold();
@@ -336,9 +342,11 @@ void MasterCycle::runCycle(const CycleClock::Tick &tick) noexcept
     writeOwnSignals(tick);
     if (m_guard.isTripped())
         m_roster->safeImage.applyTo(m_image.data());
+    if (m_hasNewNodes)
+        m_tap.keepBefore();
     m_statistics.stageEnded(CycleStage::Commands, now());
     m_exchange.run(*m_roster, {m_number, tick.lateness, tick.deadline});
-    finish();
+    finish(tick);
 }
 
 void MasterCycle::adoptPending() noexcept
@@ -428,6 +436,7 @@ void MasterCycle::adopt(Roster *roster, std::int64_t last) noexcept
         if (roster->held[signal])
             m_signalGuard.keep(SignalGuard::Place(signal));
     }
+    m_hasNewNodes = true;
     Roster *retired = m_roster.release();
     m_roster.reset(roster);
     m_nextTerm = 0;
@@ -453,6 +462,7 @@ void MasterCycle::join(NodeSlot &slot, std::int64_t last) noexcept
         m_signalGuard.store(*slot.paste, slot.written, slot.initialOutputs.data(), cycle, cycle);
         m_signalGuard.claim(*slot.paste, slot.written, slot.claims, slot.initialOutputs.data(), cycle);
     }
+    slot.exchange = {};
     slot.expectFrom(m_cycleZero + m_number);
     slot.nextTurn = 0;
     slot.behind = false;
@@ -474,6 +484,8 @@ void MasterCycle::writeReal(QPlcSignalIndex signal, double value) noexcept
 void MasterCycle::valueRefused(std::uint16_t writer, SignalGuard::Place place, const ValueFault &fault,
                                bool isFirst) noexcept
 {
+    for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes)
+        slot->exchange.isRefused = slot->exchange.isRefused || slot->id == writer;
     if (isFirst)
         m_reports.post({CycleEvent::ValueRefused, writer, std::uint16_t(place), m_number, 0, fault});
 }
@@ -493,15 +505,29 @@ void MasterCycle::writeOwnSignals(const CycleClock::Tick &tick) noexcept
     writeReal(m_phase.workloadSignal, double(m_statistics.workload()) * 1e-9);
 }
 
-void MasterCycle::finish() noexcept
+void MasterCycle::finish(const CycleClock::Tick &tick) noexcept
 {
     m_digest.store(m_image.digest(m_digest.load(std::memory_order_relaxed)), std::memory_order_relaxed);
+    record(tick);
     m_snapshot.publish(m_image.data(), m_number);
     m_cycle.store(m_number, std::memory_order_relaxed);
     const std::int64_t end = now();
     m_statistics.stageEnded(CycleStage::Finish, end);
     m_statistics.end(end);
     foldStatistics();
+}
+
+void MasterCycle::record(const CycleClock::Tick &tick) noexcept
+{
+    const auto flag = [](bool isSet, RecordedCycle::Flag value) { return isSet ? std::uint32_t(value) : 0; };
+    const bool isTimed = m_phase.clock.isTimed();
+    CycleTap::Cycle cycle{m_number, tick.skipped, isTimed ? tick.lateness : 0};
+    cycle.flags = flag(m_guard.isTripped(), RecordedCycle::Safe) | flag(tick.caughtUp, RecordedCycle::CaughtUp)
+        | flag(std::exchange(m_hasNewNodes, false), RecordedCycle::NewNodes) | flag(isTimed, RecordedCycle::Timed)
+        | flag(m_roster->anyRemote && !m_exchange.isComplete(), RecordedCycle::Incomplete);
+    cycle.digest = m_digest.load(std::memory_order_relaxed);
+    cycle.wallTime = isTimed ? wallClockNow() : 0;
+    m_tap.record(cycle, *m_roster, m_stop, m_guard);
 }
 
 /// Of one node in each cycle, in turn, and then of the master itself: all at once would make a

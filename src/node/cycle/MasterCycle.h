@@ -3,6 +3,7 @@
 
 #include "CycleReports.h"
 #include "CycleStatistics.h"
+#include "CycleTap.h"
 #include "NodeExchange.h"
 #include "NodeSlot.h"
 #include "QPlcClock.h"
@@ -56,6 +57,7 @@ public:
         std::chrono::nanoseconds longestWait{0};
         int overrunLimit = 0;                             // in a row; 0: none
         std::int64_t usualHold = SignalGuard::UsualHold;  // [cycles] of signals without `hold`
+        std::shared_ptr<RecordRing> ring{};               // gets a record of each cycle; null: there is none
     };
 
     /// \param time  instead of the clock of the machine; for tests
@@ -142,6 +144,8 @@ public:
     QPlcMasterStatistics statistics() const;
     const CycleStatistics &cycleStatistics() const { return m_statistics; }
     CycleReports &reports() { return m_reports; }
+    /// What goes into the ring of the phase.
+    const CycleTap &tap() const { return m_tap; }
 
 private:
     struct SetCommand
@@ -172,7 +176,8 @@ private:
     void join(NodeSlot &slot, std::int64_t last) noexcept;
     void writeOwnSignals(const CycleClock::Tick &tick) noexcept;
     void writeReal(QPlcSignalIndex signal, double value) noexcept;
-    void finish() noexcept;
+    void finish(const CycleClock::Tick &tick) noexcept;
+    void record(const CycleClock::Tick &tick) noexcept;
     void foldStatistics() noexcept;
     std::int64_t now() noexcept { return m_phase.clock.isTimed() ? m_time.now() : 0; }
     void clearStatistics();
@@ -196,6 +201,7 @@ private:
     StepGate m_gate;
     SafetyGuard m_guard;
     NodeExchange m_exchange;
+    CycleTap m_tap;
     std::atomic<Roster *> m_pendingRoster{nullptr};
     SpscRing<Roster *> m_retiredRosters{64};
     SpscRing<SetCommand> m_setCommands{256};
@@ -211,6 +217,7 @@ private:
     std::uint64_t m_number = 0;    // of the cycle in progress, from 0
     std::int64_t m_wallStart = 0;  // [ns since 1970]
     std::int64_t m_nextTerm = 0;   // [ns] no term of the roster is over before
+    bool m_hasNewNodes = false;    // since the last cycle, or their signals have been taken over
     bool m_hasEnded = false;       // External: the last cycle of the limit has been computed
 
     // both

@@ -76,6 +76,7 @@ void NodeExchange::cutInputs() noexcept
 {
     for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
         slot->asked = slot->awaited = slot->answered = slot->late = false;
+        slot->exchange.isStored = slot->exchange.isRefused = false;
         slot->due = slot->takesTurn(m_cycle.number);
         if (!slot->due)
             continue;
@@ -226,6 +227,8 @@ void NodeExchange::stepLocalNodes(const Stage &stage) noexcept
             slot.local->makeSafe(QPlcSlaveNode::MasterStopsSafely);
         slot.computed = slot.local->step(QPlcCycle(m_cycle.number, m_period, missed), slot.inputs);
         slot.answered = true;
+        slot.exchange.cycle = m_cycle.number;
+        slot.exchange.arrival = m_clock.isTimed() ? slot.local->endOfStep() : 0;
         setFaulted(slot, !slot.computed);
         if (slot.local->wantsSafeStop())
             m_guard.askedBy(slot, m_cycle.number);
@@ -473,6 +476,9 @@ void NodeExchange::handleAnswer(NodeSlot &slot, const char *frame, std::size_t s
         m_guard.askedBy(slot, m_cycle.number);
     const std::int64_t arrival = now();
     slot.statistics.answered(slot.decoder.cycle() - m_cycleZero, arrival, slot.decoder.header().info);
+    slot.exchange.cycle = slot.decoder.cycle() - m_cycleZero;
+    slot.exchange.arrival = arrival;
+    slot.exchange.info = m_clock.isTimed() ? slot.decoder.header().info : 0;
     if (current)
         m_statistics.answered(arrival);
     setFaulted(slot, slot.decoder.header().flags & FaultFlag);
@@ -518,6 +524,7 @@ void NodeExchange::pasteLocalNodes(const Stage &stage) noexcept
 void NodeExchange::store(NodeSlot &slot, const char *outputs, std::int64_t cycle) noexcept
 {
     const std::int64_t written = slot.listener ? guardCycle() : cycle;
+    slot.exchange.isStored = true;
     m_signalGuard.store(*slot.paste, slot.written, outputs, written, guardCycle());
     m_signalGuard.claim(*slot.paste, slot.written, slot.claims, outputs, written);
 }

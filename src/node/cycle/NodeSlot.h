@@ -5,6 +5,7 @@
 #include "MulticastParts.h"
 #include "NodeRuntime.h"
 #include "NodeStatistics.h"
+#include "RecordLayout.h"
 #include "SentCycles.h"
 #include "SignalGuard.h"
 #include "protocol/CyclicFrame.h"
@@ -29,6 +30,16 @@ FrameVolume frameVolume(const PayloadLayout &layout, bool isSealed);
 /// atomic.
 struct NodeSlot
 {
+    /// What the records of cycles say of its answers.
+    struct Exchange
+    {
+        std::uint64_t cycle = RecordedNode::NoCycle;  // newest request that it has answered
+        std::int64_t arrival = 0;                     // of that answer [ns]
+        std::uint32_t info = 0;                       // of that answer
+        bool isStored = false;                        // an answer, in this cycle
+        bool isRefused = false;                       // a value of it
+    };
+
     // ---- constant after registration ----
     QString name;
     quint16 id = 0;
@@ -79,6 +90,7 @@ struct NodeSlot
     bool pending = false;                      // two-phase: the newest outputs are those of the next cycle
     bool computed = false;                     // local: the step of this cycle gave outputs
     bool faulted = false;
+    Exchange exchange;
 
     // ---- both ----
     std::atomic<bool> lost{false};    // its connection is gone: not to be waited for

@@ -15,6 +15,7 @@ RealTimePhase::RealTimePhase(MasterCycle &cycle, const NodeRegistry &registry, R
     , m_settings(settings)
     , m_profile(profile)
     , m_journal(journal)
+    , m_ring(journal)
 {
 }
 
@@ -39,11 +40,25 @@ MasterCycle::Phase RealTimePhase::settingsOfCycles() const
     return phase;
 }
 
+/// After renewRoster(): the nodes of the phase make the size of a record.
+std::shared_ptr<RecordRing> RealTimePhase::makeRing()
+{
+    static const char *const names[] = {"real-time", "scaled", "lockstep", "external"};
+    RingDescription description;
+    description.period = m_settings.interval.count();
+    description.clock = QString::fromLatin1(names[m_settings.clock.kind()]);
+    description.scale = m_settings.clock.scale();
+    description.table = m_cycle.table().toIni();
+    return m_ring.make(description, CycleTap::usualSize(m_cycle.image(), m_registry.nodes().size()));
+}
+
 bool RealTimePhase::start(QString *error)
 {
     m_rosters.forgetWritten();
     renewRoster();
-    if (!m_cycle.start(settingsOfCycles())) {
+    MasterCycle::Phase cycles = settingsOfCycles();
+    cycles.ring = makeRing();
+    if (!m_cycle.start(cycles)) {
         *error = m_cycle.errorString();
         return false;
     }

@@ -5,6 +5,7 @@
 #include "OwnSignals.h"
 #include "PhaseCycles.h"
 #include "PhaseProfile.h"
+#include "PhaseRing.h"
 #include "PhaseSettings.h"
 #include "RosterMaker.h"
 
@@ -25,6 +26,8 @@ public:
     void renewRoster() override;
     bool hasLeft(const QString &name) const override { return m_gone.hasName(name); }
 
+    /// What the cycles of the phases are recorded from.
+    PhaseRing &ring() { return m_ring; }
     void makeSafe() { m_cycle.makeSafe(); }
     /// Waits until the cycle in progress has ended, if cycles run.
     void end();
@@ -41,6 +44,7 @@ public:
 
 private:
     MasterCycle::Phase settingsOfCycles() const;
+    std::shared_ptr<RecordRing> makeRing();
 
     MasterCycle &m_cycle;
     const NodeRegistry &m_registry;
@@ -50,6 +54,7 @@ private:
     const PhaseProfile &m_profile;
     Journal &m_journal;
     GoneNodes m_gone;  // of this phase
+    PhaseRing m_ring;
     bool m_isRunning = false;
     bool m_hasEnded = false;
 };

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+namespace qplc {
+
+/// What the records of a RecordRing look like: numbers of this machine, each record as long as a
+/// multiple of 8 bytes.
+///
+/// A record of a cycle is: RecordHead, RecordedCycle, a RecordedNode for each node, the process
+/// image (ProcessImage::totalSize() bytes: values, padding, qualities), and then, where they are
+/// not empty, the image before and the raw outputs, each padded to 8 bytes.
+///
+/// The inputs that a node gets in cycle k are a function of the records k-1 and k. If the record k
+/// has an image before, it shows what inputs of cycle k were cut from. Otherwise, signals that the
+/// master writes (set values, leases, slopes, its own signals) have in the record k the value that
+/// inputs of cycle k have seen; signals that a node writes have it in the record k-1. Inputs that
+/// are read in the same cycle come from the record k, or from raw outputs of their writer.
+enum class RecordKind : std::uint16_t {
+    Cycle = 1,  ///< RecordedCycle and what follows it
+    Gap = 2,    ///< RecordedGap: cycles without a record
+    End = 3     ///< RecordedEnd: the phase is over, and nothing follows
+};
+
+struct RecordHead
+{
+    std::uint64_t commit = 0;  ///< place of this record among all bytes of the ring; written last
+    std::uint32_t size = 0;    ///< [byte] with this head
+    RecordKind kind = RecordKind::Cycle;
+    std::uint16_t reserved = 0;
+};
+
+struct RecordedCycle
+{
+    enum Flag : std::uint32_t {
+        Safe = 1,        ///< the master has stopped safely: values of nodes were not taken
+        CaughtUp = 2,    ///< its period was over before it began
+        NewNodes = 4,    ///< nodes have joined or left, or leases have changed, before this cycle
+        Timed = 8,       ///< the times of this record are real
+        Incomplete = 16  ///< a node that was asked, and is no listener, has not answered
+    };
+
+    std::uint64_t number = 0;      ///< of the cycle, from 0 in each phase
+    std::int64_t wallTime = 0;     ///< at its end [ns since 1970-01-01 UTC]; 0: the clock is not timed
+    std::int64_t lateness = 0;     ///< of its begin [ns]
+    std::uint64_t skipped = 0;     ///< cycles that were left out right before it
+    std::uint64_t digest = 0;      ///< of all images of the phase up to this one: ProcessImage::digest()
+    std::uint32_t flags = 0;       ///< of Flag
+    std::uint32_t nodes = 0;       ///< RecordedNodes
+    std::uint32_t imageSize = 0;   ///< [byte]
+    std::uint32_t beforeSize = 0;  ///< [byte] of the image before; 0 or imageSize
+    std::uint32_t rawSize = 0;     ///< [byte] of all raw outputs, with their padding
+    std::uint32_t reserved = 0;
+};
+
+/// What the master has exchanged with a node in a cycle.
+struct RecordedNode
+{
+    enum Flag : std::uint16_t {
+        Asked = 1,      ///< a request was sent, or the local node was called
+        Answered = 2,   ///< the answer to this cycle has come
+        Stored = 4,     ///< an answer was stored in this cycle; `cycle` says to which request
+        Late = 8,       ///< counted as late
+        Faulted = 16,   ///< its code has failed
+        IsSafe = 32,    ///< it is in its safe state
+        Lost = 64,      ///< its connection is lost
+        HasRaw = 128,   ///< its outputs are among the raw ones: the image does not show all of them
+        IsLocal = 256,  ///< of the process of the master
+        Listens = 512   ///< nobody waits for it
+    };
+
+    std::uint64_t cycle = 0;   ///< newest request that it has answered; NoCycle: none yet
+    std::int64_t arrival = 0;  ///< of that answer, on the clock of the master [ns]; 0: not timed
+    std::uint32_t info = 0;    ///< of that answer: what the node says of its own time [ns]
+    std::uint16_t id = 0;
+    std::uint16_t flags = 0;    ///< of Flag
+    std::uint32_t rawSize = 0;  ///< [byte] of its raw outputs, without their padding
+    std::uint32_t reserved = 0;
+
+    static constexpr std::uint64_t NoCycle = ~std::uint64_t(0);
+};
+
+/// Cycles that were computed and have no record, because a recorder had left no room for them.
+struct RecordedGap
+{
+    std::uint64_t first = 0;
+    std::uint64_t last = 0;
+    std::uint64_t cycles = 0;   ///< that were computed, of those from first to last
+    std::uint64_t skipped = 0;  ///< that were left out: right before the first, and of those up to the last
+    std::uint64_t digest = 0;   ///< as it was after the last of them
+};
+
+struct RecordedEnd
+{
+    std::uint64_t cycles = 0;  ///< that were computed in the phase
+    std::uint64_t last = 0;    ///< number of the last of them, if there are any
+    std::uint64_t digest = 0;
+    std::uint64_t missing = 0;  ///< cycles without a record, of all gaps
+};
+
+static_assert(sizeof(RecordHead) == 16 && sizeof(RecordedCycle) == 64 && sizeof(RecordedNode) == 32
+              && sizeof(RecordedGap) == 40 && sizeof(RecordedEnd) == 32);
+
+/// \a size, rounded up to a multiple of 8.
+constexpr std::uint32_t paddedRecordSize(std::uint32_t size)
+{
+    return (size + 7) & ~std::uint32_t(7);
+}
+
+}  // namespace qplc

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "transport/Descriptor.h"
+
+#include <QtCore/QByteArray>
+#include <QtCore/QString>
+
+#include <atomic>
+#include <cstdint>
+
+namespace qplc {
+
+/// The memory of a RecordRing, which outlives the process that writes it: a file of mode 0600 in
+/// memory (/dev/shm), a page that says what it is, a description, and the bytes of the records.
+///
+/// The bytes are mapped twice, one behind the other, so that a record never has to be cut. The
+/// writer holds a lock on the file, and a recorder another one: the kernel releases them when
+/// their process ends, whatever ends it.
+class RingMemory
+{
+public:
+    struct Header
+    {
+        static constexpr std::uint64_t Magic = 0x31474e4952504c51;  // "QLPRING1"
+
+        std::uint64_t magic = 0;
+        std::uint64_t capacity = 0;                   // [byte] of records, a power of two
+        std::uint32_t bytesAt = 0;                    // [byte] where these begin in the file
+        std::uint32_t descriptionSize = 0;            // [byte], right behind this header
+        alignas(64) std::atomic<std::uint64_t> head;  // writer: end of the newest record
+        std::atomic<std::uint64_t> oldest;            // writer: begin of the oldest record that is whole
+        alignas(64) std::atomic<std::uint64_t> read;  // recorder: end of what it has put to safety
+        std::atomic<std::uint32_t> isRead;            // 1: somebody records
+        std::int64_t startTime = 0;                   // cycle 0 [ns since 1970]; 0: the clock is not timed
+    };
+    static_assert(sizeof(Header) == 192);
+    static_assert(std::atomic<std::uint64_t>::is_always_lock_free);
+
+    enum Lock : std::uint8_t { WriterLock = 0, RecorderLock = 1 };
+    /// What somebody does with the ring of a file.
+    enum Use : std::uint8_t {
+        NoRing,           ///< it is none, of this version and user
+        Alive,            ///< its writer has it open
+        BeingRead,        ///< a recorder reads what a writer has left
+        DeadAndRecorded,  ///< its writer has ended, and its recorder has not read all of it
+        Dead              ///< its writer has ended, and nobody has recorded
+    };
+
+    RingMemory() = default;
+    ~RingMemory();
+    RingMemory(const RingMemory &) = delete;
+    RingMemory &operator=(const RingMemory &) = delete;
+
+    /// Makes the file, which appears complete and locked by the writer, or not at all. Every page
+    /// is there afterwards, so that no write meets a page for the first time.
+    /// \param file  path; empty: memory without a file, which ends with this object
+    /// \param capacity [byte], a power of two of at least a page
+    bool create(const QByteArray &file, std::size_t capacity, const QByteArray &description, QString *error);
+    /// Opens a file that create() has made. Nothing in it is trusted.
+    bool open(const QByteArray &file, QString *error);
+    void close();
+
+    Header *header() const { return m_header; }
+    /// Byte \a place of the ring; behind it, one capacity of bytes may be read.
+    char *at(std::uint64_t place) const { return m_bytes + (place & (m_capacity - 1)); }
+    std::uint64_t capacity() const { return m_capacity; }
+    QByteArray description() const;
+    /// Where the file is; empty: there is none.
+    QByteArray file() const { return m_file; }
+    /// \return false when another one holds it
+    bool lock(Lock lock) const;
+    void unlock(Lock lock) const;
+    /// Whether another one holds it.
+    bool isLocked(Lock lock) const;
+    /// Deletes the file, if it is still this one.
+    void remove();
+
+    /// Where rings are: /dev/shm; $QTPLC_RING_DIR, if it is set.
+    static QByteArray folder();
+    static Use useOf(const QByteArray &file);
+
+private:
+    bool openFile(const QByteArray &file, Header *start, QString *error);
+    bool map(QString *error);
+    bool describe(const QByteArray &description, QString *error);
+    bool publish(const QByteArray &file, QString *error);
+
+    Descriptor m_descriptor;
+    Header *m_header = nullptr;
+    char *m_bytes = nullptr;
+    std::uint64_t m_capacity = 0;
+    std::size_t m_headerSize = 0;
+    QByteArray m_file;
+};
+
+}  // namespace qplc

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "PhaseRing.h"
+
+#include "node/cycle/NodeRegistry.h"
+#include "realtime/Host.h"
+
+#include <QtCore/QDir>
+#include <QtCore/QFile>
+#include <QtCore/QFileInfo>
+
+#include <unistd.h>
+
+namespace qplc {
+
+namespace {
+
+constexpr double SecondsToKeep = 60.0;
+constexpr int MostRecordedOnes = 4;  // of masters that have ended: a recorder will drain them
+
+QString prefix()
+{
+    return QStringLiteral("qtplc-ring-%1-").arg(::getuid());
+}
+
+QString fileName(const QString &plant, quint64 session, quint64 phase)
+{
+    QString name = plant.left(64);
+    for (QChar &sign : name) {
+        if (!sign.isLetterOrNumber() || sign.unicode() > 127)
+            sign = QLatin1Char('_');
+    }
+    return prefix() + QStringLiteral("%1-%2-%3").arg(name, QString::number(session, 16)).arg(phase);
+}
+
+}  // namespace
+
+PhaseRing::PhaseRing(Journal &journal)
+    : m_journal(journal)
+{
+}
+
+PhaseRing::~PhaseRing()
+{
+    leave();
+}
+
+void PhaseRing::setPlant(const QString &plant, quint64 session)
+{
+    m_plant = plant;
+    m_session = session;
+}
+
+/// The ring of the last phase: somebody who records still needs it, and deletes it then.
+void PhaseRing::leave()
+{
+    if (m_ring && !m_ring->isRead())
+        m_ring->memory().remove();
+    m_ring.reset();
+}
+
+std::shared_ptr<RecordRing> PhaseRing::make(RingDescription description, std::size_t recordSize)
+{
+    leave();
+    // Simulated masters are many, and nobody records them.
+    if (m_plant.isEmpty() || &Host::current() != &Host::machine())
+        return nullptr;
+    removeDead();
+    description.plant = m_plant;
+    description.version = QStringLiteral(QTPLC_VERSION);
+    description.session = m_session;
+    description.phase = ++m_phase;
+    const QByteArray folder = RingMemory::folder();
+    const double rate = 1e9 / double(description.period) * (description.scale > 0.0 ? description.scale : 1.0);
+    const std::size_t capacity = RecordRing::capacityFor(rate, SecondsToKeep, recordSize, folder);
+    auto ring = std::make_shared<RecordRing>();
+    QString error;
+    if (!ring->create(folder + '/' + QFile::encodeName(fileName(m_plant, m_session, m_phase)), capacity,
+                      description.toText(), &error)) {
+        m_journal.tell(JournalEvent::Warning, JournalEvent::State, NodeRegistry::masterName(),
+                       QStringLiteral("the cycles of this phase cannot be recorded: ") + error);
+        return nullptr;
+    }
+    m_ring = ring;
+    if (m_isReady)
+        m_isReady(file());
+    return ring;
+}
+
+QString PhaseRing::file() const
+{
+    return m_ring ? QFile::decodeName(m_ring->memory().file()) : QString();
+}
+
+void PhaseRing::removeDead()
+{
+    const QDir folder(QFile::decodeName(RingMemory::folder()));
+    const QStringList names = folder.entryList({prefix() + QLatin1Char('*')}, QDir::Files, QDir::Time);
+    int kept = 0;
+    for (const QString &name : names) {
+        const QString file = folder.filePath(name);
+        const RingMemory::Use use = RingMemory::useOf(QFile::encodeName(file));
+        if (use == RingMemory::Dead || (use == RingMemory::DeadAndRecorded && ++kept > MostRecordedOnes))
+            QFile::remove(file);
+    }
+}
+
+}  // namespace qplc
