@@ -299,6 +299,44 @@ const QVector<Command> &commands()
          1,
          2,
          &checkManifest},
+        {"record",
+         "FILE",
+         "Records every cycle of a plant on this computer.",
+         "Reads the ring of the master, which runs on this computer and belongs to the same\n"
+         "user, and writes FILE, which must not exist. It begins with the cycles that are\n"
+         "in the ring, and ends with the phase or at Ctrl-C. If it is killed, the ring keeps\n"
+         "what is not in FILE: record into another file then, and run qtplc recover FILE.",
+         {{"ring", "RING", "The ring of the master, default the only one that there is."}},
+         {QStringLiteral("qtplc record flight.mcap")},
+         Command::NoArguments,
+         1,
+         1,
+         &recordPlant},
+        {"verify",
+         "FILE",
+         "Checks whether a recording has every cycle of a flight.",
+         "Needs no master. It computes the digest of all images in FILE and compares it\n"
+         "with the digest of the flight, which the master has computed. The exit code is 0\n"
+         "only if all cycles from the first to the last are there, and equal. Otherwise it\n"
+         "prints which cycles are missing, and what is damaged.",
+         {},
+         {QStringLiteral("qtplc verify flight.mcap"), QStringLiteral("qtplc verify flight.mcap --json | jq .gaps")},
+         Command::NoArguments,
+         1,
+         1,
+         &verifyFile},
+        {"recover",
+         "FILE",
+         "Finishes a recording whose recorder has not ended in order.",
+         "Needs no master. It cuts off what is not whole at the end of FILE and writes the\n"
+         "summary that other programs need. A finished recording stays as it is. The exit\n"
+         "code is 1 when places within FILE are damaged: all that is whole stays readable.",
+         {},
+         {QStringLiteral("qtplc recover flight.mcap")},
+         Command::NoArguments,
+         1,
+         1,
+         &recoverFile},
         {"doctor",
          "",
          "Examines this computer: is it fit for real time?",

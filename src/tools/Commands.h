@@ -108,6 +108,9 @@ int manageKeys(const CommandCall &call);
 int examineComputer(const CommandCall &call);
 int writeManifest(const CommandCall &call);
 int checkManifest(const CommandCall &call);
+int recordPlant(const CommandCall &call);
+int verifyFile(const CommandCall &call);
+int recoverFile(const CommandCall &call);
 int showHelp(const CommandCall &call);
 int completeWord(const CommandCall &call);
 

@@ -12,6 +12,7 @@ import pathlib
 import re
 import struct
 import sys
+import zlib
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
@@ -391,6 +392,59 @@ def shared_memory():
     }
 
 
+# ---- recordings: a kind, then a file, the records of its only chunk, or a ring -------------------
+
+
+def packed(plain):
+    """A frame of Zstandard with one block that is not compressed."""
+    head = b"\x28\xb5\x2f\xfd\xa0" + struct.pack("<I", len(plain))
+    return head + struct.pack("<I", len(plain) << 3 | 1)[:3] + plain
+
+
+def recordings():
+    field = lambda data: struct.pack("<I", len(data)) + data
+    mcap = lambda opcode, data: struct.pack("<BQ", opcode, len(data)) + data
+    channel = lambda number, topic: mcap(4, struct.pack("<HH", number, 0) + field(topic) + field(b"json") + field(b""))
+    said = lambda number, time, data: mcap(5, struct.pack("<HIQQ", number, time, time, time) + data)
+    body = lambda number, x, text: struct.pack("<QqQId", number, 0, 0, 0, x) + field(text) + b"\0\1"
+    text = b"format: qtplc-ring-1\nperiod_ns: 1\n\n[x]\ntype = Real64\n[t]\ntype = String(3)\n"
+    described = struct.pack("<QQ", 0, 0) + field(b"recording.txt") + field(b"") + struct.pack("<Q", len(text)) + text
+    head = b"\x89MCAP0\r\n" + mcap(1, field(b"") + field(b"QtPLC"))
+    attached = mcap(9, described + struct.pack("<I", zlib.crc32(described)))
+    metadata = mcap(12, field(b"qtplc") + field(field(b"plant") + field(b"kite")))
+    topics = channel(1, b"/plant") + channel(2, b"/gaps") + channel(3, b"/digest")
+
+    def chunk(plain, begin, end, name=b"zstd"):
+        data = packed(plain) if name else plain
+        sizes = struct.pack("<QQQI", begin, end, len(plain), zlib.crc32(plain))
+        return mcap(6, sizes + field(name) + struct.pack("<Q", len(data)) + data)
+
+    first = topics + said(1, 0, body(0, 1.5, b"abc")) + said(1, 1, body(1, 2.5, b""))
+    gap = b'{"first":2,"last":4,"cycles":2,"skipped":1,"digest":"0123456789abcdef"}'
+    second = topics + said(2, 4, gap) + said(3, 4, b'{"next":5,"digest":"0123456789abcdef","end":true}')
+    file = head + attached + metadata + chunk(first, 0, 1) + chunk(second, 4, 4)
+    rows = struct.pack("<QqqQQIIIIII", 7, 0, 0, 0, 0, 0, 1, 16, 16, 8, 0)
+    node = struct.pack("<QqIHHII", 7, 0, 0, 3, 131, 8, 0)
+    whole = rows + node + bytes(16) + bytes(16) + bytes(8)
+    ring = struct.pack("<QIHH", 0, 16 + len(whole), 1, 0) + whole
+    ring += struct.pack("<QIHH5Q", len(ring), 56, 2, 0, 8, 9, 2, 0, 5)
+    places = lambda head, oldest=0, read=0: b"\2" + struct.pack("<QQQB", head, oldest, read, 0)
+    return {
+        "file": b"\0" + file,
+        "file that is cut": b"\0" + file[:-20],
+        "file that is not compressed": b"\0" + head + attached + chunk(first, 0, 1, b""),
+        "damaged chunk": b"\0" + head + attached + chunk(first, 0, 1)[:-1] + b"x" + chunk(second, 4, 4),
+        "wrong times": b"\0" + head + attached + chunk(first, 5, 1),
+        "records": b"\1" + first,
+        "records with a gap": b"\1" + second,
+        "records that are cut": b"\1" + first[:-5],
+        "ring": places(len(ring)) + ring + b"\0",
+        "ring that is cut": places(len(ring) - 8) + ring,
+        "ring ahead of itself": places(8, 1 << 40, 1 << 63) + ring,
+        "ring of nothing": places(1 << 63) + bytes(64),
+    }
+
+
 # ---- layouts: the text as it is ------------------------------------------------------------------
 
 
@@ -635,6 +689,7 @@ def main():
         ("beacon", beacons()),
         ("shared_memory", shared_memory()),
         ("layout", layouts()),
+        ("recording", recordings()),
     ):
         for name, data in files.items():
             path = HERE / "corpus" / folder / file_name(name)

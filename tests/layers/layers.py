@@ -31,6 +31,7 @@ ARROWS = {
     | {"node", "node/state", "node/security", "node/cycle", "node/statistics", "node/session", "node/api"},
     "hardware": {"signals", "realtime", "node", "node/session", "hardware"},
     "models": {"signals", "realtime", "node", "models"},
+    "recording": BELOW_NODE | {"node", "node/cycle", "recording"},
     "gui": {"signals", "node", "gui"},
     "gui/store": {"signals", "gui/store"},
     "gui/plant": {
@@ -72,7 +73,7 @@ ARROWS = {
     "export": {"signals", "node", "export"},
     "test_support": BELOW_NODE | {"node", "test_support"},
     "tools": BELOW_NODE
-    | {"node", "node/state", "node/security", "node/cycle", "node/statistics", "node/session", "tools"},
+    | {"node", "node/state", "node/security", "node/cycle", "node/statistics", "node/session", "recording", "tools"},
 }
 # Room with a library of its own: folder of its list of headers, and its umbrella header. All others
 # belong to QtPlc::Core.
@@ -203,7 +204,19 @@ KERNEL = {
     r"|(?<!class )\bQ(?:Tcp|Ssl|Abstract)Socket\b(?!\s*(?:[*&]|::))"
     rf"|{GLOBAL}(?:socket|accept)\s*\(|{with_arguments('socket', 3)}",
 }
-HOSTED = ("signals", "realtime", "protocol", "transport", "node", "gui", "gui3d", "hardware", "models", "tools")
+HOSTED = (
+    "signals",
+    "realtime",
+    "protocol",
+    "transport",
+    "node",
+    "gui",
+    "gui3d",
+    "hardware",
+    "models",
+    "recording",
+    "tools",
+)
 # A window shows the time of the person before it, and measures its own drawing.
 OF_ROOM = {"gui": {"a clock"}, "gui3d": {"a clock"}}
 # Why, what, and by which files the machine itself is asked. A list that only shrinks: one day the

@@ -10,6 +10,28 @@ Removal = namedtuple("Removal", "fault file old new program test", defaults=[""]
 
 # fmt: off
 REMOVALS = [
+    Removal("recorder that is slow, stopped or killed", "src/node/cycle/CycleTap.cpp",
+            "        if (!m_waits || place", "        if (place",
+            "tst_CycleTap", "aTimedCycleNeverWaitsAndGapsAreExact"),
+    Removal("recorder that is slow, stopped or killed: patience", "src/node/cycle/CycleTap.cpp",
+            "now - progress > Patience", "now - progress > 3 * Patience",
+            "tst_CycleTap", "aRecorderThatHasStoppedIsNotWaitedForForever"),
+    Removal("stop while a cycle waits for a recorder", "src/node/cycle/CycleTap.cpp",
+            "place == m_givenUpAt || stop.load(std::memory_order_relaxed)", "place == m_givenUpAt || !m_ring",
+            "tst_CycleTap", "aStopDoesNotWaitForARecorder"),
+    Removal("master killed while it is recorded", "src/recording/PlantRecorder.cpp",
+            "        if (m_reader.hasWriter())\n", "        if (hasWriter)\n",
+            "tst_PlantRecorder", "theRingOfAKilledMasterIsRecordedToItsEnd"),
+    Removal("ring that is damaged, or replaced while it is read", "src/node/cycle/RingReader.cpp",
+            " && m_head.commit == m_place", "",
+            "tst_RecordRing", "aDamagedRecordEndsTheReading"),
+    Removal("recording that is cut or damaged", "src/recording/McapReader.cpp",
+            "        && crc32(records->constData(), std::size_t(records->size())) == crc;", "        ;",
+            "tst_Recovery", "aFlippedBitLosesOneChunkAndNoMore"),
+    Removal("disk full while something is recorded", "src/recording/McapWriter.cpp",
+            "    if (!append(record + indexes, error))\n        return false;\n",
+            "    append(record + indexes, error);\n",
+            "tst_PlantRecorder", "aFullDiskLosesNothing"),
     Removal("host that turns the clock hangs", "src/node/cycle/SlaveCycle.cpp",
             "    if (m_phase.clock.isExternal() && m_runtime.traits().hardware)\n"
             "        return m_phase.watchdog.count();\n",

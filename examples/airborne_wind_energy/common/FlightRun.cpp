@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::chrono::milliseconds period(10);
 constexpr std::chrono::milliseconds numbersPeriod(200);
-const char *const runOptions[] = {"scale", "overrun", "duration"};
+const char *const runOptions[] = {"scale", "overrun", "duration", "record"};
 const char *const runFlags[] = {"lockstep", "real-time", "external", "watch"};
 
 /// \return false, with the message out, when picture or report could only fail later
@@ -72,6 +72,10 @@ void addRunOptions(QPlcCoreApplication &application, const QString &defaultDurat
                                              QStringLiteral("Writes the figures of the flight to FILE as JSON."),
                                              QStringLiteral("FILE")));
     application.addOption(QCommandLineOption(
+        QStringLiteral("record"),
+        QStringLiteral("Records every cycle into FILE, which must not exist: see qtplc verify, qtplc record."),
+        QStringLiteral("FILE")));
+    application.addOption(QCommandLineOption(
         QStringLiteral("watch"),
         QStringLiteral("Draws the flight on the terminal; --real-time unless another clock is given.")));
 }
@@ -96,6 +100,7 @@ bool readRunOptions(QPlcCoreApplication &application, RunSettings *settings)
         : external                                            ? QPlcClock::external()
                                                               : QPlcClock::lockstep();
     settings->reportFile = application.value(QStringLiteral("report"));
+    settings->recordFile = application.value(QStringLiteral("record"));
     QString error;
     settings->overrunPolicy = QPlcOverrunPolicy::fromString(application.value(QStringLiteral("overrun")), &error);
     if (!error.isEmpty()) {
@@ -133,6 +138,7 @@ FlightRun::FlightRun(QPlcMasterNode &master, const RunSettings &settings)
     , m_settings(settings)
     , m_observer(statisticsParameters(settings), settings.plant.winch)
     , m_display(master, settings.duration, settings.watch ? FlightDisplay::Picture : FlightDisplay::Line)
+    , m_recorder(master, settings.recordFile)
 {
     m_valid = master.setTimeSignal(QStringLiteral("masterTime"))
         && master.activateJitterMeasurement(QStringLiteral("masterJitter"))
@@ -147,6 +153,8 @@ FlightRun::FlightRun(QPlcMasterNode &master, const RunSettings &settings)
         if (m_begun && !m_ending)
             fail(QPlcCoreApplication::UsageError, {});  // the master has said why
     });
+    connect(&m_recorder, &FlightRecorder::failed, this,
+            [this](const QString &text) { fail(QPlcCoreApplication::UsageError, text); });
     connect(&master, &QPlcMasterNode::nodeLost, this, &FlightRun::nodeIsLost);
     m_numbersTimer.setInterval(numbersPeriod);
     connect(&m_numbersTimer, &QTimer::timeout, this, &FlightRun::requireNumbers);
@@ -281,6 +289,8 @@ void FlightRun::stopped()
     m_display.end();
     requireNumbers();  // a flight may be shorter than the period of the timer
     m_report = makeReport();
+    if (!m_recorder.finish())
+        fail(QPlcCoreApplication::Failure, {});  // the recorder has said why
     QString error;
     if (!m_settings.reportFile.isEmpty() && !writeReport(m_settings.reportFile, m_report, &error))
         fail(QPlcCoreApplication::Failure, error);

@@ -3,6 +3,7 @@
 
 #include "FlightDisplay.h"
 #include "FlightObserver.h"
+#include "FlightRecorder.h"
 #include "WinchObserver.h"
 
 #include <QtCore/QElapsedTimer>
@@ -24,6 +25,7 @@ struct RunSettings
     QPlcOverrunPolicy overrunPolicy;
     double duration = 0.0;          // [s] of simulated time; 0: until stopped
     QString reportFile;             // empty: none
+    QString recordFile;             // likewise
     double nominalWindSpeed = 0.0;  // [m/s]
     bool watch = false;             // a live picture instead of a progress line
     PlantConfiguration plant;
@@ -41,8 +43,8 @@ enum class DefaultClock {
     LockstepWithStartWith,  // real time without --start-with
 };
 
-/// --lockstep, --real-time, --scale, --external, --overrun, --duration, --report, --watch: how a
-/// flight is run.
+/// --lockstep, --real-time, --scale, --external, --overrun, --duration, --report, --record,
+/// --watch: how a flight is run.
 void addRunOptions(QPlcCoreApplication &application, const QString &defaultDuration,
                    DefaultClock clock = DefaultClock::Lockstep);
 /// \return false, with the message out, when an option cannot be meant
@@ -103,6 +105,7 @@ private:
     FlightObserver m_observer;
     std::unique_ptr<WinchObserver> m_winchObserver;  // of a drive
     FlightDisplay m_display;
+    FlightRecorder m_recorder;
     QTimer m_numbersTimer;
     QElapsedTimer m_wallClock;
     std::thread m_host;       // turns the clock External

@@ -25,6 +25,7 @@ constexpr Part parts[] = {
     {"Qwt", "Qwt License 1.0 (LGPL-2.1)", QT_TRANSLATE_NOOP("qplc::AboutWindow", "linked dynamically, unchanged")},
     {"muParser", "BSD-2-Clause", QT_TRANSLATE_NOOP("qplc::AboutWindow", "linked dynamically, unchanged")},
     {"libsodium", "ISC", QT_TRANSLATE_NOOP("qplc::AboutWindow", "linked dynamically, unchanged")},
+    {"Zstandard", "BSD-3-Clause", QT_TRANSLATE_NOOP("qplc::AboutWindow", "programs with recordings only")},
     {"libgpiod, libmodbus", "LGPL-2.1", QT_TRANSLATE_NOOP("qplc::AboutWindow", "drivers of devices only")},
     {"Eigen 3", "MPL-2.0", QT_TRANSLATE_NOOP("qplc::AboutWindow", "programs of the example only")},
 };

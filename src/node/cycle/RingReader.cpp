@@ -29,7 +29,7 @@ bool RingReader::attach()
     return true;
 }
 
-/// A ring that nobody has recorded is full: without the oldest records, the writer has room at once.
+/// A ring that nobody has recorded is full: without the oldest records, the writer has room.
 void RingReader::leaveRoom()
 {
     const std::uint64_t most = m_memory.capacity() / 8 * 7;

@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "McapReader.h"
+
+#include "McapWriter.h"
+
+#include <algorithm>
+
+namespace qplc::mcap {
+
+namespace {
+
+constexpr std::uint64_t LargestRecord = std::uint64_t(1) << 30;
+
+/// The records of the chunk with this \a content. \return false when it is damaged
+bool readChunkContent(const QByteArray &content, ChunkEntry *entry, QByteArray *records)
+{
+    FieldReader fields(content.constData(), std::size_t(content.size()));
+    entry->begin = fields.number<std::uint64_t>();
+    entry->end = fields.number<std::uint64_t>();
+    entry->size = fields.number<std::uint64_t>();
+    const auto crc = fields.number<std::uint32_t>();
+    entry->compression = fields.text();
+    entry->compressedSize = fields.number<std::uint64_t>();
+    const char *bytes = fields.skip(entry->compressedSize);
+    return bytes && fields.isWhole() && fields.left() == 0
+        && uncompress(entry->compression, bytes, std::size_t(entry->compressedSize), entry->size, records)
+        && crc32(records->constData(), std::size_t(records->size())) == crc;
+}
+
+/// Times of a chunk are not under its checksum: those of its messages are.
+bool hasItsTimes(const ChunkEntry &entry, const QByteArray &records)
+{
+    std::uint64_t begin = ~std::uint64_t(0);
+    std::uint64_t end = 0;
+    const bool isWhole = forEachMessage(
+        records, [](const Channel &) {},
+        [&](const Message &message, std::uint64_t) {
+            begin = std::min(begin, message.time);
+            end = std::max(end, message.time);
+        });
+    return isWhole && begin == entry.begin && end == entry.end;
+}
+
+bool readAttachment(const QByteArray &content, Attachment *attachment)
+{
+    FieldReader fields(content.constData(), std::size_t(content.size()));
+    attachment->time = fields.number<std::uint64_t>();
+    fields.number<std::uint64_t>();
+    attachment->name = fields.text();
+    attachment->mediaType = fields.text();
+    attachment->data = fields.bytes(fields.number<std::uint64_t>());
+    const auto covered = std::size_t(fields.at() - content.constData());
+    const auto crc = fields.number<std::uint32_t>();
+    return fields.isWhole() && fields.left() == 0 && crc32(content.constData(), covered) == crc;
+}
+
+/// Of a header or an index of messages. A length that is wrong would hide what follows.
+bool hasItsLength(std::uint8_t opcode, const QByteArray &content)
+{
+    FieldReader fields(content.constData(), std::size_t(content.size()));
+    if (opcode == HeaderOpcode)
+        fields.text();
+    else if (opcode == MessageIndexOpcode)
+        fields.number<std::uint16_t>();
+    else
+        return false;
+    fields.text();
+    return fields.isWhole() && fields.left() == 0;
+}
+
+}  // namespace
+
+ScanHandler::~ScanHandler() = default;
+
+bool Reader::open(const QString &file, QString *error)
+{
+    m_file.close();
+    m_file.setFileName(file);
+    if (!m_file.open(QIODevice::ReadOnly)) {
+        *error = QStringLiteral("cannot open '%1': %2").arg(file, m_file.errorString());
+        return false;
+    }
+    if (read(0, MagicSize) == QByteArray(Magic, MagicSize))
+        return true;
+    *error = QStringLiteral("'%1' is not a recording: it does not begin as an MCAP file does").arg(file);
+    m_file.close();
+    return false;
+}
+
+QByteArray Reader::read(std::uint64_t offset, std::uint64_t size)
+{
+    if (offset > this->size() || size > this->size() - offset || size > LargestRecord || !m_file.seek(qint64(offset)))
+        return {};
+    return m_file.read(qint64(size));
+}
+
+bool Reader::readSummary(Index *index)
+{
+    *index = {};
+    constexpr std::uint64_t tail = FooterSize + MagicSize;
+    if (size() < tail + MagicSize)
+        return false;
+    const QByteArray footer = read(size() - tail, tail);
+    FieldReader fields(footer.constData(), std::size_t(footer.size()));
+    const bool isFooter = fields.number<std::uint8_t>() == FooterOpcode && fields.number<std::uint64_t>() == 20;
+    const auto begin = fields.number<std::uint64_t>();
+    fields.number<std::uint64_t>();
+    const auto crc = fields.number<std::uint32_t>();
+    if (!isFooter || !footer.endsWith(QByteArray(Magic, MagicSize)) || begin < MagicSize || begin > size() - tail)
+        return false;
+    const QByteArray summary = read(begin, size() - MagicSize - 4 - begin);
+    if (summary.isEmpty() || crc32(summary.constData(), std::size_t(summary.size())) != crc)
+        return false;
+    FieldReader records(summary.constData(), std::size_t(summary.size() - (FooterSize - 4)));
+    while (records.left() > 0) {
+        const auto opcode = records.number<std::uint8_t>();
+        const auto length = records.number<std::uint64_t>();
+        const char *content = records.skip(length);
+        if (!content)
+            return false;
+        const FieldReader inside(content, std::size_t(length));
+        if (opcode == ChunkIndexOpcode && !ChunkEntry::read(inside, &index->chunks.emplace_back()))
+            return false;
+        if (opcode == SchemaOpcode && !Schema::read(inside, &index->schemas.emplace_back()))
+            return false;
+        if (opcode == ChannelOpcode && !Channel::read(inside, &index->channels.emplace_back()))
+            return false;
+    }
+    return true;
+}
+
+bool Reader::readChunk(const ChunkEntry &entry, QByteArray *records)
+{
+    const QByteArray record = read(entry.offset, entry.length);
+    ChunkEntry there;
+    return record.size() > RecordHeadSize && record.at(0) == char(ChunkOpcode)
+        && readChunkContent(record.mid(RecordHeadSize), &there, records);
+}
+
+Reader::End Reader::scan(ScanHandler &handler)
+{
+    m_goodEnd = MagicSize;
+    m_damages = 0;
+    std::uint64_t offset = MagicSize;
+    while (offset < size()) {
+        const QByteArray head = read(offset, RecordHeadSize);
+        FieldReader fields(head.constData(), std::size_t(head.size()));
+        const auto opcode = fields.number<std::uint8_t>();
+        const auto length = fields.number<std::uint64_t>();
+        if (opcode == DataEndOpcode && length == 4)
+            break;
+        const bool isThere = fields.isWhole() && length <= LargestRecord && length <= size() - offset - RecordHeadSize;
+        if (isThere && handle(opcode, read(offset + RecordHeadSize, length), offset, handler)) {
+            offset += RecordHeadSize + length;
+            continue;
+        }
+        const std::uint64_t next = nextChunk(offset + 1);
+        if (next > offset && next < size())
+            ++m_damages;
+        offset = next;
+    }
+    Index index;
+    return readSummary(&index) ? Finished : Unfinished;
+}
+
+/// \return false when it is damaged, or not what stands before or between chunks
+bool Reader::handle(std::uint8_t opcode, const QByteArray &content, std::uint64_t offset, ScanHandler &handler)
+{
+    const std::uint64_t length = std::uint64_t(content.size()) + RecordHeadSize;
+    if (opcode == ChunkOpcode) {
+        ChunkEntry entry;
+        QByteArray records;
+        if (!readChunkContent(content, &entry, &records) || !hasItsTimes(entry, records))
+            return false;
+        entry.offset = offset;
+        entry.length = length;
+        m_goodEnd = offset + length;
+        handler.chunk(entry, records);
+        return true;
+    }
+    if (opcode == AttachmentOpcode) {
+        Attachment attachment;
+        if (!readAttachment(content, &attachment))
+            return false;
+        m_goodEnd = offset + length;
+        handler.attachment(attachment,
+                           {attachment.name, attachment.mediaType, offset, length, attachment.time,
+                            std::uint64_t(attachment.data.size())});
+        return true;
+    }
+    if (opcode == MetadataOpcode) {
+        FieldReader fields(content.constData(), std::size_t(content.size()));
+        const QByteArray name = fields.text();
+        fields.texts();
+        if (!fields.isWhole() || fields.left() != 0)
+            return false;
+        m_goodEnd = offset + length;
+        handler.metadata(content, {name, {}, offset, length, 0, 0});
+        return true;
+    }
+    return hasItsLength(opcode, content);
+}
+
+/// Where the next chunk begins that is whole, from \a from on; the end of the file: nowhere. A
+/// chunk has the name of its compression at a known place.
+std::uint64_t Reader::nextChunk(std::uint64_t from)
+{
+    constexpr std::uint64_t piece = 1U << 20;
+    constexpr std::uint64_t nameAt = RecordHeadSize + 28;
+    static const QByteArray name("\x04\0\0\0zstd", 8);
+    for (std::uint64_t begin = from + nameAt; begin < size();) {
+        const QByteArray bytes = read(begin, std::min(piece, size() - begin));
+        const int at = bytes.indexOf(name);
+        if (at < 0) {
+            if (begin + std::uint64_t(bytes.size()) >= size() || bytes.isEmpty())
+                break;
+            begin += std::uint64_t(bytes.size()) - std::uint64_t(name.size() - 1);
+            continue;
+        }
+        const std::uint64_t chunk = begin + std::uint64_t(at) - nameAt;
+        const QByteArray head = read(chunk, RecordHeadSize);
+        FieldReader fields(head.constData(), std::size_t(head.size()));
+        const bool isChunk = fields.number<std::uint8_t>() == ChunkOpcode;
+        const auto length = fields.number<std::uint64_t>();
+        ChunkEntry entry;
+        QByteArray records;
+        if (isChunk && length < LargestRecord
+            && readChunkContent(read(chunk + RecordHeadSize, length), &entry, &records))
+            return chunk;
+        begin += std::uint64_t(at) + 1;
+    }
+    return size();
+}
+
+bool forEachMessage(const QByteArray &records, const std::function<void(const Channel &channel)> &isChannel,
+                    const std::function<void(const Message &message, std::uint64_t offset)> &found)
+{
+    FieldReader reader(records.constData(), std::size_t(records.size()));
+    while (reader.left() > 0) {
+        const auto offset = std::uint64_t(reader.at() - records.constData());
+        const auto opcode = reader.number<std::uint8_t>();
+        const auto length = reader.number<std::uint64_t>();
+        const char *content = reader.skip(length);
+        if (!content)
+            return false;
+        FieldReader fields(content, std::size_t(length));
+        if (opcode == ChannelOpcode) {
+            Channel channel;
+            if (!Channel::read(fields, &channel))
+                return false;
+            isChannel(channel);
+        } else if (opcode == MessageOpcode) {
+            Message message;
+            message.channel = fields.number<std::uint16_t>();
+            message.sequence = fields.number<std::uint32_t>();
+            message.time = fields.number<std::uint64_t>();
+            message.published = fields.number<std::uint64_t>();
+            message.bytes = fields.at();
+            message.size = fields.left();
+            if (!fields.isWhole())
+                return false;
+            found(message, offset);
+        }
+    }
+    return true;
+}
+
+void forEachSchema(const QByteArray &records, const std::function<void(const Schema &schema)> &found)
+{
+    FieldReader reader(records.constData(), std::size_t(records.size()));
+    while (reader.left() > 0) {
+        const auto opcode = reader.number<std::uint8_t>();
+        const auto length = reader.number<std::uint64_t>();
+        const char *content = reader.skip(length);
+        Schema schema;
+        if (content && opcode == SchemaOpcode && Schema::read(FieldReader(content, std::size_t(length)), &schema))
+            found(schema);
+    }
+}
+
+}  // namespace qplc::mcap

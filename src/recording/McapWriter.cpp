@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "McapWriter.h"
+
+#include "transport/Descriptor.h"
+
+#include <QtCore/QFile>
+
+#include <cerrno>
+#include <fcntl.h>
+#include <unistd.h>
+#include <zstd.h>
+
+namespace qplc::mcap {
+
+namespace {
+
+constexpr int Level = 3;  // of zstd: 1.60 : 1 for a flight of the example, and 1.57 : 1 with level 1
+
+class DiskFile final : public FileSink
+{
+public:
+    DiskFile(Descriptor descriptor, const QString &name)
+        : m_descriptor(std::move(descriptor))
+        , m_name(name)
+    {
+    }
+
+    bool append(const QByteArray &bytes, QString *error) override
+    {
+        int written = 0;
+        while (written < bytes.size()) {
+            const ssize_t count = ::pwrite(m_descriptor.number(), bytes.constData() + written,
+                                           std::size_t(bytes.size() - written), off_t(m_size) + written);
+            if (count < 0 && errno == EINTR)
+                continue;
+            if (count <= 0)
+                return fail(QStringLiteral("write"), error);
+            written += int(count);
+        }
+        m_size += std::uint64_t(written);
+        return true;
+    }
+    bool sync(QString *error) override
+    {
+        return ::fdatasync(m_descriptor.number()) == 0 || fail(QStringLiteral("save"), error);
+    }
+    std::uint64_t size() const override { return m_size; }
+
+private:
+    /// What was written in part is cut off.
+    bool fail(const QString &what, QString *error)
+    {
+        *error = QStringLiteral("cannot %1 '%2': %3").arg(what, m_name, qt_error_string(errno));
+        [[maybe_unused]] const int cut = ::ftruncate(m_descriptor.number(), off_t(m_size));
+        return false;
+    }
+
+    Descriptor m_descriptor;
+    QString m_name;
+    std::uint64_t m_size = 0;
+};
+
+}  // namespace
+
+FileSink::~FileSink() = default;
+
+std::unique_ptr<FileSink> FileSink::create(const QString &file, QString *error)
+{
+    Descriptor descriptor(::open(QFile::encodeName(file).constData(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644));
+    if (descriptor.isOpen())
+        return std::make_unique<DiskFile>(std::move(descriptor), file);
+    *error = errno == EEXIST ? QStringLiteral("'%1' is there already; delete it, or choose another name").arg(file)
+                             : QStringLiteral("cannot make the file '%1': %2").arg(file, qt_error_string(errno));
+    return nullptr;
+}
+
+struct Writer::Compressor
+{
+    Compressor()
+        : context(ZSTD_createCCtx())
+    {
+    }
+    ~Compressor() { ZSTD_freeCCtx(context); }
+    Compressor(const Compressor &) = delete;
+    Compressor &operator=(const Compressor &) = delete;
+    ZSTD_CCtx *context;
+};
+
+Writer::Writer(std::unique_ptr<FileSink> sink)
+    : m_sink(std::move(sink))
+    , m_compressor(std::make_unique<Compressor>())
+{
+}
+
+Writer::~Writer() = default;
+
+bool Writer::begin(const QByteArray &library, QString *error)
+{
+    return append(QByteArray(Magic, MagicSize) + recordOf(HeaderOpcode, Fields().text({}).text(library).bytes()),
+                  error);
+}
+
+bool Writer::addAttachment(const QByteArray &name, const QByteArray &mediaType, const QByteArray &data,
+                           std::uint64_t time, QString *error)
+{
+    const QByteArray fields = Fields()
+                                  .number(time)
+                                  .number(time)
+                                  .text(name)
+                                  .text(mediaType)
+                                  .number(std::uint64_t(data.size()))
+                                  .raw(data)
+                                  .bytes();
+    const std::uint32_t crc = crc32(fields.constData(), std::size_t(fields.size()));
+    const QByteArray record = recordOf(AttachmentOpcode, Fields().raw(fields).number(crc).bytes());
+    const NamedEntry entry{name, mediaType, size(), std::uint64_t(record.size()), time, std::uint64_t(data.size())};
+    if (!append(record, error))
+        return false;
+    m_index.attachments.push_back(entry);
+    return true;
+}
+
+bool Writer::addMetadata(const QByteArray &name, const QMap<QByteArray, QByteArray> &values, QString *error)
+{
+    const QByteArray record = recordOf(MetadataOpcode, Fields().text(name).texts(values).bytes());
+    const NamedEntry entry{name, {}, size(), std::uint64_t(record.size()), 0, 0};
+    if (!append(record, error))
+        return false;
+    m_index.metadata.push_back(entry);
+    return true;
+}
+
+std::uint16_t Writer::addChannel(const QByteArray &topic, const QByteArray &encoding, const QByteArray &schemaName,
+                                 const QByteArray &schemaEncoding, const QByteArray &schemaText)
+{
+    const auto id = std::uint16_t(m_index.channels.size() + 1);
+    const Schema schema{id, schemaName, schemaEncoding, schemaText};
+    const bool hasSchema = !schemaName.isEmpty();
+    const Channel channel{id, hasSchema ? id : std::uint16_t(0), topic, encoding};
+    if (hasSchema) {
+        m_index.schemas.push_back(schema);
+        m_chunk += schema.record();
+    }
+    m_index.channels.push_back(channel);
+    m_chunk += channel.record();
+    return id;
+}
+
+/// Each chunk can be read without those before it.
+void Writer::beginChunk()
+{
+    m_messages.clear();
+    m_chunk.resize(0);
+    for (const Channel &channel : m_index.channels)
+        m_chunk += channel.record();
+}
+
+void Writer::addMessage(std::uint16_t channel, std::uint32_t sequence, std::uint64_t time, std::uint64_t published,
+                        const char *bytes, std::size_t size)
+{
+    m_messages.push_back({channel, time, std::uint64_t(m_chunk.size())});
+    char head[RecordHeadSize + MessageHeadSize];
+    head[0] = char(MessageOpcode);
+    storeLittle(std::uint64_t(MessageHeadSize + size), head + 1);
+    storeLittle(channel, head + 9);
+    storeLittle(sequence, head + 11);
+    storeLittle(time, head + 15);
+    storeLittle(published, head + 23);
+    m_chunk.append(head, int(sizeof head));
+    m_chunk.append(bytes, int(size));
+}
+
+QByteArray Writer::compressed(QByteArray *compression) const
+{
+    QByteArray result(int(ZSTD_compressBound(std::size_t(m_chunk.size()))), Qt::Uninitialized);
+    const std::size_t size = ZSTD_compressCCtx(m_compressor->context, result.data(), std::size_t(result.size()),
+                                               m_chunk.constData(), std::size_t(m_chunk.size()), Level);
+    if (ZSTD_isError(size) != 0)
+        return m_chunk;  // without memory for it: as it is
+    *compression = "zstd";
+    result.truncate(int(size));
+    return result;
+}
+
+bool Writer::flush(QString *error)
+{
+    if (m_messages.empty())
+        return true;
+    ChunkEntry chunk;
+    chunk.begin = m_messages.front().time;
+    chunk.end = m_messages.back().time;
+    const QByteArray bytes = compressed(&chunk.compression);
+    chunk.compressedSize = std::uint64_t(bytes.size());
+    chunk.size = std::uint64_t(m_chunk.size());
+    chunk.offset = size();
+    const QByteArray record = recordOf(ChunkOpcode,
+                                       Fields()
+                                           .number(chunk.begin)
+                                           .number(chunk.end)
+                                           .number(chunk.size)
+                                           .number(crc32(m_chunk.constData(), std::size_t(m_chunk.size())))
+                                           .text(chunk.compression)
+                                           .number(chunk.compressedSize)
+                                           .raw(bytes)
+                                           .bytes());
+    chunk.length = std::uint64_t(record.size());
+    const QByteArray indexes = messageIndexes(m_messages, chunk.offset + chunk.length, &chunk);
+    if (!append(record + indexes, error))
+        return false;
+    m_index.chunks.push_back(chunk);
+    beginChunk();
+    return true;
+}
+
+bool Writer::finish(QString *error)
+{
+    return flush(error) && append(m_index.end(size()), error) && sync(error);
+}
+
+bool uncompress(const QByteArray &compression, const char *bytes, std::size_t compressedSize, std::uint64_t size,
+                QByteArray *result)
+{
+    constexpr std::uint64_t largest = 64U << 20;  // a chunk is in memory as a whole
+    if (size > largest)
+        return false;
+    if (compression.isEmpty()) {
+        *result = QByteArray(bytes, int(compressedSize));
+        return compressedSize == size;
+    }
+    // A size that the bytes cannot give takes no memory.
+    if (compression != "zstd" || ZSTD_getFrameContentSize(bytes, compressedSize) != size)
+        return false;
+    result->resize(int(size));
+    return ZSTD_decompress(result->data(), std::size_t(size), bytes, compressedSize) == size;
+}
+
+}  // namespace qplc::mcap

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "node/cycle/RingReader.h"
+#include "signals/ProcessImage.h"
+
+#include <optional>
+
+namespace qplc {
+
+/// Converts a record of a cycle to the message of the channel /plant, and back: a ROS 1 message
+/// with the cycle, each signal, and the qualities.
+///
+/// Numbers and arrays lie in the message as they do in the process image, one behind the other. A
+/// text is the one type that is converted: its length, and the text without what follows it.
+class PlantMessage
+{
+public:
+    /// Fields of the message before the signals.
+    struct Cycle
+    {
+        std::uint64_t number = 0;
+        std::int64_t lateness = 0;  // [ns]
+        std::uint64_t skipped = 0;
+        std::uint32_t flags = 0;  // of RecordedCycle::Flag
+    };
+    static constexpr std::size_t CycleSize = 28;  // [byte]
+
+    explicit PlantMessage(const QPlcSignalTable &table);
+
+    /// The description of the message, as a file of ROS says it, with units and descriptions.
+    QByteArray schema() const;
+    static QByteArray schemaName() { return QByteArrayLiteral("qtplc/Plant"); }
+    const QPlcSignalTable &table() const { return m_image.table(); }
+    /// [byte] of a process image: values, padding, qualities
+    std::uint32_t imageSize() const { return m_image.totalSize(); }
+
+    /// The message of a cycle with \a image.
+    void encode(const Cycle &cycle, const char *image, QByteArray *message) const;
+    /// The image in a message; image() has it then. \return nothing when it is not such a message
+    std::optional<Cycle> decode(const char *message, std::size_t size);
+    ProcessImage &image() { return m_image; }
+
+private:
+    ProcessImage m_image;
+    bool m_hasTexts = false;
+};
+
+/// What a ROS message may call a field: \a name without other characters, unique among \a used.
+QByteArray rosFieldName(const QString &name, QSet<QByteArray> *used);
+
+}  // namespace qplc

@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "PlantRecorder.h"
+
+#include <QtCore/QFile>
+
+#include <cstring>
+
+namespace qplc {
+
+namespace {
+
+constexpr std::size_t FullChunk = 256 * 1024;  // [byte] of messages
+constexpr int NodeSize = 30;                   // [byte] of qtplc/Node
+
+const char nodesSchema[]
+    = "# What the master has exchanged with each node in a cycle. A cycle without such a message has\n"
+      "# that of the cycle before.\n"
+      "qtplc/Node[] nodes\n"
+      "================================================================================\n"
+      "MSG: qtplc/Node\n"
+      "uint16 id\n"
+      "uint16 flags    # 1 asked, 2 answered, 4 stored, 8 late, 16 faulted, 32 safe, 64 lost, 128 raw, 256 local,\n"
+      "                # 512 listens\n"
+      "uint16 reserved\n"
+      "uint64 age      # [cycles] of the newest request that it has answered; 2^64 - 1: none yet\n"
+      "int64 arrival   # of that answer, on the clock of the master [ns]; 0: not timed\n"
+      "uint64 info     # of that answer: what the node says of its own time [ns]\n";
+
+const char rawSchema[] = "# The outputs of a node as it has answered them, where the signals do not show all of them.\n"
+                         "uint16 id\n"
+                         "uint8[] outputs\n";
+
+QByteArray hex(std::uint64_t digest)
+{
+    return QByteArray::number(qulonglong(digest), 16).rightJustified(16, '0');
+}
+
+template<typename Record>
+Record recordIn(const RingReader &reader, bool *isWhole)
+{
+    Record record;
+    *isWhole = reader.size() == sizeof record;
+    if (*isWhole)
+        std::memcpy(&record, reader.body(), sizeof record);
+    return record;
+}
+
+}  // namespace
+
+PlantRecorder::PlantRecorder() = default;
+PlantRecorder::~PlantRecorder() = default;
+
+bool PlantRecorder::attach(const QByteArray &ringFile, QString *error)
+{
+    if (!m_reader.open(ringFile, error))
+        return false;
+    if (!RingDescription::fromText(m_reader.memory().description(), &m_description)) {
+        *error = QStringLiteral("the ring '%1' does not describe a plant").arg(QFile::decodeName(ringFile));
+        return false;
+    }
+    const QPlcSignalTable table = QPlcSignalTable::fromIni(m_description.table);
+    if (!m_reader.attach()) {
+        *error
+            = QStringLiteral("another recorder records the ring '%1'; stop it first").arg(QFile::decodeName(ringFile));
+        return false;
+    }
+    m_startTime = m_reader.memory().header()->startTime;
+    m_message = std::make_unique<PlantMessage>(table);
+    return true;
+}
+
+bool PlantRecorder::begin(std::unique_ptr<mcap::FileSink> sink, QString *error)
+{
+    m_writer = std::make_unique<mcap::Writer>(std::move(sink));
+    const QMap<QByteArray, QByteArray> session{
+        {"plant", m_description.plant.toUtf8()},
+        {"session", QByteArray::number(m_description.session, 16)},
+        {"phase", QByteArray::number(m_description.phase)},
+        {"period_ns", QByteArray::number(m_description.period)},
+        {"clock", m_description.clock.toUtf8()},
+        {"start_ns", QByteArray::number(qlonglong(m_startTime))},
+    };
+    if (!m_writer->begin("QtPLC " + m_description.version.toUtf8(), error)
+        || !m_writer->addAttachment("recording.txt", "text/plain", m_description.toText(), std::uint64_t(m_startTime),
+                                    error)
+        || !m_writer->addMetadata("qtplc", session, error))
+        return false;
+    const QByteArray ros = "ros1msg";
+    m_plant = m_writer->addChannel("/plant", "ros1", PlantMessage::schemaName(), ros, m_message->schema());
+    m_before = m_writer->addChannel("/plant_before", "ros1", PlantMessage::schemaName(), ros, m_message->schema());
+    m_nodes = m_writer->addChannel("/nodes", "ros1", "qtplc/Nodes", ros, nodesSchema);
+    m_raw = m_writer->addChannel("/raw_outputs", "ros1", "qtplc/RawOutputs", ros, rawSchema);
+    m_gaps = m_writer->addChannel("/gaps", "json");
+    m_digests = m_writer->addChannel("/digest", "json");
+    return true;
+}
+
+bool PlantRecorder::isChunkFull() const
+{
+    return m_writer->pending() >= FullChunk;
+}
+
+PlantRecorder::Progress PlantRecorder::proceed(QString *error)
+{
+    bool hasWriter = true;
+    for (bool any = false;;) {
+        if (isChunkFull())
+            return save(false, error) ? Recorded : Failed;
+        if (m_isOver)
+            return save(false, error) ? Ended : Failed;
+        const RingReader::Result result = m_reader.next();
+        if (result == RingReader::Found) {
+            if (!add(error))
+                return Failed;
+            any = true;
+            continue;
+        }
+        if (result != RingReader::Nothing) {
+            m_isDamaged = true;
+            continue;
+        }
+        if (any)
+            return Recorded;
+        if (!hasWriter)  // and nothing has come since it was found to be gone
+            return save(false, error) ? Abandoned : Failed;
+        if (m_reader.hasWriter())
+            return Waiting;
+        hasWriter = false;
+    }
+}
+
+bool PlantRecorder::add(QString *error)
+{
+    bool isWhole = true;
+    if (m_reader.kind() == RecordKind::Cycle)
+        return addCycle(error);
+    if (m_reader.kind() == RecordKind::Gap) {
+        const auto gap = recordIn<RecordedGap>(m_reader, &isWhole);
+        if (isWhole)
+            addGap(gap);
+    } else if (m_reader.kind() == RecordKind::End) {
+        const auto end = recordIn<RecordedEnd>(m_reader, &isWhole);
+        if (isWhole)
+            addEnd(end);
+    }
+    m_isDamaged = m_isDamaged || !isWhole;
+    return true;
+}
+
+bool PlantRecorder::addCycle(QString * /*error*/)
+{
+    CycleView view;
+    if (!CycleView::read(m_reader.body(), m_reader.size(), &view) || view.cycle.imageSize != m_message->imageSize()) {
+        m_isDamaged = true;
+        return true;
+    }
+    const RecordedCycle &cycle = view.cycle;
+    const std::uint64_t next = cycle.number - cycle.skipped;
+    if (next > m_next)  // they had been replaced before anybody recorded
+        addGap({m_next, next - 1, next - m_next, 0, 0});
+    m_time = std::uint64_t(m_startTime) + cycle.number * std::uint64_t(m_description.period);
+    const auto published = cycle.wallTime != 0 ? std::uint64_t(cycle.wallTime) : m_time;
+    const auto sequence = std::uint32_t(cycle.number);
+    const PlantMessage::Cycle head{cycle.number, cycle.lateness, cycle.skipped, cycle.flags};
+    if (cycle.beforeSize > 0) {
+        m_message->encode(head, view.before, &m_body);
+        m_writer->addMessage(m_before, sequence, m_time, published, m_body.constData(), std::size_t(m_body.size()));
+    }
+    m_message->encode(head, view.image, &m_body);
+    m_writer->addMessage(m_plant, sequence, m_time, published, m_body.constData(), std::size_t(m_body.size()));
+    addNodes(view);
+    addRaw(view);
+    m_next = cycle.number + 1;
+    m_digest = cycle.digest;
+    m_hasDigest = false;
+    ++m_cycles;
+    return true;
+}
+
+void PlantRecorder::addNodes(const CycleView &view)
+{
+    QByteArray body(4 + NodeSize * int(view.cycle.nodes), Qt::Uninitialized);
+    char *to = body.data();
+    storeLittle(view.cycle.nodes, to);
+    to += 4;
+    for (std::uint32_t i = 0; i < view.cycle.nodes; ++i, to += NodeSize) {
+        const RecordedNode node = view.node(i);
+        const std::uint64_t age = node.cycle == RecordedNode::NoCycle ? node.cycle : view.cycle.number - node.cycle;
+        storeLittle(node.id, to);
+        storeLittle(node.flags, to + 2);
+        storeLittle(std::uint16_t(0), to + 4);
+        storeLittle(age, to + 6);
+        storeLittle(node.arrival, to + 14);
+        storeLittle(std::uint64_t(node.info), to + 22);
+    }
+    if (body == m_exchange)
+        return;
+    m_exchange = body;
+    m_writer->addMessage(m_nodes, std::uint32_t(view.cycle.number), m_time, m_time, body.constData(),
+                         std::size_t(body.size()));
+}
+
+void PlantRecorder::addRaw(const CycleView &view)
+{
+    const char *at = view.raw;
+    std::uint32_t left = view.cycle.rawSize;
+    for (std::uint32_t i = 0; i < view.cycle.nodes; ++i) {
+        const RecordedNode node = view.node(i);
+        const std::uint32_t padded = paddedRecordSize(node.rawSize);
+        if (node.rawSize == 0 || padded > left || node.rawSize > padded)
+            continue;
+        const QByteArray body = mcap::Fields().number(node.id).text(QByteArray(at, int(node.rawSize))).bytes();
+        m_writer->addMessage(m_raw, std::uint32_t(view.cycle.number), m_time, m_time, body.constData(),
+                             std::size_t(body.size()));
+        at += padded;
+        left -= padded;
+    }
+}
+
+/// \a gap with a digest of 0: what was computed in it is not known.
+void PlantRecorder::addGap(const RecordedGap &gap)
+{
+    const QByteArray text = "{\"first\":" + QByteArray::number(qulonglong(gap.first)) + ",\"last\":"
+        + QByteArray::number(qulonglong(gap.last)) + ",\"cycles\":" + QByteArray::number(qulonglong(gap.cycles))
+        + ",\"skipped\":" + QByteArray::number(qulonglong(gap.skipped)) + ",\"digest\":\"" + hex(gap.digest) + "\"}";
+    m_time = std::uint64_t(m_startTime) + gap.last * std::uint64_t(m_description.period);
+    m_writer->addMessage(m_gaps, std::uint32_t(gap.last), m_time, m_time, text.constData(), std::size_t(text.size()));
+    m_next = gap.last + 1;
+    m_digest = gap.digest;
+    m_hasDigest = true;  // it is in the gap
+    m_missing += gap.cycles;
+}
+
+void PlantRecorder::addEnd(const RecordedEnd &end)
+{
+    m_isOver = true;
+    m_digest = end.digest;
+    addDigest(",\"end\":true,\"cycles\":" + QByteArray::number(qulonglong(end.cycles))
+              + ",\"missing\":" + QByteArray::number(qulonglong(end.missing)));
+}
+
+void PlantRecorder::addDigest(const QByteArray &more)
+{
+    const QByteArray text
+        = "{\"next\":" + QByteArray::number(qulonglong(m_next)) + ",\"digest\":\"" + hex(m_digest) + '"' + more + '}';
+    m_writer->addMessage(m_digests, std::uint32_t(m_next), m_time, m_time, text.constData(), std::size_t(text.size()));
+    m_hasDigest = true;
+}
+
+bool PlantRecorder::save(bool sync, QString *error)
+{
+    if (!m_hasDigest)
+        addDigest({});
+    if (!m_writer->flush(error) || (sync && !m_writer->sync(error)))
+        return false;
+    m_reader.release();
+    return true;
+}
+
+bool PlantRecorder::finish(QString *error)
+{
+    const QMap<QByteArray, QByteArray> end{{"digest", hex(m_digest)},
+                                           {"cycles", QByteArray::number(qulonglong(m_cycles))},
+                                           {"missing", QByteArray::number(qulonglong(m_missing))}};
+    if (!save(false, error) || !m_writer->addMetadata("end", end, error) || !m_writer->finish(error))
+        return false;
+    m_writer.reset();
+    return true;
+}
+
+}  // namespace qplc

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Verification.h"
+
+#include "McapReader.h"
+#include "PlantMessage.h"
+
+#include <memory>
+#include <optional>
+
+namespace qplc {
+
+namespace {
+
+using namespace mcap;
+
+constexpr int MostProblems = 20;
+
+/// The number behind "key": in a text that a recorder has written.
+std::optional<quint64> numberIn(const QByteArray &text, const QByteArray &key, int base = 10)
+{
+    const int at = text.indexOf('"' + key + "\":");
+    if (at < 0)
+        return std::nullopt;
+    int begin = at + key.size() + 3;
+    if (begin < text.size() && text.at(begin) == '"')
+        ++begin;
+    int end = begin;
+    while (end < text.size() && QByteArray("0123456789abcdef").contains(text.at(end)))
+        ++end;
+    bool isNumber = false;
+    const quint64 number = text.mid(begin, end - begin).toULongLong(&isNumber, base);
+    return isNumber ? std::make_optional(number) : std::nullopt;
+}
+
+class Verifier final : public ScanHandler
+{
+public:
+    explicit Verifier(VerifiedFile *result)
+        : m_result(*result)
+    {
+    }
+
+    void attachment(const Attachment &attachment, const NamedEntry & /*entry*/) override
+    {
+        if (attachment.name != "recording.txt" || m_message)
+            return;
+        QVector<QPlcParseError> errors;
+        if (!RingDescription::fromText(attachment.data, &m_result.description))
+            return problem(QStringLiteral("its description is that of another version"));
+        const QPlcSignalTable table = QPlcSignalTable::fromIni(m_result.description.table, &errors);
+        if (errors.isEmpty())
+            m_message = std::make_unique<PlantMessage>(table);
+    }
+    void chunk(const ChunkEntry & /*entry*/, const QByteArray &records) override
+    {
+        forEachMessage(
+            records, [this](const Channel &channel) { m_topics.insert(channel.id, channel.topic); },
+            [this](const Message &message, std::uint64_t) { take(message); });
+    }
+    bool hasTable() const { return m_message != nullptr; }
+    void problem(const QString &text)
+    {
+        if (m_result.problems.size() < MostProblems)
+            m_result.problems << text;
+        else if (m_result.problems.size() == MostProblems)
+            m_result.problems << QStringLiteral("... and more");
+    }
+    /// Cycles behind the last digest cannot be compared.
+    void end()
+    {
+        if (!m_hasDigest)
+            problem(QStringLiteral("the cycles from %1 on have no digest to compare with").arg(m_result.checkedCycles));
+    }
+
+private:
+    void take(const Message &message)
+    {
+        const QByteArray topic = m_topics.value(message.channel);
+        const QByteArray text = QByteArray::fromRawData(message.bytes, int(message.size));
+        if (topic == "/plant" && m_message)
+            cycle(message);
+        else if (topic == "/gaps")
+            gap(text);
+        else if (topic == "/digest")
+            digest(text);
+    }
+    void cycle(const Message &message)
+    {
+        const std::optional<PlantMessage::Cycle> cycle = m_message->decode(message.bytes, message.size);
+        if (!cycle)
+            return problem(QStringLiteral("a message of /plant does not fit the signal table"));
+        if (m_result.cycles == 0)
+            m_result.firstCycle = cycle->number;
+        if (cycle->number != m_next + cycle->skipped) {
+            problem(QStringLiteral("cycle %1 follows cycle %2").arg(cycle->number).arg(qint64(m_next) - 1));
+            m_isBroken = true;
+        }
+        m_result.digest = m_message->image().digest(m_result.digest);
+        m_result.skipped += cycle->skipped;
+        m_result.lastCycle = cycle->number;
+        m_next = cycle->number + 1;
+        m_hasDigest = false;
+        ++m_result.cycles;
+    }
+    void gap(const QByteArray &text)
+    {
+        const quint64 first = numberIn(text, "first").value_or(0);
+        const quint64 last = numberIn(text, "last").value_or(0);
+        m_result.gaps.append({first, last});
+        const quint64 cycles = numberIn(text, "cycles").value_or(0);
+        const quint64 skipped = numberIn(text, "skipped").value_or(0);
+        if (m_next + skipped + cycles != last + 1)
+            problem(QStringLiteral("a gap ends with cycle %1, and does not begin behind cycle %2")
+                        .arg(last)
+                        .arg(qint64(m_next) - 1));
+        m_result.missing += cycles;
+        m_result.skipped += skipped;
+        m_result.digest = numberIn(text, "digest", 16).value_or(0);
+        m_isBroken = m_result.digest == 0;  // of what came before, nothing is known
+        m_next = last + 1;
+    }
+    void digest(const QByteArray &text)
+    {
+        const std::optional<quint64> wanted = numberIn(text, "digest", 16);
+        const std::optional<quint64> next = numberIn(text, "next");
+        m_hasDigest = true;
+        m_result.hasEnd = m_result.hasEnd || text.contains("\"end\":true");
+        if (!m_isBroken && (!wanted || *wanted != m_result.digest || next.value_or(~quint64(0)) != m_next))
+            problem(QStringLiteral("the digest of the cycles before %1 is %2, and that of the flight %3")
+                        .arg(m_next)
+                        .arg(m_result.digest, 16, 16, QLatin1Char('0'))
+                        .arg(wanted.value_or(0), 16, 16, QLatin1Char('0')));
+        else if (!m_isBroken)
+            m_result.checkedCycles = m_next;
+        m_result.digest = wanted.value_or(0);  // what follows is judged by itself
+        m_isBroken = !wanted;
+        m_next = next.value_or(m_next);
+    }
+
+    VerifiedFile &m_result;
+    std::unique_ptr<PlantMessage> m_message;
+    QMap<std::uint16_t, QByteArray> m_topics;
+    quint64 m_next = 0;
+    bool m_isBroken = false;  // until the next digest, nothing can be compared
+    bool m_hasDigest = true;
+};
+
+}  // namespace
+
+bool verifyRecording(const QString &file, VerifiedFile *result, QString *error)
+{
+    *result = {};
+    Reader reader;
+    if (!reader.open(file, error))
+        return false;
+    Verifier verifier(result);
+    result->isFinished = reader.scan(verifier) == Reader::Finished;
+    if (!verifier.hasTable()) {
+        *error = QStringLiteral("'%1' has no description of a plant: it is not a recording of QtPLC, or damaged at its "
+                                "begin")
+                     .arg(file);
+        return false;
+    }
+    verifier.end();
+    if (reader.damages() > 0)
+        verifier.problem(QStringLiteral("the file is damaged at %1 places").arg(reader.damages()));
+    if (!result->isFinished)
+        verifier.problem(QStringLiteral("the file is not finished; run: qtplc recover %1").arg(file));
+    if (!result->hasEnd)
+        verifier.problem(QStringLiteral("the end of the phase is not in the file"));
+    return true;
+}
+
+}  // namespace qplc

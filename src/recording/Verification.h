@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "node/cycle/RingDescription.h"
+
+#include <QtCore/QString>
+#include <QtCore/QStringList>
+#include <QtCore/QVector>
+
+namespace qplc {
+
+/// What verifyRecording() has found in a recording.
+struct VerifiedFile
+{
+    struct Gap
+    {
+        quint64 first = 0;
+        quint64 last = 0;
+    };
+
+    RingDescription description;
+    bool isFinished = false;  // the file has its summary
+    bool hasEnd = false;      // of the phase
+    quint64 cycles = 0;
+    quint64 firstCycle = 0;
+    quint64 lastCycle = 0;
+    quint64 skipped = 0;        // cycles that the master has left out, of all
+    QVector<Gap> gaps;          // that the recording itself names
+    quint64 missing = 0;        // cycles in them
+    quint64 digest = 0;         // of the images in the file
+    quint64 checkedCycles = 0;  // up to which the digest was found to be that of the flight
+    QStringList problems;       // why it does not prove that all is there; empty: it does
+
+    bool isComplete() const { return problems.isEmpty() && gaps.isEmpty() && hasEnd; }
+};
+
+/// Reads a whole recording: computes the digest of its images, and compares it with the digest of
+/// the flight, which the recorder has written beside them.
+/// \return false when the file cannot be read, or is no recording
+bool verifyRecording(const QString &file, VerifiedFile *result, QString *error);
+
+}  // namespace qplc
