@@ -415,6 +415,8 @@ void tst_qtplc_fmu::hangingInitializationEndsWithItsProcess()
         return output.contains(text);
     };
     QVERIFY2(waitUntil([&] { return tells("the plant hangs"); }, 20000), qPrintable(output));
+    QVERIFY(waitUntil([&] { return master.error() == QPlcMasterNode::InitializationError; }, 20000));
+    QVERIFY2(master.errorString().contains("no answer"), qPrintable(master.errorString()));
     process.terminate();
     QVERIFY(waitUntil([&] { return process.state() == QProcess::NotRunning; }, 60000));
     QCOMPARE(process.exitCode(), 1);
