@@ -302,11 +302,11 @@ const QVector<Command> &commands()
         {"record",
          "FILE",
          "Records every cycle of a plant on this computer.",
-         "Reads the ring of the master, which runs on this computer and belongs to the same\n"
-         "user, and writes FILE, which must not exist. It begins with the cycles that are\n"
-         "in the ring, and ends with the phase or at Ctrl-C. If it is killed, the ring keeps\n"
-         "what is not in FILE: record into another file then, and run qtplc recover FILE.",
-         {{"ring", "RING", "The ring of the master, default the only one that there is."}},
+         "Reads the ring of the master, which runs on this computer and belongs to the\n"
+         "same user, and writes FILE, which must not exist. It begins with the cycles that\n"
+         "are in the ring, and ends with the phase or at Ctrl-C. If it is killed, the ring\n"
+         "keeps what is not in FILE: record into another file then, and run qtplc recover.",
+         {{"ring", "RING", "The ring of the master, default the only one."}},
          {QStringLiteral("qtplc record flight.mcap")},
          Command::NoArguments,
          1,
@@ -327,7 +327,7 @@ const QVector<Command> &commands()
          &verifyFile},
         {"recover",
          "FILE",
-         "Finishes a recording whose recorder has not ended in order.",
+         "Finishes a recording whose recorder was killed.",
          "Needs no master. It cuts off what is not whole at the end of FILE and writes the\n"
          "summary that other programs need. A finished recording stays as it is. The exit\n"
          "code is 1 when places within FILE are damaged: all that is whole stays readable.",

@@ -48,7 +48,7 @@ void tst_ProgramOptions::helpNamesEveryOption_data()
     const char *const model = " --wind --turbulence --seed --plant --winch";
     const char *const autopilot = " --gains --force-limit --dead-time";
     const char *const run
-        = " --lockstep --real-time --scale --external --overrun --duration --report --watch --signals";
+        = " --lockstep --real-time --scale --external --overrun --duration --report --record --watch --signals";
     const auto row = [](const char *program, const QByteArray &options) {
         QTest::newRow(program) << QString::fromLatin1(program) << QString::fromLatin1(options);
     };
