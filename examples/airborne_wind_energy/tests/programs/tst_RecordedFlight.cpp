@@ -120,7 +120,9 @@ void tst_RecordedFlight::aRecorderThatIsKilledLosesNoCycle()
     int exitCode = -1;
     const QJsonObject begin = verified(file("first.mcap"), &exitCode);
     const QJsonObject end = verified(file("second.mcap"), &exitCode);
-    QVERIFY(end["firstCycle"].toDouble() <= begin["lastCycle"].toDouble() + 1);
+    // The master may have skipped cycles just there: they are in no gap.
+    const double before = end["gaps"].toArray().at(0).toObject()["last"].toDouble();
+    QVERIFY(before <= begin["lastCycle"].toDouble());
     QVERIFY(end["lastCycle"].toDouble() > begin["lastCycle"].toDouble());
     QVERIFY(!end["problems"].toArray().contains("the end of the phase is not in the file"));
 }
