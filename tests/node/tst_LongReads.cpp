@@ -92,6 +92,7 @@ private Q_SLOTS:
     void whoMayNotSendItIsRefusedBeforeItIsRead();
     void longGarbageEndsItsConnection();
     void nodeWithManySignalsRegisters();
+    void manySignalsAreComparedWithTheTableMeanwhile();
     void nodeWithMoreSignalsThanTheTableIsRefused();
     void registrationWithManyUnknownFieldsIsRefused();
 
@@ -220,6 +221,32 @@ void tst_LongReads::nodeWithManySignalsRegisters()
             > int(qplc::ControlFrameReader::ReadAtOnce));
     QVERIFY(node.registerAt(m_master->serverPort()));
     QCOMPARE(m_master->nodes().size(), 1);
+}
+
+void tst_LongReads::manySignalsAreComparedWithTheTableMeanwhile()
+{
+    ScriptedNode node("Counter");
+    node.table = table();
+    node.onlyListen();
+    node.inputs.clear();
+    for (int i = 0; i < Signals; ++i)
+        node.inputs << QStringLiteral("signal_%1").arg(i);
+    QVERIFY(node.connectTo(m_master->serverPort()));
+    node.send(QPlcMessage::Hello, node.helloFields());
+    QCOMPARE(node.next().kind(), QPlcMessage::Hello);
+    const qplc::MasterServer &server = QPlcMasterNodePrivate::of(*m_master).parts->server;
+    const qplc::MasterConnection *connection = server.connections().back().get();
+    ReaderHeld heldBefore(*m_master);
+    node.send(QPlcMessage::Register, node.registerFields());
+    QVERIFY(waitUntil([&] { return connection->longRead != nullptr; }));
+    ReaderHeld heldBehind(*m_master);
+    heldBefore.letGo();
+    QVERIFY(waitUntil([&] { return !connection->cyclicKind.isEmpty(); }));  // it is read, and its rights are checked
+    for (int i = 0; i < 5; ++i)
+        QCOMPARE(m_other->ask(QPlcMessage::GetState).kind(), QPlcMessage::State);
+    QVERIFY(!connection->isNode());
+    heldBehind.letGo();
+    QVERIFY(node.waitForMessage(QPlcMessage::Registered));
 }
 
 void tst_LongReads::nodeWithMoreSignalsThanTheTableIsRefused()

@@ -169,21 +169,37 @@ bool NodeRegistry::agreeOnSafety(const NodeDeclaration &declaration, const QVect
 
 std::shared_ptr<NodeSlot> NodeRegistry::admit(const NodeDeclaration &declaration, Refusal *refusal)
 {
-    const auto sameName = [&](const std::shared_ptr<NodeSlot> &slot) { return slot->name == declaration.name; };
-    if (declaration.name == masterName() || std::any_of(m_nodes.begin(), m_nodes.end(), sameName)) {
+    if (!hasPlace(declaration.name, refusal))
+        return nullptr;
+    std::shared_ptr<NodeSlot> slot = make(declaration, refusal);
+    if (!slot)
+        return nullptr;
+    slot->id = freeId();
+    return add(slot, refusal) ? slot : nullptr;
+}
+
+bool NodeRegistry::hasPlace(const QString &name, Refusal *refusal) const
+{
+    const auto sameName = [&](const std::shared_ptr<NodeSlot> &slot) { return slot->name == name; };
+    if (name == masterName() || std::any_of(m_nodes.begin(), m_nodes.end(), sameName)) {
         *refusal = {messages::errorWord::nameInUse,
                     QStringLiteral("there is a node '%1' already; give this one another name, or stop the other one")
-                        .arg(declaration.name)};
-        return nullptr;
+                        .arg(name)};
+        return false;
     }
     if (m_nodes.size() >= MaximumNodes) {
         *refusal = {messages::errorWord::tooManyNodes,
                     QStringLiteral("node '%1' would be number %2; a master serves at most %3")
-                        .arg(declaration.name)
+                        .arg(name)
                         .arg(m_nodes.size() + 1)
                         .arg(MaximumNodes)};
-        return nullptr;
+        return false;
     }
+    return true;
+}
+
+std::shared_ptr<NodeSlot> NodeRegistry::make(const NodeDeclaration &declaration, Refusal *refusal) const
+{
     if (!declaration.interval.isEveryCycle() && !(declaration.listener && declaration.outputs.empty())) {
         *refusal
             = {messages::errorWord::malformedMessage,
@@ -199,13 +215,8 @@ std::shared_ptr<NodeSlot> NodeRegistry::admit(const NodeDeclaration &declaration
         || !resolve(declaration.name, declaration.outputs, &outputs, refusal)
         || !agreeOnSafety(declaration, inputs, outputs, refusal))
         return nullptr;
-    for (QPlcSignalIndex output : outputs) {
-        if (!mayWrite(declaration.name, output, refusal))
-            return nullptr;
-    }
     auto slot = std::make_shared<NodeSlot>();
     slot->name = declaration.name;
-    slot->id = freeId();
     slot->policy = declaration.policy;
     slot->listener = declaration.listener;
     slot->critical = declaration.critical;
@@ -219,12 +230,23 @@ std::shared_ptr<NodeSlot> NodeRegistry::admit(const NodeDeclaration &declaration
         = [](bool qualities) { return qualities ? PayloadLayout::WithQualities : PayloadLayout::WithoutQualities; };
     slot->inputLayout = PayloadLayout(m_table, inputs, with(declaration.quality));
     slot->outputLayout = PayloadLayout(m_table, outputs, with(declaration.outputQuality));
-    if (closesLoop(slot, refusal))
-        return nullptr;
-    for (QPlcSignalIndex output : outputs)
-        addWriter(declaration.name, output);
-    m_nodes.push_back(slot);
     return slot;
+}
+
+bool NodeRegistry::add(const std::shared_ptr<NodeSlot> &slot, Refusal *refusal)
+{
+    if (!hasPlace(slot->name, refusal))
+        return false;
+    for (const PayloadLayout::Field &output : slot->outputLayout.fields()) {
+        if (!mayWrite(slot->name, output.signal, refusal))
+            return false;
+    }
+    if (closesLoop(slot, refusal))
+        return false;
+    for (const PayloadLayout::Field &output : slot->outputLayout.fields())
+        addWriter(slot->name, output.signal);
+    m_nodes.push_back(slot);
+    return true;
 }
 
 bool NodeRegistry::mayWrite(const QString &name, QPlcSignalIndex signal, Refusal *refusal) const

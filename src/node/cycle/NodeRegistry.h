@@ -56,9 +56,16 @@ public:
 
     explicit NodeRegistry(const QPlcSignalTable &table);
 
-    /// Checks \a declaration against the table and the other nodes. \return null, with the reason
-    /// in \a refusal, when the node cannot join
+    /// Checks \a declaration against the table and the other nodes: make(), then add(). \return
+    /// null, with the reason in \a refusal, when the node cannot join
     std::shared_ptr<NodeSlot> admit(const NodeDeclaration &declaration, Refusal *refusal);
+    /// A slot for a node that agrees with the table, without a number. Nobody sees it before add().
+    /// \return null, with the reason in \a refusal, when it does not agree. \threadsafe yes
+    std::shared_ptr<NodeSlot> make(const NodeDeclaration &declaration, Refusal *refusal) const;
+    /// A number for a slot.
+    quint16 freeId() const;
+    /// \return false, with the reason in \a refusal, when other nodes leave no place for \a slot
+    bool add(const std::shared_ptr<NodeSlot> &slot, Refusal *refusal);
     void remove(const std::shared_ptr<NodeSlot> &slot);
     const std::vector<std::shared_ptr<NodeSlot>> &nodes() const { return m_nodes; }
     std::shared_ptr<NodeSlot> find(quint16 id) const;
@@ -78,12 +85,13 @@ private:
     /// are \a inputs and \a outputs
     bool agreeOnSafety(const NodeDeclaration &declaration, const QVector<QPlcSignalIndex> &inputs,
                        const QVector<QPlcSignalIndex> &outputs, Refusal *refusal) const;
+    /// Whether there is room for one more node, of this name.
+    bool hasPlace(const QString &name, Refusal *refusal) const;
     /// Whether \a slot would close a loop of same-cycle inputs, with the path in \a refusal.
     bool closesLoop(const std::shared_ptr<NodeSlot> &slot, Refusal *refusal) const;
     /// Whether the node \a name may write \a signal, with the reason in \a refusal.
     bool mayWrite(const QString &name, QPlcSignalIndex signal, Refusal *refusal) const;
     void addWriter(const QString &name, QPlcSignalIndex signal);
-    quint16 freeId() const;
 
     const QPlcSignalTable m_table;
     QVector<QStringList> m_writers;  // of each signal, in the order of the table

@@ -78,9 +78,9 @@ Refusal contradictionOf(const MasterConnection &connection, const NodeDeclaratio
 }
 
 /// Why the inputs of the node of \a connection are too long for it; no error: they are not.
-Refusal sizeRefusal(const MasterConnection &connection)
+Refusal sizeRefusal(const MasterConnection &connection, const NodeSlot &slot)
 {
-    const quint32 size = connection.slot->inputLayout.size();
+    const quint32 size = slot.inputLayout.size();
     if (connection.transport->hasGroup() && size > MulticastParts::MaximumInputs)
         return {
             messages::errorWord::tooLong,
@@ -215,48 +215,86 @@ void MasterServer::open(MasterConnection *connection, const std::shared_ptr<cons
     }
     const QString denial = refusalOf(connection->peer, *registration);
     if (denial.isEmpty())
-        connection->nextStep = [this, connection, registration] { admit(connection, *registration); };
+        connection->nextStep = [this, connection, registration] { admit(connection, registration); };
     else
         deny(connection, denial, true);
 }
 
-void MasterServer::admit(MasterConnection *connection, const messages::Register &registration)
+/// What can be said against a registration without the other nodes. To compare thousands of signals
+/// with the table takes long: that of a long message is done where it was read.
+void MasterServer::admit(MasterConnection *connection, const std::shared_ptr<const messages::Register> &registration)
 {
-    NodeDeclaration declaration;
-    Refusal refusal;
+    const auto newNode = std::make_shared<NewNode>();
+    newNode->registration = registration;
+    NodeDeclaration &declaration = newNode->declaration;
+    Refusal &refusal = newNode->refusal;
     QString error;
-    connection->cyclicKind = registration.cyclic;
+    connection->cyclicKind = registration->cyclic;
     connection->transport = TransportRegistry::instance().named(connection->cyclicKind);
-    if (!NodeDeclaration::fromMessage(registration, &declaration, &error)) {
+    if (!NodeDeclaration::fromMessage(*registration, &declaration, &error)) {
         refusal = {messages::errorWord::malformedMessage, error};
     } else {
         declaration.hardware = connection->uses(messages::feature::hardware);
-        refusal = contradictionOf(*connection, declaration, registration);
+        refusal = contradictionOf(*connection, declaration, *registration);
         if (refusal.error.isEmpty())
             refusal = m_evictions.refusalOf(declaration.name, connection->peer);
         if (refusal.error.isEmpty())
             refusal = transportRefusal(connection, &declaration);
         if (refusal.error.isEmpty())
-            refusal = channelRefusal(*connection, newcomer(*connection, declaration, registration));
-        if (refusal.error.isEmpty()) {
+            refusal = channelRefusal(*connection, newcomer(*connection, declaration, *registration));
+    }
+    if (!refusal.error.isEmpty()) {
+        rejectNode(connection, *newNode);
+        return;
+    }
+    const auto make = [this, newNode] { newNode->slot = m_registry.make(newNode->declaration, &newNode->refusal); };
+    if (!connection->longRead) {
+        make();
+        enlist(connection, *newNode);
+        return;
+    }
+    connection->longRead->stage = LongRead::Begun;
+    const QPointer<QPlcSlaveSocket> socket(connection->socket);
+    m_reader.begin(make, [this, socket, newNode] {
+        MasterConnection *waiting = socket ? connectionOf(socket) : nullptr;
+        if (!waiting)
+            return;
+        waiting->longRead->stage = LongRead::Given;
+        waiting->nextStep = [this, waiting, newNode] { enlist(waiting, *newNode); };
+        arrived(waiting);
+    });
+}
+
+void MasterServer::rejectNode(MasterConnection *connection, const NewNode &newNode)
+{
+    const QString &name = newNode.declaration.name;
+    connection->name = name.isEmpty() ? connection->name : nameOf(name);
+    reject(connection, newNode.refusal.error, newNode.refusal.text);
+}
+
+/// The node takes its place among the others, unless it was refused.
+void MasterServer::enlist(MasterConnection *connection, NewNode &newNode)
+{
+    const NodeDeclaration &declaration = newNode.declaration;
+    const messages::Register &registration = *newNode.registration;
+    std::optional<SealKeys> keys;
+    if (const std::shared_ptr<NodeSlot> &slot = newNode.slot) {
+        slot->id = m_registry.freeId();
+        slot->transport = connection->transport;
+        slot->faultPlan = printable(registration.faults).left(200);
+        keys = newSealKeys(*connection);
+        slot->prepare(m_image, m_session, keys ? &*keys : nullptr);
+        newNode.refusal = sizeRefusal(*connection, *slot);
+        if (newNode.refusal.error.isEmpty())
             replace(connection, declaration.name);
-            connection->slot = m_registry.admit(declaration, &refusal);
-        }
+        if (newNode.refusal.error.isEmpty() && m_registry.add(slot, &newNode.refusal))
+            connection->slot = slot;
     }
     if (!connection->slot) {
-        connection->name = declaration.name.isEmpty() ? connection->name : nameOf(declaration.name);
-        reject(connection, refusal.error, refusal.text);
+        rejectNode(connection, newNode);
         return;
     }
     connection->name = declaration.name;
-    if (Refusal size = sizeRefusal(*connection); !size.error.isEmpty()) {
-        reject(connection, size.error, size.text);
-        return;
-    }
-    connection->slot->transport = connection->transport;
-    connection->slot->faultPlan = printable(registration.faults).left(200);
-    const std::optional<SealKeys> keys = newSealKeys(*connection);
-    connection->slot->prepare(m_image, m_session, keys ? &*keys : nullptr);
     connection->token = Host::current().random();
     connection->stage = MasterConnection::Attaching;
     messages::Registered registered;

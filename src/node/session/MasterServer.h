@@ -88,6 +88,15 @@ Q_SIGNALS:
     void received(qplc::MasterConnection *connection, const QPlcMessage &message);
 
 private:
+    /// A node between its registration and its place among the others.
+    struct NewNode
+    {
+        std::shared_ptr<const messages::Register> registration;
+        NodeDeclaration declaration;
+        std::shared_ptr<NodeSlot> slot;  // null: it is refused, or was not made yet
+        Refusal refusal;
+    };
+
     void enter(QPlcSlaveSocket *socket, const Peer &peer, ConnectionGate::Ticket ticket);
     void dropSlow(ConnectionGate::Ticket ticket, const QString &reason);
     bool isTooMuch(MasterConnection *connection, const QPlcMessage &message);
@@ -117,7 +126,9 @@ private:
     void open(MasterConnection *connection, messages::Register registration);
     void open(MasterConnection *connection, const std::shared_ptr<const messages::Register> &registration);
     void open(MasterConnection *connection, const messages::AttachCyclicChannel &wish);
-    void admit(MasterConnection *connection, const messages::Register &registration);
+    void admit(MasterConnection *connection, const std::shared_ptr<const messages::Register> &registration);
+    void enlist(MasterConnection *connection, NewNode &newNode);
+    void rejectNode(MasterConnection *connection, const NewNode &newNode);
     Refusal transportRefusal(MasterConnection *connection, NodeDeclaration *declaration) const;
     bool prepareChannel(MasterConnection *connection, messages::Registered *registered);
     void useTransport(MasterConnection *node, const TransportKind &kind) const;
