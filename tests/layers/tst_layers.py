@@ -293,7 +293,7 @@ class Faults(unittest.TestCase):
         self.assertEqual(layers.errors_of(self.root), [])
 
     def test_one_function_of_a_hundred_may_have_40_lines(self):
-        self.plant("src/node/cycle/NodeSlot.cpp", ("\nvoid long_()\n{\n" + "    step();\n" * 47 + "}\n") * 60)
+        self.plant("src/node/cycle/NodeSlot.cpp", ("\nvoid long_()\n{\n" + "    step();\n" * 47 + "}\n") * 120)
         self.assert_named("src/node/cycle/NodeSlot.cpp:", "one function of a hundred has")
 
     def test_a_room_of_the_node_has_its_own_arrows(self):

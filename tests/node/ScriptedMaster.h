@@ -198,6 +198,7 @@ private:
     void accept()
     {
         auto *handshake = new qplc::Handshake(m_listener.take(), m_security, this);
+        connect(handshake, &qplc::Handshake::tlsWanted, handshake, &qplc::Handshake::beginTls);
         connect(handshake, &qplc::Handshake::succeeded, this, [this, handshake] {
             take(new QPlcSlaveSocket(handshake->takeSocket(), this));
             handshake->deleteLater();

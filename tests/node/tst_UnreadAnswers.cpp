@@ -102,6 +102,7 @@ void tst_UnreadAnswers::peerOverTlsThatResumesReadingGetsAllAnswers()
     int asked = 0;
     connect(&listener, &qplc::ControlListener::arrived, &listener, [&] {
         auto *handshake = new qplc::Handshake(listener.take(), security, &listener);
+        connect(handshake, &qplc::Handshake::tlsWanted, handshake, &qplc::Handshake::beginTls);
         connect(handshake, &qplc::Handshake::succeeded, &listener, [&, handshake] {
             answerer.reset(new QPlcSlaveSocket(handshake->takeSocket()));
             connect(answerer.data(), &QPlcAbstractSocket::messageReceived, answerer.data(), [&] {
