@@ -25,6 +25,10 @@ private Q_SLOTS:
     void runTakesInputsFromAFile();
     void runTellsWhyItEnds_data();
     void runTellsWhyItEnds();
+    void runEndsWithAWholeStep_data() { addVersions(); }
+    void runEndsWithAWholeStep();
+    void runWritesOverNothingThatItReads();
+    void outputThatCannotBeWrittenIsAnError();
     void checkFindsFaults_data();
     void checkFindsFaults();
     void benchCountsItsSteps();
@@ -250,6 +254,7 @@ void tst_qtplc_fmu::runTellsWhyItEnds_data()
         QTest::addRow("%s error", file) << file << 3 << 1 << "in a step: 'the tank is empty'";
         QTest::addRow("%s fatal", file) << file << 4 << 1 << "the FMU reports a fatal error";
         QTest::addRow("%s crash", file) << file << 6 << -SIGSEGV << "the FMU has crashed in fmi";
+        QTest::addRow("%s exits", file) << file << 12 << 1 << "the FMU has ended the process in fmi";
     }
 }
 
@@ -266,6 +271,40 @@ void tst_qtplc_fmu::runTellsWhyItEnds()
     // A folder that a crash has left is removed by the next process.
     QCOMPARE(run({"run", pathOf("plant2"), "--out", "out.csv"}).code, 0);
     QVERIFY(QDir(m_folder.filePath("temporary")).isEmpty());
+}
+
+/// The FMU refuses steps that go beyond the stop time that it was told.
+void tst_qtplc_fmu::runEndsWithAWholeStep()
+{
+    QFETCH(QString, file);
+    const Run done = run({"run", pathOf(file), "--stop", "0.25", "--step", "0.1", "--out", "out.csv"});
+    QVERIFY2(done.code == 0, qPrintable(done.errors));
+    QFile csv(m_folder.filePath("out.csv"));
+    QVERIFY(csv.open(QIODevice::ReadOnly));
+    QCOMPARE(csv.readAll().trimmed().split('\n').size(), 5);
+}
+
+void tst_qtplc_fmu::runWritesOverNothingThatItReads()
+{
+    QVERIFY(QFile::copy(pathOf("plant2"), m_folder.filePath("copy.fmu")));
+    const QString inputs = write("read.csv", "time,u\n0,1\n");
+    for (const QString &file : {QStringLiteral("copy.fmu"), inputs}) {
+        const qint64 size = QFileInfo(m_folder.filePath(file)).size();
+        const Run refused = run({"run", "copy.fmu", "--in", inputs, "--out", file});
+        QCOMPARE(refused.code, 2);
+        QVERIFY2(refused.errors.contains("--out names a file that is read"), qPrintable(refused.errors));
+        QCOMPARE(QFileInfo(m_folder.filePath(file)).size(), size);
+    }
+}
+
+void tst_qtplc_fmu::outputThatCannotBeWrittenIsAnError()
+{
+    QProcess process;
+    process.setStandardOutputFile(QStringLiteral("/dev/full"));
+    process.start(QStringLiteral(QTPLC_FMU_PROGRAM), {"signals", pathOf("plant2")});
+    QVERIFY(process.waitForFinished(60000));
+    QCOMPARE(process.exitCode(), 1);
+    QVERIFY(process.readAllStandardError().contains("the output cannot be written"));
 }
 
 void tst_qtplc_fmu::checkFindsFaults_data()

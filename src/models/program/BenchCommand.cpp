@@ -86,7 +86,7 @@ int bench(int argc, char **argv)
         || (application.isSet(QStringLiteral("period"))
             && !application.number(QStringLiteral("period"), 1e-6, 3600.0, &period)))
         return application.exitCode();
-    const std::unique_ptr<LoneModel> alone = LoneModel::open(application);
+    const std::unique_ptr<LoneModel> alone = LoneModel::open(application, count);
     if (!alone)
         return application.exitCode();
     Durations durations;

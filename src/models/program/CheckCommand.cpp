@@ -75,7 +75,7 @@ int check(int argc, char **argv)
     LoneModel::addOptions(application);
     if (!application.parseOptions())
         return application.exitCode();
-    const std::unique_ptr<LoneModel> alone = LoneModel::open(application);
+    const std::unique_ptr<LoneModel> alone = LoneModel::open(application, mostCheckedSteps);
     if (!alone)
         return application.exitCode();
     QStringList faults;

@@ -70,10 +70,22 @@ void tellHang(int)
     std::_Exit(1);
 }
 
+/// Whoever calls exit() ends up here, in the same thread.
+void tellExit()
+{
+    if (!qplc::FmuInstance::isCallingHere())
+        return;
+    write("qtplc_fmu: the FMU has ended the process in ");
+    write(qplc::FmuInstance::lastCall());
+    write(": it has called exit(); tell the maker of the FMU\n");
+    std::_Exit(1);
+}
+
 }  // namespace
 
 void CrashReport::install()
 {
+    std::atexit(tellExit);
     for (int signal : {SIGSEGV, SIGFPE, SIGILL, SIGBUS, SIGABRT})
         std::signal(signal, tellCrash);
     std::signal(SIGALRM, tellHang);

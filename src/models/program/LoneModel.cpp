@@ -6,6 +6,7 @@
 #include "QPlcValue.h"
 #include "signals/MessageText.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace fmu {
@@ -38,7 +39,7 @@ void LoneModel::addOptions(QPlcApplicationOptions &application)
         {QStringLiteral("log"), QStringLiteral("The FMU reports more than warnings and errors, if it can.")});
 }
 
-std::unique_ptr<LoneModel> LoneModel::open(QPlcApplicationOptions &application)
+std::unique_ptr<LoneModel> LoneModel::open(QPlcApplicationOptions &application, qint64 usualSteps)
 {
     const QString file = fileOf(application);
     if (file.isEmpty())
@@ -50,7 +51,7 @@ std::unique_ptr<LoneModel> LoneModel::open(QPlcApplicationOptions &application)
         application.usageError(error);
         return nullptr;
     }
-    if (!result->readSettings(application))
+    if (!result->readSettings(application, usualSteps))
         return nullptr;
     for (const FmuVariable &variable : result->m_model->description().variables) {
         if (variable.causality == FmuVariable::Output && variable.isNumber() && variable.count > 0)
@@ -59,12 +60,12 @@ std::unique_ptr<LoneModel> LoneModel::open(QPlcApplicationOptions &application)
     return result;
 }
 
-bool LoneModel::readSettings(QPlcApplicationOptions &application)
+bool LoneModel::readSettings(QPlcApplicationOptions &application, qint64 usualSteps)
 {
     const FmuDescription &description = m_model->description();
     const double start = description.startTime.value_or(0.0);
     double step = description.stepSize.value_or(description.fixedInternalStep.value_or(0.0));
-    double stop = description.stopTime.value_or(0.0);
+    double stop = description.stopTime.value_or(start);
     FmuModel::Settings settings;
     double tolerance = 0.0;
     const auto read = [&](const char *name, double minimum, double maximum, double *number) {
@@ -74,6 +75,8 @@ bool LoneModel::readSettings(QPlcApplicationOptions &application)
     if (!read("step", shortestStep, longestTime, &step) || !read("stop", start, longestTime, &stop)
         || !read("tolerance", 1e-300, 1.0, &tolerance) || !readStarts(application, &settings))
         return false;
+    if (!application.isSet(QStringLiteral("stop")) && !description.stopTime)
+        stop = start + double(usualSteps) * step;
     if (!(step >= shortestStep) || !(stop > start)) {
         application.usageError(QStringLiteral("the FMU does not say how long it should run; add --%1 SECONDS")
                                    .arg(step >= shortestStep ? QStringLiteral("stop") : QStringLiteral("step")));
@@ -86,7 +89,7 @@ bool LoneModel::readSettings(QPlcApplicationOptions &application)
     }
     m_step = std::chrono::nanoseconds(std::llround(step * 1e9));
     m_stepCount = std::max<qint64>(std::llround(std::ceil(count - 1e-6)), 1);
-    settings.stopTime = stop;
+    settings.stopTime = std::max(stop, start + double(m_stepCount) * step);  // an FMU need not go beyond it
     settings.logs = application.isSet(QStringLiteral("log"));
     if (application.isSet(QStringLiteral("tolerance")))
         settings.tolerance = tolerance;

@@ -20,13 +20,15 @@ public:
 
     /// --step, --stop, --tolerance, --set, --log
     static void addOptions(QPlcApplicationOptions &application);
+    /// \param usualSteps  when neither options nor the FMU say how long it should run; 0: that is
+    /// an error
     /// \return null, with the message out, when an option is wrong or the FMU cannot be used
-    static std::unique_ptr<LoneModel> open(QPlcApplicationOptions &application);
+    static std::unique_ptr<LoneModel> open(QPlcApplicationOptions &application, qint64 usualSteps = 0);
 
     qplc::FmuModel &model() { return *m_model; }
     const QVector<Output> &outputs() const { return m_outputs; }
     std::chrono::nanoseconds step() const { return m_step; }
-    /// Number of steps until the end.
+    /// Number of steps until the end; the last one may go beyond --stop.
     qint64 stepCount() const { return m_stepCount; }
     /// The bytes of an output.
     const char *bytesOf(const Output &output) { return m_model->outputs().at(output.place); }
@@ -37,7 +39,7 @@ public:
     void printLog();
 
 private:
-    bool readSettings(QPlcApplicationOptions &application);
+    bool readSettings(QPlcApplicationOptions &application, qint64 usualSteps);
     bool readStarts(QPlcApplicationOptions &application, qplc::FmuModel::Settings *settings);
 
     std::unique_ptr<qplc::FmuModel> m_model;

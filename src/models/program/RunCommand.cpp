@@ -6,6 +6,7 @@
 #include "QPlcValue.h"
 
 #include <QtCore/QFile>
+#include <QtCore/QFileInfo>
 
 #include <stdexcept>
 
@@ -22,6 +23,11 @@ public:
     {
     }
     bool open() { return m_file.open(QIODevice::WriteOnly | QIODevice::Truncate); }
+    bool isTheFile(const QString &other) const
+    {
+        const QString place = QFileInfo(m_file.fileName()).canonicalFilePath();
+        return !place.isEmpty() && place == QFileInfo(other).canonicalFilePath();
+    }
     void writeHeader(LoneModel &alone)
     {
         QByteArray line = "time";
@@ -113,6 +119,9 @@ int runAlone(int argc, char **argv)
     if (hasInputs && !inputs.open(application.value(QStringLiteral("in")), &alone->model(), &error))
         return application.usageError(QStringLiteral("--in: %1").arg(error));
     OutputFile output(application.value(QStringLiteral("out")));
+    if (output.isTheFile(fileOf(application))
+        || (hasInputs && output.isTheFile(application.value(QStringLiteral("in")))))
+        return application.usageError(QStringLiteral("--out names a file that is read; choose another one"));
     if (!output.open())
         return application.usageError(QStringLiteral("--out: %1").arg(output.errorText()));
     try {

@@ -6,6 +6,7 @@
 #include "signals/MessageText.h"
 
 #include <algorithm>
+#include <cstdio>
 
 namespace {
 
@@ -49,5 +50,10 @@ int main(int argc, char **argv)
     const QByteArray name = argc > 1 ? argv[1] : "";
     const auto command = std::find_if(fmu::commands().begin(), fmu::commands().end(),
                                       [&](const fmu::Command &other) { return name == other.name; });
-    return command == fmu::commands().end() ? explain(argc, argv) : command->run(argc, argv);
+    const int code = command == fmu::commands().end() ? explain(argc, argv) : command->run(argc, argv);
+    if (code != QPlcCoreApplication::Success || (std::fflush(stdout) == 0 && !std::ferror(stdout)))
+        return code;
+    QPlcCoreApplication::printError(
+        QStringLiteral("the output cannot be written: its disk is full, or nobody reads it"));
+    return QPlcCoreApplication::Failure;
 }

@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
@@ -11,7 +12,7 @@ void plantReset(Plant *plant)
 {
     plant->state = Instantiated;
     plant->time = plant->u = plant->x = plant->x0 = 0.0;
-    plant->limit = plant->faultTime = 1e300;
+    plant->limit = plant->faultTime = plant->stop = 1e300;
     plant->gain = 1.0;
     plant->mode = 0;
     plant->fault = NoFault;
@@ -44,6 +45,8 @@ static int fail(Plant *plant)
     case Crashes:
         *(volatile int *)0 = 1;
         return Ok;
+    case Exits:
+        exit(0);
     case Sleeps:
         sleepFor(150);
         return Ok;
@@ -73,6 +76,10 @@ int plantStep(Plant *plant, double time, double step)
     const bool isFaulty = plant->fault != NoFault && time + step > plant->faultTime - 1e-9;
     if (fabs(time - plant->time) > 1e-9 || !(step > 0.0)) {
         plant->log(plant, Error, "this is not the time that was reached");
+        return Error;
+    }
+    if (time + step > plant->stop + 1e-9) {
+        plant->log(plant, Error, "this is beyond the stop time");
         return Error;
     }
     if (isFaulty && plant->fault != WritesNan) {

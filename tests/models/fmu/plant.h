@@ -20,7 +20,8 @@ enum Fault {
     Hangs,
     FloodsLog,
     AccessesWrongly,
-    HangsInitializing  // says so before
+    HangsInitializing,  // says so before
+    Exits
 };
 enum Reference { Time, U, X, Mode, X0, Limit, FaultKind, FaultTime, Gain, Enabled, Label, R1, R2, R3, RefCount };
 
@@ -28,7 +29,7 @@ typedef struct Plant Plant;
 struct Plant
 {
     enum State state;
-    double time, u, x, x0, limit, faultTime, gain;
+    double time, stop, u, x, x0, limit, faultTime, gain;
     int mode, fault, enabled;
     bool isAbove, usesEventMode, isDead, hasEnded;
     char label[64];

@@ -65,9 +65,11 @@ int fmi2SetDebugLogging(void *instance, int on, size_t count, const char *const 
 
 int fmi2SetupExperiment(void *instance, int hasTolerance, double tolerance, double start, int hasStop, double stop)
 {
-    (void)hasTolerance, (void)tolerance, (void)hasStop, (void)stop;
+    (void)hasTolerance, (void)tolerance;
     Plant *plant = instance;
     plant->time = start;
+    if (hasStop)
+        plant->stop = stop;
     return plant->state == Instantiated ? Ok : Error;
 }
 

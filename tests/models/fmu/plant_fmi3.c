@@ -58,8 +58,10 @@ static int move(Plant *plant, enum State from, enum State to)
 int fmi3EnterInitializationMode(void *instance, bool hasTolerance, double tolerance, double start, bool hasStop,
                                 double stop)
 {
-    (void)hasTolerance, (void)tolerance, (void)hasStop, (void)stop;
+    (void)hasTolerance, (void)tolerance;
     ((Plant *)instance)->time = start;
+    if (hasStop)
+        ((Plant *)instance)->stop = stop;
     plantInitialize(instance);
     return move(instance, Instantiated, Initialization);
 }
