@@ -5,6 +5,7 @@
 #include <QtCore/QTemporaryDir>
 #include <QtTest/QtTest>
 
+#include <stdexcept>
 #include <unistd.h>
 
 namespace {
@@ -92,6 +93,7 @@ private Q_SLOTS:
     void aSecuredNodeNeedsItsKeysOnly();
     void withoutAMasterItEndsAtOnce();
     void itEndsWithItsMaster();
+    void itEndsWithItsMasterAlsoAfterAFault();
     void itStaysWithoutItsMaster();
     void aSignalTableThatCannotBeReadEndsTheProgram();
     void aManifestIsReadFromItsFile();
@@ -238,6 +240,24 @@ void tst_NodeApplication::itEndsWithItsMaster()
         &node, &QPlcSlaveNode::connectedToMaster, &master, [&] { master.stopServer(); }, Qt::QueuedConnection);
     QCOMPARE(program.run(node), int(QPlcApplicationOptions::Success));
     QCOMPARE(node.state(), QPlcSlaveNode::Disconnected);
+}
+
+void tst_NodeApplication::itEndsWithItsMasterAlsoAfterAFault()
+{
+    LogCapture log;
+    Program program({"--master", "tcp://127.0.0.1:00000"});
+    TestMaster master;
+    QVERIFY(master.listen());
+    program.setLastArgument(QString("tcp://127.0.0.1:%1").arg(master.serverPort(), 5, 10, QLatin1Char('0')));
+    CounterNode node;
+    node.onStep = [](const QPlcCycle &) { throw std::runtime_error("the model is broken"); };
+    QObject::connect(
+        &node, &QPlcSlaveNode::connectedToMaster, &master, [&] { master.startRealTime(); }, Qt::QueuedConnection);
+    QObject::connect(
+        &node, &QPlcSlaveNode::errorOccurred, &master, [&] { master.stopServer(); }, Qt::QueuedConnection);
+    QTimer::singleShot(20'000, program.application.get(), [] { QCoreApplication::exit(-1); });
+    QCOMPARE(program.run(node), int(QPlcApplicationOptions::Success));
+    QCOMPARE(node.error(), QPlcSlaveNode::UserCodeError);
 }
 
 void tst_NodeApplication::itStaysWithoutItsMaster()

@@ -133,12 +133,12 @@ int QPlcNodeApplication::run(QPlcSlaveNode &node)
     service.setReady();    // one that stays does its work already when it waits for its master
     if (!stays) {
         connect(&node, &QPlcSlaveNode::disconnectedFromMaster, this, [this, &node] {
-            // When the master was lost, and did not just end, the error follows, and the node
-            // connects again.
+            // When the master was lost, and did not just end, its error follows, and the node
+            // connects again. An error of the code of the node may still be there.
             QMetaObject::invokeMethod(
                 this,
                 [&node] {
-                    if (node.state() == QPlcSlaveNode::Disconnected && node.error() == QPlcSlaveNode::NoError)
+                    if (node.state() == QPlcSlaveNode::Disconnected && node.error() != QPlcSlaveNode::ConnectionError)
                         exit(Success);
                 },
                 Qt::QueuedConnection);
