@@ -21,6 +21,12 @@ QPlcValue setting(const QPlcNodeRunner &runner, const char *key)
     return runner.value(QLatin1String(ExportedNode::SettingPrefix) + QLatin1String(key));
 }
 
+/// What a signal has before anybody has written it.
+void writeFirst(const QPlcSignalDefinition &signal, char *bytes)
+{
+    (signal.initial.isFinite() ? signal.initial : signal.safeValue()).toBytes(bytes);
+}
+
 std::chrono::nanoseconds duration(const QPlcNodeRunner &runner, const char *key)
 {
     return std::chrono::nanoseconds(qRound64(setting(runner, key).toReal() * 1e9));
@@ -35,7 +41,7 @@ BytesPort::BytesPort(QPlcCompactSlaveNode *node, const QPlcSignalDefinition &sig
     : QPlcPort(node, signal.name.toUtf8().constData(), direction, timing)
     , m_type(signal.type)
 {
-    (signal.initial.isFinite() ? signal.initial : signal.safeValue()).toBytes(m_bytes.data());
+    writeFirst(signal, m_bytes.data());
 }
 
 bool BytesPort::set(const char *bytes)
@@ -214,9 +220,8 @@ bool HeldPlantNode::makeReady(QString *error)
 void HeldPlantNode::reset()
 {
     for (std::size_t i = 0; i < m_outputs.size(); ++i) {
-        const QPlcSignalDefinition &signal = m_table.at(m_table.indexOf(m_outputs[i]->name()));
         BytesPort::Bytes bytes;
-        (signal.initial.isFinite() ? signal.initial : signal.safeValue()).toBytes(bytes.data());
+        writeFirst(m_table.at(m_table.indexOf(m_outputs[i]->name())), bytes.data());
         m_outputs[i]->set(m_isOpen ? m_reader->ports()[i]->bytes() : bytes.data());
     }
 }

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Crc32c.h"
 
-#include "LittleEndian.h"
-
-#include <array>
+#include "TabledCrc.h"
 
 #if defined(__x86_64__)
 #include <nmmintrin.h>
@@ -17,44 +15,10 @@ namespace qplc {
 namespace {
 
 constexpr std::uint32_t Polynomial = 0x82F63B78;  // bits reflected
-constexpr std::size_t Word = sizeof(std::uint64_t);
+[[maybe_unused]] constexpr std::size_t Word = sizeof(std::uint64_t);
 
-// tables[n][b]: what byte b adds to the checksum when n more bytes follow it.
-using Tables = std::array<std::array<std::uint32_t, 256>, Word>;
-
-constexpr Tables makeTables()
-{
-    Tables tables{};
-    for (std::uint32_t byte = 0; byte < 256; ++byte) {
-        std::uint32_t crc = byte;
-        for (int bit = 0; bit < 8; ++bit)
-            crc = (crc >> 1) ^ ((crc & 1) != 0 ? Polynomial : 0);
-        tables[0][byte] = crc;
-    }
-    for (std::size_t n = 1; n < tables.size(); ++n) {
-        for (std::size_t byte = 0; byte < 256; ++byte)
-            tables[n][byte] = (tables[n - 1][byte] >> 8) ^ tables[0][tables[n - 1][byte] & 0xFF];
-    }
-    return tables;
-}
-
-constexpr Tables CrcTables = makeTables();
-
-// Each step below goes on with the state of the register, which is the inverted checksum.
-
-std::uint32_t byteByTable(std::uint32_t state, char byte) noexcept
-{
-    return (state >> 8) ^ CrcTables[0][(state ^ std::uint8_t(byte)) & 0xFF];
-}
-
-std::uint32_t wordByTable(std::uint32_t state, std::uint64_t word) noexcept
-{
-    word ^= state;
-    std::uint32_t next = 0;
-    for (std::size_t i = 0; i < Word; ++i)
-        next ^= CrcTables[Word - 1 - i][(word >> (8 * i)) & 0xFF];
-    return next;
-}
+// Each step of an instruction goes on with the state of the register, which is the inverted
+// checksum.
 
 #if defined(__x86_64__)
 
@@ -121,13 +85,7 @@ std::uint32_t crc32c(std::uint32_t crc, const void *bytes, std::size_t size) noe
 
 std::uint32_t crc32cByTable(std::uint32_t crc, const void *bytes, std::size_t size) noexcept
 {
-    const char *next = static_cast<const char *>(bytes);
-    std::uint32_t state = ~crc;
-    for (; size >= Word; size -= Word, next += Word)
-        state = wordByTable(state, loadLittle<std::uint64_t>(next));
-    for (; size > 0; --size, ++next)
-        state = byteByTable(state, *next);
-    return ~state;
+    return TabledCrc<Polynomial>::of(crc, static_cast<const char *>(bytes), size);
 }
 
 }  // namespace qplc

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "protocol/LittleEndian.h"
+#include "protocol/TabledCrc.h"
 
 #include <QtCore/QByteArray>
 #include <QtCore/QMap>
@@ -38,7 +38,10 @@ constexpr int MessageHeadSize = 22;  // channel, sequence, two times
 constexpr int FooterSize = RecordHeadSize + 20;
 
 /// CRC-32 of zlib. \param crc  of the bytes before
-std::uint32_t crc32(const char *bytes, std::size_t size, std::uint32_t crc = 0) noexcept;
+inline std::uint32_t crc32(const char *bytes, std::size_t size, std::uint32_t crc = 0) noexcept
+{
+    return TabledCrc<0xEDB88320>::of(crc, bytes, size);
+}
 
 /// Fields, one behind the other.
 class Fields

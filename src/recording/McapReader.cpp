@@ -68,6 +68,24 @@ bool hasItsLength(std::uint8_t opcode, const QByteArray &content)
     return fields.isWhole() && fields.left() == 0;
 }
 
+/// Records in a chunk. \param take  gets opcode, fields and place of each of them; the first one
+/// that it refuses is the last one
+/// \return false when one was refused, or is cut
+template<typename Take>
+bool forEachRecord(const QByteArray &records, Take take)
+{
+    FieldReader reader(records.constData(), std::size_t(records.size()));
+    while (reader.left() > 0) {
+        const auto offset = std::uint64_t(reader.at() - records.constData());
+        const auto opcode = reader.number<std::uint8_t>();
+        const auto length = reader.number<std::uint64_t>();
+        const char *content = reader.skip(length);
+        if (!content || !take(opcode, FieldReader(content, std::size_t(length)), offset))
+            return false;
+    }
+    return true;
+}
+
 }  // namespace
 
 ScanHandler::~ScanHandler() = default;
@@ -235,15 +253,7 @@ std::uint64_t Reader::nextChunk(std::uint64_t from)
 bool forEachMessage(const QByteArray &records, const std::function<void(const Channel &channel)> &isChannel,
                     const std::function<void(const Message &message, std::uint64_t offset)> &found)
 {
-    FieldReader reader(records.constData(), std::size_t(records.size()));
-    while (reader.left() > 0) {
-        const auto offset = std::uint64_t(reader.at() - records.constData());
-        const auto opcode = reader.number<std::uint8_t>();
-        const auto length = reader.number<std::uint64_t>();
-        const char *content = reader.skip(length);
-        if (!content)
-            return false;
-        FieldReader fields(content, std::size_t(length));
+    return forEachRecord(records, [&](std::uint8_t opcode, FieldReader fields, std::uint64_t offset) {
         if (opcode == ChannelOpcode) {
             Channel channel;
             if (!Channel::read(fields, &channel))
@@ -261,21 +271,18 @@ bool forEachMessage(const QByteArray &records, const std::function<void(const Ch
                 return false;
             found(message, offset);
         }
-    }
-    return true;
+        return true;
+    });
 }
 
 void forEachSchema(const QByteArray &records, const std::function<void(const Schema &schema)> &found)
 {
-    FieldReader reader(records.constData(), std::size_t(records.size()));
-    while (reader.left() > 0) {
-        const auto opcode = reader.number<std::uint8_t>();
-        const auto length = reader.number<std::uint64_t>();
-        const char *content = reader.skip(length);
+    forEachRecord(records, [&](std::uint8_t opcode, FieldReader fields, std::uint64_t) {
         Schema schema;
-        if (content && opcode == SchemaOpcode && Schema::read(FieldReader(content, std::size_t(length)), &schema))
+        if (opcode == SchemaOpcode && Schema::read(fields, &schema))
             found(schema);
-    }
+        return true;
+    });
 }
 
 }  // namespace qplc::mcap

@@ -110,8 +110,7 @@ PlantRecorder::Progress PlantRecorder::proceed(QString *error)
             return save(false, error) ? Ended : Failed;
         const RingReader::Result result = m_reader.next();
         if (result == RingReader::Found) {
-            if (!add(error))
-                return Failed;
+            add();
             any = true;
             continue;
         }
@@ -129,12 +128,12 @@ PlantRecorder::Progress PlantRecorder::proceed(QString *error)
     }
 }
 
-bool PlantRecorder::add(QString *error)
+void PlantRecorder::add()
 {
     bool isWhole = true;
-    if (m_reader.kind() == RecordKind::Cycle)
-        return addCycle(error);
-    if (m_reader.kind() == RecordKind::Gap) {
+    if (m_reader.kind() == RecordKind::Cycle) {
+        addCycle();
+    } else if (m_reader.kind() == RecordKind::Gap) {
         const auto gap = recordIn<RecordedGap>(m_reader, &isWhole);
         if (isWhole)
             addGap(gap);
@@ -144,15 +143,14 @@ bool PlantRecorder::add(QString *error)
             addEnd(end);
     }
     m_isDamaged = m_isDamaged || !isWhole;
-    return true;
 }
 
-bool PlantRecorder::addCycle(QString * /*error*/)
+void PlantRecorder::addCycle()
 {
     CycleView view;
     if (!CycleView::read(m_reader.body(), m_reader.size(), &view) || view.cycle.imageSize != m_message->imageSize()) {
         m_isDamaged = true;
-        return true;
+        return;
     }
     const RecordedCycle &cycle = view.cycle;
     const std::uint64_t next = cycle.number - cycle.skipped;
@@ -174,7 +172,6 @@ bool PlantRecorder::addCycle(QString * /*error*/)
     m_digest = cycle.digest;
     m_hasDigest = false;
     ++m_cycles;
-    return true;
 }
 
 void PlantRecorder::addNodes(const CycleView &view)

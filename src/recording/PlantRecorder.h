@@ -50,8 +50,8 @@ public:
     std::uint64_t bytes() const { return m_writer ? m_writer->size() : 0; }
 
 private:
-    bool add(QString *error);
-    bool addCycle(QString *error);
+    void add();
+    void addCycle();
     void addNodes(const CycleView &view);
     void addRaw(const CycleView &view);
     void addGap(const RecordedGap &gap);

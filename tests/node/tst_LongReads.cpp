@@ -60,6 +60,16 @@ QPlcSignalTable table()
     return QPlcSignalTable::fromIni(ini);
 }
 
+/// Its registration is long.
+void listenToAll(ScriptedNode *node)
+{
+    node->table = table();
+    node->onlyListen();
+    node->inputs.clear();
+    for (int i = 0; i < Signals; ++i)
+        node->inputs << QStringLiteral("signal_%1").arg(i);
+}
+
 const QJsonObject longWish{{"values", QJsonObject{{"nothing", QString(Long, 'x')}}}};
 
 struct OpenSocket : QPlcMasterSocket
@@ -212,11 +222,7 @@ void tst_LongReads::longGarbageEndsItsConnection()
 void tst_LongReads::nodeWithManySignalsRegisters()
 {
     ScriptedNode node("Counter");
-    node.table = table();
-    node.onlyListen();
-    node.inputs.clear();
-    for (int i = 0; i < Signals; ++i)
-        node.inputs << QStringLiteral("signal_%1").arg(i);
+    listenToAll(&node);
     QVERIFY(QJsonDocument(node.registerFields()).toJson(QJsonDocument::Compact).size()
             > int(qplc::ControlFrameReader::ReadAtOnce));
     QVERIFY(node.registerAt(m_master->serverPort()));
@@ -226,11 +232,7 @@ void tst_LongReads::nodeWithManySignalsRegisters()
 void tst_LongReads::manySignalsAreComparedWithTheTableMeanwhile()
 {
     ScriptedNode node("Counter");
-    node.table = table();
-    node.onlyListen();
-    node.inputs.clear();
-    for (int i = 0; i < Signals; ++i)
-        node.inputs << QStringLiteral("signal_%1").arg(i);
+    listenToAll(&node);
     QVERIFY(node.connectTo(m_master->serverPort()));
     node.send(QPlcMessage::Hello, node.helloFields());
     QCOMPARE(node.next().kind(), QPlcMessage::Hello);

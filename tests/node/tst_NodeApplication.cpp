@@ -39,6 +39,8 @@ private:
     std::FILE *m_file;
 };
 
+const char anyPort[] = "tcp://127.0.0.1:00000";
+
 /// A command line, and the application that reads it.
 class Program
 {
@@ -56,10 +58,11 @@ public:
     }
     std::unique_ptr<QPlcNodeApplication> application;
 
-    /// Before the options are read: a port is known only when there is an application.
-    /// \param text  as long as the argument is now
-    void setLastArgument(const QString &text)
+    /// Before the options are read: a port is known only when there is an application. The last
+    /// argument is that of anyPort, and becomes the address of \a master.
+    void setMaster(const TestMaster &master)
     {
+        const QString text = QStringLiteral("tcp://127.0.0.1:%1").arg(master.serverPort(), 5, 10, QLatin1Char('0'));
         Q_ASSERT(m_bytes.last().size() == text.size());
         std::copy_n(text.toLatin1().constData(), text.size(), m_pointers[std::size_t(m_count - 1)]);
     }
@@ -231,10 +234,10 @@ void tst_NodeApplication::withoutAMasterItEndsAtOnce()
 void tst_NodeApplication::itEndsWithItsMaster()
 {
     LogCapture log;
-    Program program({"--master", "tcp://127.0.0.1:00000"});
+    Program program({"--master", anyPort});
     TestMaster master;
     QVERIFY(master.listen());
-    program.setLastArgument(QString("tcp://127.0.0.1:%1").arg(master.serverPort(), 5, 10, QLatin1Char('0')));
+    program.setMaster(master);
     CounterNode node;
     QObject::connect(
         &node, &QPlcSlaveNode::connectedToMaster, &master, [&] { master.stopServer(); }, Qt::QueuedConnection);
@@ -245,10 +248,10 @@ void tst_NodeApplication::itEndsWithItsMaster()
 void tst_NodeApplication::itEndsWithItsMasterAlsoAfterAFault()
 {
     LogCapture log;
-    Program program({"--master", "tcp://127.0.0.1:00000"});
+    Program program({"--master", anyPort});
     TestMaster master;
     QVERIFY(master.listen());
-    program.setLastArgument(QString("tcp://127.0.0.1:%1").arg(master.serverPort(), 5, 10, QLatin1Char('0')));
+    program.setMaster(master);
     CounterNode node;
     node.onStep = [](const QPlcCycle &) { throw std::runtime_error("the model is broken"); };
     QObject::connect(

@@ -70,7 +70,7 @@ void tellHang(int)
     std::_Exit(1);
 }
 
-/// Whoever calls exit() ends up here, in the same thread.
+/// exit() calls this, in the thread that has called exit().
 void tellExit()
 {
     if (!qplc::FmuInstance::isCallingHere())

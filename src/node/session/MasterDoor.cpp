@@ -90,7 +90,7 @@ bool MasterDoor::accept(int descriptor)
     return true;
 }
 
-/// Whoever has used up the handshakes of his address is closed before one costs anything.
+/// A connection whose address has used up its handshakes is closed before one costs anything.
 void MasterDoor::handshakeWanted(ConnectionGate::Ticket ticket)
 {
     if (m_gate.hear(ticket, monotonicNow())) {
@@ -105,7 +105,7 @@ void MasterDoor::handshakeWanted(ConnectionGate::Ticket ticket)
     Q_EMIT refused(QString(), from, QString::fromLatin1(ConnectionGate::textOf(ConnectionGate::TooManyHandshakes)));
 }
 
-/// A few in each turn of the event loop, whoever and however many they are.
+/// A few in each turn of the event loop, of all addresses together.
 void MasterDoor::beginHandshakes()
 {
     for (int begun = 0; begun < HandshakesInATurn && !m_beginning.empty();) {
