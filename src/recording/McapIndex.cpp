@@ -72,6 +72,23 @@ bool ChunkEntry::read(FieldReader fields, ChunkEntry *entry)
     return fields.isWhole() && inside.isWhole();
 }
 
+QByteArray attachmentRecord(const QByteArray &name, const QByteArray &mediaType, const QByteArray &data,
+                            std::uint64_t time, std::uint64_t offset, NamedEntry *entry)
+{
+    const QByteArray fields = Fields()
+                                  .number(time)
+                                  .number(time)
+                                  .text(name)
+                                  .text(mediaType)
+                                  .number(std::uint64_t(data.size()))
+                                  .raw(data)
+                                  .bytes();
+    const std::uint32_t crc = crc32(fields.constData(), std::size_t(fields.size()));
+    const QByteArray record = recordOf(AttachmentOpcode, Fields().raw(fields).number(crc).bytes());
+    *entry = {name, mediaType, offset, std::uint64_t(record.size()), time, std::uint64_t(data.size())};
+    return record;
+}
+
 QByteArray Index::statistics() const
 {
     QMap<std::uint16_t, std::uint64_t> counts;
@@ -149,6 +166,13 @@ QByteArray Index::end(std::uint64_t offset) const
     const QByteArray checked = summary + footerHead;
     const std::uint32_t crc = crc32(checked.constData(), std::size_t(checked.size()));
     return dataEnd + checked + Fields().number(crc).bytes() + QByteArray(Magic, MagicSize);
+}
+
+std::uint16_t channelOf(const Index &index, const QByteArray &topic)
+{
+    const auto found = std::find_if(index.channels.begin(), index.channels.end(),
+                                    [&](const Channel &channel) { return channel.topic == topic; });
+    return found == index.channels.end() ? std::uint16_t(0) : found->id;
 }
 
 QByteArray messageIndexes(const std::vector<MessageEntry> &messages, std::uint64_t offset, ChunkEntry *chunk)

@@ -66,6 +66,10 @@ struct NamedEntry
     std::uint64_t dataSize = 0;
 };
 
+/// The record of an attachment that stands at \a offset of the file, and its entry.
+QByteArray attachmentRecord(const QByteArray &name, const QByteArray &mediaType, const QByteArray &data,
+                            std::uint64_t time, std::uint64_t offset, NamedEntry *entry);
+
 /// All that the summary at the end of a file says.
 struct Index
 {
@@ -81,6 +85,9 @@ struct Index
 private:
     QByteArray statistics() const;
 };
+
+/// The id of the channel of a \a topic. 0: there is none
+std::uint16_t channelOf(const Index &index, const QByteArray &topic);
 
 /// The index of the messages of a chunk that ends at \a offset: a record for each channel.
 QByteArray messageIndexes(const std::vector<MessageEntry> &messages, std::uint64_t offset, ChunkEntry *chunk);

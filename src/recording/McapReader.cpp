@@ -10,6 +10,7 @@ namespace qplc::mcap {
 namespace {
 
 constexpr std::uint64_t LargestRecord = std::uint64_t(1) << 30;
+constexpr std::uint64_t LargestOutline = std::uint64_t(1) << 20;
 
 /// The records of the chunk with this \a content. \return false when it is damaged
 bool readChunkContent(const QByteArray &content, ChunkEntry *entry, QByteArray *records)
@@ -41,7 +42,7 @@ bool hasItsTimes(const ChunkEntry &entry, const QByteArray &records)
     return isWhole && begin == entry.begin && end == entry.end;
 }
 
-bool readAttachment(const QByteArray &content, Attachment *attachment)
+bool readAttachmentContent(const QByteArray &content, Attachment *attachment)
 {
     FieldReader fields(content.constData(), std::size_t(content.size()));
     attachment->time = fields.number<std::uint64_t>();
@@ -86,9 +87,52 @@ bool forEachRecord(const QByteArray &records, Take take)
     return true;
 }
 
+bool readEntry(FieldReader fields, NamedEntry *entry)
+{
+    entry->offset = fields.number<std::uint64_t>();
+    entry->length = fields.number<std::uint64_t>();
+    entry->time = fields.number<std::uint64_t>();
+    fields.number<std::uint64_t>();
+    entry->dataSize = fields.number<std::uint64_t>();
+    entry->name = fields.text();
+    entry->mediaType = fields.text();
+    return fields.isWhole();
+}
+
+bool readStatistics(FieldReader fields, Outline *outline)
+{
+    outline->messages = fields.number<std::uint64_t>();
+    fields.skip(2 + 4 * 4);
+    outline->begin = fields.number<std::uint64_t>();
+    outline->end = fields.number<std::uint64_t>();
+    return fields.isWhole();
+}
+
 }  // namespace
 
 ScanHandler::~ScanHandler() = default;
+
+void Indexer::chunk(const ChunkEntry &entry, const QByteArray &records)
+{
+    forEachSchema(records, [this](const Schema &schema) { index.schemas.push_back(schema); });
+    index.chunks.push_back(entry);
+    messages.clear();
+    forEachMessage(
+        records, [this](const Channel &channel) { add(channel); },
+        [this](const Message &message, std::uint64_t offset) {
+            messages.push_back({message.channel, message.time, offset});
+        });
+    indexes.push_back(messageIndexes(messages, entry.offset + entry.length, &index.chunks.back()));
+}
+
+void Indexer::add(const Channel &channel)
+{
+    for (const Channel &known : index.channels) {
+        if (known.id == channel.id)
+            return;
+    }
+    index.channels.push_back(channel);
+}
 
 bool Reader::open(const QString &file, QString *error)
 {
@@ -143,8 +187,58 @@ bool Reader::readSummary(Index *index)
             return false;
         if (opcode == ChannelOpcode && !Channel::read(inside, &index->channels.emplace_back()))
             return false;
+        if (opcode == AttachmentIndexOpcode && !readEntry(inside, &index->attachments.emplace_back()))
+            return false;
     }
     return true;
+}
+
+bool Reader::readOutline(Outline *outline)
+{
+    *outline = {};
+    if (size() < FooterSize + 2 * MagicSize)
+        return false;
+    const QByteArray footer = read(size() - MagicSize - FooterSize, FooterSize + MagicSize);
+    FieldReader fields(footer.constData() + RecordHeadSize, std::size_t(footer.size() - RecordHeadSize));
+    fields.skip(8);
+    const auto offsets = fields.number<std::uint64_t>();
+    if (footer.at(0) != char(FooterOpcode) || !footer.endsWith(QByteArray(Magic, MagicSize))
+        || offsets > size() - MagicSize - FooterSize)
+        return false;
+    const QByteArray groups = read(offsets, std::min(size() - MagicSize - FooterSize - offsets, LargestOutline));
+    bool hasStatistics = false;
+    const bool isWhole = forEachRecord(groups, [&](std::uint8_t opcode, FieldReader group, std::uint64_t) {
+        const auto kind = group.number<std::uint8_t>();
+        const auto begin = group.number<std::uint64_t>();
+        const auto length = group.number<std::uint64_t>();
+        if (opcode != SummaryOffsetOpcode || (kind != StatisticsOpcode && kind != AttachmentIndexOpcode))
+            return true;
+        return forEachRecord(read(begin, std::min(length, LargestOutline)),
+                             [&](std::uint8_t inside, FieldReader record, std::uint64_t) {
+                                 if (inside == AttachmentIndexOpcode)
+                                     return readEntry(record, &outline->attachments.emplace_back());
+                                 hasStatistics = inside == StatisticsOpcode && readStatistics(record, outline);
+                                 return hasStatistics;
+                             });
+    });
+    return isWhole && hasStatistics;
+}
+
+bool Reader::readIndex(Index *index)
+{
+    if (readSummary(index))
+        return true;
+    Indexer indexer;
+    scan(indexer);
+    *index = std::move(indexer.index);
+    return false;
+}
+
+bool Reader::readAttachment(const NamedEntry &entry, Attachment *attachment)
+{
+    const QByteArray record = read(entry.offset, entry.length);
+    return record.size() > RecordHeadSize && record.at(0) == char(AttachmentOpcode)
+        && readAttachmentContent(record.mid(RecordHeadSize), attachment);
 }
 
 bool Reader::readChunk(const ChunkEntry &entry, QByteArray *records)
@@ -198,7 +292,7 @@ bool Reader::handle(std::uint8_t opcode, const QByteArray &content, std::uint64_
     }
     if (opcode == AttachmentOpcode) {
         Attachment attachment;
-        if (!readAttachment(content, &attachment))
+        if (!readAttachmentContent(content, &attachment))
             return false;
         m_goodEnd = offset + length;
         handler.attachment(attachment,
@@ -250,6 +344,17 @@ std::uint64_t Reader::nextChunk(std::uint64_t from)
     return size();
 }
 
+bool readMessage(FieldReader fields, Message *message)
+{
+    message->channel = fields.number<std::uint16_t>();
+    message->sequence = fields.number<std::uint32_t>();
+    message->time = fields.number<std::uint64_t>();
+    message->published = fields.number<std::uint64_t>();
+    message->bytes = fields.at();
+    message->size = fields.left();
+    return fields.isWhole();
+}
+
 bool forEachMessage(const QByteArray &records, const std::function<void(const Channel &channel)> &isChannel,
                     const std::function<void(const Message &message, std::uint64_t offset)> &found)
 {
@@ -261,13 +366,7 @@ bool forEachMessage(const QByteArray &records, const std::function<void(const Ch
             isChannel(channel);
         } else if (opcode == MessageOpcode) {
             Message message;
-            message.channel = fields.number<std::uint16_t>();
-            message.sequence = fields.number<std::uint32_t>();
-            message.time = fields.number<std::uint64_t>();
-            message.published = fields.number<std::uint64_t>();
-            message.bytes = fields.at();
-            message.size = fields.left();
-            if (!fields.isWhole())
+            if (!readMessage(fields, &message))
                 return false;
             found(message, offset);
         }

@@ -27,6 +27,15 @@ struct Attachment
     QByteArray data;
 };
 
+/// What a summary says of the whole file.
+struct Outline
+{
+    std::uint64_t messages = 0;
+    std::uint64_t begin = 0;  // time of its first message [ns]
+    std::uint64_t end = 0;
+    std::vector<NamedEntry> attachments;
+};
+
 /// Receives what a scan finds, in the order of the file. Everything in it has been checked against
 /// its checksum.
 class ScanHandler
@@ -38,6 +47,26 @@ public:
     virtual void chunk(const ChunkEntry & /*entry*/, const QByteArray & /*records*/) {}
     /// \param fields  without a checksum
     virtual void metadata(const QByteArray & /*fields*/, const NamedEntry & /*entry*/) {}
+};
+
+/// Builds the index of a file anew.
+class Indexer : public ScanHandler
+{
+public:
+    void attachment(const Attachment & /*attachment*/, const NamedEntry &entry) override
+    {
+        index.attachments.push_back(entry);
+    }
+    void metadata(const QByteArray & /*fields*/, const NamedEntry &entry) override { index.metadata.push_back(entry); }
+    void chunk(const ChunkEntry &entry, const QByteArray &records) override;
+
+    Index index;
+    std::vector<QByteArray> indexes;  // of the messages of each chunk
+
+private:
+    void add(const Channel &channel);
+
+    std::vector<MessageEntry> messages;
 };
 
 /// Reads a file that a Writer has written, or a part of one: cut, damaged or unfinished ones, too.
@@ -56,6 +85,15 @@ public:
 
     /// The summary at the end of the file. \return false when it is not there, or damaged
     bool readSummary(Index *index);
+    /// A few of the bytes of the summary: enough to tell files apart. Their checksum is not
+    /// checked.
+    /// \return false when they are not there
+    bool readOutline(Outline *outline);
+    /// As readSummary(), of a file that may be unfinished: then out of a scan of all of it.
+    /// \return false when the file is unfinished
+    bool readIndex(Index *index);
+    /// \return false when it is damaged
+    bool readAttachment(const NamedEntry &entry, Attachment *attachment);
     /// Reads the whole file. What is damaged is left out, with all that is not in a chunk which is
     /// whole.
     End scan(ScanHandler &handler);
@@ -65,17 +103,20 @@ public:
     int damages() const { return m_damages; }
     /// The records of a chunk, uncompressed. \return false when it is damaged
     bool readChunk(const ChunkEntry &entry, QByteArray *records);
+    /// Bytes of the file. Fewer: it ends there
+    QByteArray read(std::uint64_t offset, std::uint64_t size);
 
 private:
     bool handle(std::uint8_t opcode, const QByteArray &content, std::uint64_t offset, ScanHandler &handler);
     std::uint64_t nextChunk(std::uint64_t from);
-    QByteArray read(std::uint64_t offset, std::uint64_t size);
 
     QFile m_file;
     std::uint64_t m_goodEnd = 0;
     int m_damages = 0;
 };
 
+/// A message out of its record. \return false when it is not whole
+bool readMessage(FieldReader fields, Message *message);
 /// Calls \a found for each message in the records of a chunk, and \a isChannel for each channel.
 /// \return false when they are not whole
 bool forEachMessage(const QByteArray &records, const std::function<void(const Channel &channel)> &isChannel,

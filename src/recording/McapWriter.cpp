@@ -103,17 +103,8 @@ bool Writer::begin(const QByteArray &library, QString *error)
 bool Writer::addAttachment(const QByteArray &name, const QByteArray &mediaType, const QByteArray &data,
                            std::uint64_t time, QString *error)
 {
-    const QByteArray fields = Fields()
-                                  .number(time)
-                                  .number(time)
-                                  .text(name)
-                                  .text(mediaType)
-                                  .number(std::uint64_t(data.size()))
-                                  .raw(data)
-                                  .bytes();
-    const std::uint32_t crc = crc32(fields.constData(), std::size_t(fields.size()));
-    const QByteArray record = recordOf(AttachmentOpcode, Fields().raw(fields).number(crc).bytes());
-    const NamedEntry entry{name, mediaType, size(), std::uint64_t(record.size()), time, std::uint64_t(data.size())};
+    NamedEntry entry;
+    const QByteArray record = attachmentRecord(name, mediaType, data, time, size(), &entry);
     if (!append(record, error))
         return false;
     m_index.attachments.push_back(entry);

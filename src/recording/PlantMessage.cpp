@@ -132,6 +132,33 @@ void PlantMessage::encode(const Cycle &cycle, const char *image, QByteArray *mes
     message->truncate(int(to + qualities - message->data()));
 }
 
+PlantMessage::Cycle PlantMessage::cycleOf(const char *message)
+{
+    return {loadLittle<std::uint64_t>(message), loadLittle<std::int64_t>(message + 8),
+            loadLittle<std::uint64_t>(message + 16), loadLittle<std::uint32_t>(message + 24)};
+}
+
+bool PlantMessage::locate(const char *message, std::size_t size, std::vector<std::uint32_t> *offsets) const
+{
+    const auto qualities = std::size_t(table().size());
+    offsets->clear();
+    std::size_t at = CycleSize;
+    for (const QPlcSignalDefinition &signal : table()) {
+        offsets->push_back(std::uint32_t(at));
+        if (!signal.type.isString()) {
+            at += std::size_t(signal.type.size());
+            continue;
+        }
+        if (size < LengthSize || at > size - LengthSize)
+            return false;
+        const auto length = loadLittle<std::uint32_t>(message + at);
+        if (length > std::uint32_t(signal.type.capacity()))
+            return false;
+        at += LengthSize + length;
+    }
+    return at + qualities == size;
+}
+
 std::optional<PlantMessage::Cycle> PlantMessage::decode(const char *message, std::size_t size)
 {
     const char *at = message;
@@ -147,8 +174,7 @@ std::optional<PlantMessage::Cycle> PlantMessage::decode(const char *message, std
     const char *head = take(CycleSize);
     if (!head)
         return std::nullopt;
-    const Cycle cycle{loadLittle<std::uint64_t>(head), loadLittle<std::int64_t>(head + 8),
-                      loadLittle<std::uint64_t>(head + 16), loadLittle<std::uint32_t>(head + 24)};
+    const Cycle cycle = cycleOf(head);
     for (QPlcSignalIndex i = 0; i < QPlcSignalIndex(table().size()); ++i) {
         const QPlcSignalType type = table().at(i).type;
         char *value = m_image.data() + m_image.offset(i);

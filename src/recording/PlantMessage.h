@@ -40,6 +40,16 @@ public:
     /// The image in a message; image() has it then. \return nothing when it is not such a message
     std::optional<Cycle> decode(const char *message, std::size_t size);
     ProcessImage &image() { return m_image; }
+    const ProcessImage &image() const { return m_image; }
+
+    /// Whether there are texts, so that places in the message vary.
+    bool hasTexts() const { return m_hasTexts; }
+    /// [byte] of each message, where there are no texts.
+    std::size_t fixedSize() const { return CycleSize + m_image.size() + std::size_t(table().size()); }
+    /// Where each signal begins in a message. \return false when it is not such a message
+    bool locate(const char *message, std::size_t size, std::vector<std::uint32_t> *offsets) const;
+    /// \param message  at least CycleSize bytes
+    static Cycle cycleOf(const char *message);
 
 private:
     ProcessImage m_image;

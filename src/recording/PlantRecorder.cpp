@@ -72,6 +72,7 @@ bool PlantRecorder::attach(const QByteArray &ringFile, QString *error)
 bool PlantRecorder::begin(std::unique_ptr<mcap::FileSink> sink, QString *error)
 {
     m_writer = std::make_unique<mcap::Writer>(std::move(sink));
+    m_overview = std::make_unique<overview::Builder>(m_message->image());
     const QMap<QByteArray, QByteArray> session{
         {"plant", m_description.plant.toUtf8()},
         {"session", QByteArray::number(m_description.session, 16)},
@@ -168,6 +169,8 @@ void PlantRecorder::addCycle()
     m_writer->addMessage(m_plant, sequence, m_time, published, m_body.constData(), std::size_t(m_body.size()));
     addNodes(view);
     addRaw(view);
+    if (m_overview)
+        m_overview->add(cycle.number, m_startTime, view.image);
     m_next = cycle.number + 1;
     m_digest = cycle.digest;
     m_hasDigest = false;
@@ -254,12 +257,24 @@ bool PlantRecorder::save(bool sync, QString *error)
     return true;
 }
 
+/// A full disk has no room for it: readers compute it then.
+void PlantRecorder::addOverview()
+{
+    QString error;
+    if (m_overview)
+        m_writer->addAttachment(overview::Name, overview::MediaType, m_overview->bytes(), m_time, &error);
+    m_overview.reset();
+}
+
 bool PlantRecorder::finish(QString *error)
 {
     const QMap<QByteArray, QByteArray> end{{"digest", hex(m_digest)},
                                            {"cycles", QByteArray::number(qulonglong(m_cycles))},
                                            {"missing", QByteArray::number(qulonglong(m_missing))}};
-    if (!save(false, error) || !m_writer->addMetadata("end", end, error) || !m_writer->finish(error))
+    if (!save(false, error))
+        return false;
+    addOverview();
+    if (!m_writer->addMetadata("end", end, error) || !m_writer->finish(error))
         return false;
     m_writer.reset();
     return true;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "McapWriter.h"
+#include "Overview.h"
 #include "PlantMessage.h"
 #include "node/cycle/RingDescription.h"
 #include "node/cycle/RingReader.h"
@@ -57,13 +58,15 @@ private:
     void addGap(const RecordedGap &gap);
     void addEnd(const RecordedEnd &end);
     void addDigest(const QByteArray &more);
+    void addOverview();
     bool isChunkFull() const;
 
     RingReader m_reader;
     RingDescription m_description;
     std::unique_ptr<PlantMessage> m_message;
     std::unique_ptr<mcap::Writer> m_writer;
-    std::uint16_t m_plant = 0;  // channels
+    std::unique_ptr<overview::Builder> m_overview;  // null: it has been written
+    std::uint16_t m_plant = 0;                      // channels
     std::uint16_t m_before = 0;
     std::uint16_t m_nodes = 0;
     std::uint16_t m_raw = 0;

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Recovery.h"
 
-#include "McapReader.h"
+#include "Overview.h"
+#include "node/cycle/RingDescription.h"
+
+#include <memory>
 
 #include <unistd.h>
 
@@ -11,42 +14,44 @@ namespace {
 
 using namespace mcap;
 
-/// Builds the index of a file anew.
-class Indexer final : public ScanHandler
+/// Builds index and overview of a file anew.
+class Rebuilder final : public Indexer
 {
 public:
-    void attachment(const Attachment & /*attachment*/, const NamedEntry &entry) override
+    void attachment(const Attachment &attachment, const NamedEntry &entry) override
     {
-        index.attachments.push_back(entry);
+        Indexer::attachment(attachment, entry);
+        if (attachment.name == overview::Name)
+            m_hasOverview = true;
+        if (attachment.name != "recording.txt" || !RingDescription::fromText(attachment.data, &m_description))
+            return;
+        QVector<QPlcParseError> errors;
+        const QPlcSignalTable table = QPlcSignalTable::fromIni(m_description.table, &errors);
+        if (!errors.isEmpty())
+            return;
+        m_message = std::make_unique<PlantMessage>(table);
+        m_overview = std::make_unique<overview::Builder>(m_message->image());
     }
-    void metadata(const QByteArray & /*fields*/, const NamedEntry &entry) override { index.metadata.push_back(entry); }
     void chunk(const ChunkEntry &entry, const QByteArray &records) override
     {
-        forEachSchema(records, [this](const Schema &schema) { index.schemas.push_back(schema); });
-        index.chunks.push_back(entry);
-        messages.clear();
-        forEachMessage(
-            records, [this](const Channel &channel) { add(channel); },
-            [this](const Message &message, std::uint64_t offset) {
-                messages.push_back({message.channel, message.time, offset});
-            });
-        indexes.push_back(messageIndexes(messages, entry.offset + entry.length, &index.chunks.back()));
+        Indexer::chunk(entry, records);
+        if (m_overview)
+            m_overview->addChunk(records, channelOf(index, "/plant"), m_description.period, m_message.get());
     }
-
-    Index index;
-    std::vector<QByteArray> indexes;  // of the messages of each chunk
+    /// The attachment that stands at \a offset. Empty: it is there, or there are no cycles
+    QByteArray overviewAt(std::uint64_t offset)
+    {
+        if (m_hasOverview || !m_overview || m_overview->isEmpty())
+            return {};
+        return attachmentRecord(overview::Name, overview::MediaType, m_overview->bytes(), index.chunks.back().end,
+                                offset, &index.attachments.emplace_back());
+    }
 
 private:
-    void add(const Channel &channel)
-    {
-        for (const Channel &known : index.channels) {
-            if (known.id == channel.id)
-                return;
-        }
-        index.channels.push_back(channel);
-    }
-
-    std::vector<MessageEntry> messages;
+    RingDescription m_description;
+    std::unique_ptr<PlantMessage> m_message;
+    std::unique_ptr<overview::Builder> m_overview;
+    bool m_hasOverview = false;
 };
 
 void forgetIndex(ChunkEntry *chunk)
@@ -56,7 +61,7 @@ void forgetIndex(ChunkEntry *chunk)
 }
 
 /// Messages of chunks in the middle of the file have their index behind the chunk, or none.
-void compareIndexes(QFile &file, Indexer *indexer)
+void compareIndexes(QFile &file, Rebuilder *indexer)
 {
     for (std::size_t i = 0; i < indexer->index.chunks.size(); ++i) {
         ChunkEntry &chunk = indexer->index.chunks[i];
@@ -80,7 +85,7 @@ bool recoverRecording(const QString &fileName, RecoveredFile *result, QString *e
         result->chunks = known.chunks.size();
         return true;
     }
-    Indexer indexer;
+    Rebuilder indexer;
     reader.scan(indexer);
     result->chunks = indexer.index.chunks.size();
     result->damages = reader.damages();
@@ -100,9 +105,9 @@ bool recoverRecording(const QString &fileName, RecoveredFile *result, QString *e
     if (!file.resize(qint64(reader.goodEnd())) || !file.seek(file.size()) || file.write(end) != end.size())
         return failed();
     compareIndexes(file, &indexer);
-    const QByteArray summary = indexer.index.end(std::uint64_t(file.size()));
-    if (!file.seek(file.size()) || file.write(summary) != summary.size() || !file.flush()
-        || ::fdatasync(file.handle()) != 0)
+    const QByteArray overview = indexer.overviewAt(std::uint64_t(file.size()));
+    const QByteArray rest = overview + indexer.index.end(std::uint64_t(file.size() + overview.size()));
+    if (!file.seek(file.size()) || file.write(rest) != rest.size() || !file.flush() || ::fdatasync(file.handle()) != 0)
         return failed();
     return true;
 }

@@ -26,7 +26,6 @@ struct RecordedFlight
         ringFile = qplc::RingMemory::folder() + "/qtplc-test-" + QByteArray::number(::getpid()) + "-flight-"
             + QByteArray::number(++count);
         ring = std::make_shared<qplc::RecordRing>();
-        QString error;
         if (!ring->create(ringFile, capacity, description.toText(), &error) || !recorder.attach(ringFile, &error)
             || !folder.isValid())
             qFatal("%s", qPrintable(error));
