@@ -106,8 +106,12 @@ public:
         /// A node was lost, or did not answer within the longest wait: the signals that it writes
         /// have no new values, as if it were late in real time.
         Late,
-        SafeStop,  ///< the plant stops safely: nodes have safe values and compute nothing
-        Stopped,   ///< no cycles run, or they have ended during this step
+        /// The plant stops safely, also because of this step: nodes have safe values and compute
+        /// nothing.
+        SafeStop,
+        /// No cycles run, or they have ended in this step: it was stopped, or the code of a node
+        /// has failed (error() is NodeError then).
+        Stopped,
         Busy       ///< another thread is in a step(): nothing has happened
     };
     Q_ENUM(StepResult)

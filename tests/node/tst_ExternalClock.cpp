@@ -21,6 +21,9 @@ private Q_SLOTS:
     void aPortHasTheValueOfItsDelay_data();
     void aPortHasTheValueOfItsDelay();
     void aFailedLocalNodeIsKnownWhenTheStepReturns();
+    void theStepInWhichANodeFailsEndsThePhase_data();
+    void theStepInWhichANodeFailsEndsThePhase();
+    void aFailedListenerElsewhereEndsNothing();
 
     void aSecondCallerIsRefused();
     void stopEndsTheStep();
@@ -226,10 +229,67 @@ void tst_ExternalClock::aFailedLocalNodeIsKnownWhenTheStepReturns()
     QVERIFY(master.addLocalNode(&counter));
     QVERIFY(master.startRealTime());
     QCOMPARE(master.step(), StepResult::Complete);
-    master.step();
+    QCOMPARE(master.step(), StepResult::Stopped);
     QCOMPARE(master.state(), QPlcMasterNode::Off);  // without a look at events
     QVERIFY2(master.errorString().contains("no more"), qPrintable(master.errorString()));
     QCOMPARE(master.step(), StepResult::Stopped);
+}
+
+void tst_ExternalClock::theStepInWhichANodeFailsEndsThePhase_data()
+{
+    QTest::addColumn<QString>("kind");
+    QTest::addColumn<bool>("isCritical");
+    QTest::addColumn<StepResult>("result");
+    for (const char *kind : {"local", "udp", "tcp", "shared"}) {
+        QTest::addRow("%s", kind) << kind << false << StepResult::Stopped;
+        QTest::addRow("%s, critical", kind) << kind << true << StepResult::SafeStop;
+    }
+}
+
+/// The thread of the master has heard nothing of it yet.
+void tst_ExternalClock::theStepInWhichANodeFailsEndsThePhase()
+{
+    QFETCH(QString, kind);
+    QFETCH(bool, isCritical);
+    QFETCH(StepResult, result);
+    External master;
+    EchoNode echo;
+    echo.setCritical(isCritical);
+    echo.onStep = [](const QPlcCycle &cycle) {
+        if (cycle.number() == 1)
+            throw std::runtime_error("no more");
+    };
+    QVERIFY(master.listen());
+    const auto shared = QPlcUnderlyingProtocol::local(QString::number(master.serverPort()));
+    QVERIFY(kind == "shared" ? echo.connectToMasterAndWaitForConnected(shared) : master.admit(echo, kind));
+    QVERIFY(master.begin());
+    QCOMPARE(stepAside(master), StepResult::Complete);
+    QCOMPARE(Host(master).resultWithoutEvents(), result);
+    QCOMPARE(Host(master).resultWithoutEvents(), result);
+    QCOMPARE(master.statistics().cycles, quint64(2));
+    QVERIFY(master.waitForState(isCritical ? QPlcMasterNode::SafeStop : QPlcMasterNode::Off));
+    QVERIFY2(master.errorString().contains("Echo"), qPrintable(master.errorString()));
+}
+
+void tst_ExternalClock::aFailedListenerElsewhereEndsNothing()
+{
+    External master;
+    CounterNode counter;
+    EchoNode listener("Listener");
+    listener.setListener(true);
+    std::atomic<bool> hasFailed{false};
+    listener.onStep = [&](const QPlcCycle &) {
+        hasFailed = true;
+        throw std::runtime_error("no more");
+    };
+    QVERIFY(master.listen() && master.addLocalNode(&counter) && master.admit(listener, "tcp"));
+    QVERIFY(master.begin());
+    for (int i = 0; i < 10'000 && !hasFailed; ++i)
+        QCOMPARE(stepAside(master), StepResult::Complete);
+    QVERIFY(waitUntil([&] { return listener.state() != QPlcSlaveNode::RealTime; }, 30s));
+    QCOMPARE(stepAside(master), StepResult::Complete);
+    QCOMPARE(master.state(), QPlcMasterNode::RealTime);
+    master.stop();
 }
 
 void tst_ExternalClock::aSecondCallerIsRefused()

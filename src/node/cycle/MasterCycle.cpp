@@ -301,13 +301,17 @@ MasterCycle::Step MasterCycle::step() noexcept
 MasterCycle::Step MasterCycle::runStep() noexcept
 {
     runCycle(m_clock->next([] { return false; }));
-    m_hasEnded = isBeyondLimit(m_number + 1);
-    if (m_hasEnded)
+    const bool isLast = isBeyondLimit(m_number + 1);
+    const bool hasFailed = m_exchange.hasFailed();
+    m_hasEnded = isLast || hasFailed;  // the thread of the master hears of a failure a little later
+    if (isLast)
         m_reports.post({CycleEvent::Ended, 0, 0, m_number});
     if (m_stop.load(std::memory_order_relaxed))
         return Step::Stopped;
     if (m_guard.isTripped())
         return Step::Safe;
+    if (hasFailed)
+        return Step::Stopped;
     return !m_roster->anyRemote || m_exchange.isComplete() ? Step::Complete : Step::Late;
 }
 

@@ -218,7 +218,7 @@ private:
     std::int64_t m_wallStart = 0;  // [ns since 1970]
     std::int64_t m_nextTerm = 0;   // [ns] no term of the roster is over before
     bool m_hasNewNodes = false;    // since the last cycle, or their signals have been taken over
-    bool m_hasEnded = false;       // External: the last cycle of the limit has been computed
+    bool m_hasEnded = false;       // External: the limit is reached, or a node has failed
 
     // both
     std::atomic<std::uint64_t> m_cycle{0};

@@ -36,6 +36,7 @@ void NodeExchange::start(CycleClock &grid, std::chrono::nanoseconds period, QPlc
     m_clock = clock;
     m_cycleZero = cycleZero;
     m_spin = spin;
+    m_hasFailed = false;
 }
 
 /// Everything that nodes and master exchange in a cycle stands here, in order.
@@ -499,6 +500,7 @@ void NodeExchange::setFaulted(NodeSlot &slot, bool isFaulted) noexcept
     if (isFaulted && !slot.faulted) {
         m_reports.post({CycleEvent::NodeFaulted, slot.id, 0, m_cycle.number});
         m_guard.codeFailed(slot, m_cycle.number);
+        m_hasFailed = m_hasFailed || slot.local || !slot.listener;
     }
     slot.faulted = isFaulted;
 }

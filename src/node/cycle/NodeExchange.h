@@ -46,6 +46,9 @@ public:
     void run(const Roster &roster, const Cycle &cycle) noexcept;
     /// Whether all nodes but listeners have answered in the last cycle.
     bool isComplete() const noexcept;
+    /// Whether the code of a node has failed in this phase without which it cannot go on: of any
+    /// but a listener in another process.
+    bool hasFailed() const noexcept { return m_hasFailed; }
 
 private:
     using Stage = std::vector<Roster::Turn>;
@@ -110,6 +113,7 @@ private:
     QPlcClock m_clock;
     std::uint64_t m_cycleZero = 0;
     std::int64_t m_spin = 0;  // [ns]
+    bool m_hasFailed = false;
 
     // of the cycle
     const Roster *m_roster = nullptr;
