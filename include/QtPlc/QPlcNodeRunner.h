@@ -50,7 +50,7 @@ class QPlcNodeRunnerPrivate;
 /// | a two-phase node   | outputs of cycle 0          | outputs of cycle k + 1                   |
 ///
 /// Set values by name (set(), value()), or get the index of a signal once (indexOf()) and use the
-/// functions that have an index. These and step() allocate no memory.
+/// functions that have an index. These and step() allocate no memory, except when they fail.
 ///
 /// The class needs neither QCoreApplication nor an event loop. The node emits no Qt signals.
 /// Functions that fail return false and set errorString().
@@ -110,7 +110,8 @@ public:
     bool step();
     /// Lets time pass in which the node is not called, as after an overrun of the master. The next
     /// step() has the number of that cycle, and QPlcCycle::missedCycles() is \a cycles.
-    void skip(quint64 cycles);
+    /// \return false outside of a phase, or when time() would go beyond 100 years
+    bool skip(quint64 cycles);
     /// Brings the node into its safe state, as a master or a watchdog does: safeState() is called,
     /// and the outputs have their safe values until the next reset().
     void makeSafe(QPlcSlaveNode::SafeStateReason reason = QPlcSlaveNode::MasterStopsSafely);
@@ -179,18 +180,18 @@ public:
     /// Sets one element of an input from an integer, as above.
     bool setInteger(QPlcSignalIndex index, qint64 value, int element = 0);
     /// Sets an input from the packed little-endian bytes of its type (QPlcSignalType).
-    /// \pre \a index is an input, and \a bytes has its size
-    void setBytes(QPlcSignalIndex index, const void *bytes);
-    /// Returns the value of an input as it was set, or of an output.
-    /// \pre \a index is one of both
+    /// \pre \a bytes has the size of the type
+    /// \return false when \a index is not an input
+    bool setBytes(QPlcSignalIndex index, const void *bytes);
+    /// Returns the value of an input as it was set, or of an output; an invalid value if \a index
+    /// is neither.
     QPlcValue value(QPlcSignalIndex index) const;
     /// Returns one element as a number; 0 for texts, other signals and other elements.
     double real(QPlcSignalIndex index, int element = 0) const;
     /// Returns one element as an integer, by the rules of QPlcValue::toInt64().
     qint64 integer(QPlcSignalIndex index, int element = 0) const;
     /// Returns the packed little-endian bytes of the value. The pointer is valid until the next
-    /// bind().
-    /// \pre \a index is an input or an output
+    /// bind(). Null if \a index is neither an input nor an output.
     const char *bytes(QPlcSignalIndex index) const;
 
     /// Sets the quality that the writer of an input gives with its value; default Good. If it is

@@ -19,6 +19,9 @@ private Q_SLOTS:
     void signalsAreReachedByNameAndByIndex();
     void namesOfValuesAndTextsAreValues();
     void wrongValuesAreRefusedWithASentence();
+    void wrongIndicesAreRefusedWithASentence_data();
+    void wrongIndicesAreRefusedWithASentence();
+    void functionsForSignalsSurviveAnyIndex();
     void twoPhaseOutputsAreThoseOfTheNextCycle();
     void nodesWithListsRunToo();
     void digestIsThatOfAPlant_data();
@@ -27,6 +30,7 @@ private Q_SLOTS:
     void badOutputsAreNotGivenAway();
     void qualitiesOfInputsCount();
     void skippedCyclesAreMissed();
+    void timeNeverGoesBack();
     void wantedSafeStopComesWithTheNextStep();
     void exceptionLeadsToTheSafeState_data();
     void exceptionLeadsToTheSafeState();
@@ -285,6 +289,63 @@ void tst_QPlcNodeRunner::wrongValuesAreRefusedWithASentence()
     QCOMPARE(runner.value("small").toInt(), 3);
 }
 
+void tst_QPlcNodeRunner::wrongIndicesAreRefusedWithASentence_data()
+{
+    QTest::addColumn<QString>("signal");
+    QTest::addColumn<int>("element");
+    QTest::addColumn<double>("value");
+    QTest::addColumn<QString>("sentence");
+    QTest::newRow("no signal") << QString() << 0 << 1.0
+                               << "there is no signal with the index 65535; get it with indexOf()";
+    QTest::newRow("output") << "realOut" << 0 << 1.0 << "signal 'realOut' is an output; set inputs only";
+    QTest::newRow("of others") << "other" << 0 << 1.0 << "it does not read signal 'other'; declare a port for it";
+    QTest::newRow("element") << "position" << 3 << 1.0 << "signal 'position' of type Real32[3] has no number 3";
+    QTest::newRow("before") << "position" << -1 << 1.0 << "signal 'position' of type Real32[3] has no number -1";
+    QTest::newRow("value") << "small" << 0 << 256.0
+                           << "the value 256 (Real64) does not fit signal 'small' of type UInt8";
+}
+
+void tst_QPlcNodeRunner::wrongIndicesAreRefusedWithASentence()
+{
+    QFETCH(QString, signal);
+    QFETCH(int, element);
+    QFETCH(double, value);
+    QFETCH(QString, sentence);
+    Echo echo;
+    EchoRunner runner(echo);
+    const QPlcSignalIndex index = signal.isEmpty() ? QPlcInvalidSignalIndex : runner.table().indexOf(signal);
+    const auto isRefused = [&](bool isSet) { return !isSet && runner.errorString() == "node 'Echo': " + sentence; };
+    QVERIFY2(isRefused(runner.setReal(index, value, element)), qPrintable(runner.errorString()));
+    QVERIFY(!runner.set("rael", 1.0));
+    QVERIFY(isRefused(runner.setInteger(index, qint64(value), element))
+            || runner.errorString().contains("the value 256 (Int64) does not fit"));
+}
+
+void tst_QPlcNodeRunner::functionsForSignalsSurviveAnyIndex()
+{
+    Echo echo;
+    EchoRunner runner(echo);
+    const auto other = runner.table().indexOf("other");
+    const double bytes = 1.0;
+    QVERIFY(runner.initialize() && runner.errorString().isEmpty());
+    for (const QPlcSignalIndex index : {other, QPlcSignalIndex(runner.table().size()), QPlcInvalidSignalIndex}) {
+        QVERIFY(!runner.setValue(index, 1.0) && runner.errorString().contains(index == other ? "'other'" : "index"));
+        QVERIFY(!runner.set("rael", 1.0));
+        QVERIFY(!runner.setBytes(index, &bytes) && runner.errorString().contains(index == other ? "'other'" : "index"));
+        QVERIFY(!runner.set("rael", 1.0));
+        QVERIFY(!runner.setQuality(index, QPlcQuality::Safe));
+        QVERIFY(runner.errorString().contains(index == other ? "'other'" : "index"));
+        QVERIFY(!runner.value(index).isValid() && !runner.bytes(index));
+        QCOMPARE(runner.real(index), 0.0);
+        QCOMPARE(runner.integer(index, 7), qint64(0));
+        QCOMPARE(runner.refusedValues(index), quint64(0));
+        QVERIFY(!runner.isInput(index) && !runner.isOutput(index));
+    }
+    QVERIFY(!runner.setQuality(runner.indexOf("realOut"), QPlcQuality::Good));
+    QVERIFY(runner.errorString().contains("is an output"));
+    QVERIFY(runner.step());
+}
+
 void tst_QPlcNodeRunner::twoPhaseOutputsAreThoseOfTheNextCycle()
 {
     Integrator node;
@@ -408,10 +469,30 @@ void tst_QPlcNodeRunner::skippedCyclesAreMissed()
     echo.onStep = [&](const QPlcCycle &cycle) { numbers << cycle.number(), missed << cycle.missedCycles(); };
     QVERIFY(runner.initialize());
     QVERIFY(runner.step());
-    runner.skip(3);
+    QVERIFY(runner.skip(3));
     QVERIFY(runner.step() && runner.step());
     QCOMPARE(numbers, (QVector<quint64>{0, 4, 5}));
     QCOMPARE(missed, (QVector<quint64>{0, 3, 0}));
+}
+
+void tst_QPlcNodeRunner::timeNeverGoesBack()
+{
+    Echo echo;
+    EchoRunner runner(echo);
+    QVERIFY(!runner.skip(1));
+    QVERIFY2(runner.errorString().contains("initialize()"), qPrintable(runner.errorString()));
+    QVERIFY(runner.initialize() && runner.step());
+    constexpr quint64 most = 100ULL * 365 * 24 * 3600 * 100;  // cycles of 10 ms
+    for (const quint64 cycles : {~quint64(0), ~quint64(0) - 1, quint64(1) << 63, most}) {
+        QVERIFY(!runner.skip(cycles));
+        QVERIFY2(runner.errorString().contains(QString::number(cycles)), qPrintable(runner.errorString()));
+        QCOMPARE(runner.nextCycle(), quint64(1));
+    }
+    QVERIFY(runner.skip(most - 1) && !runner.skip(1) && runner.skip(0));
+    QVERIFY(runner.step() && runner.step());
+    QVERIFY(!runner.skip(1));
+    QCOMPARE(runner.time(),
+             std::chrono::nanoseconds(std::chrono::hours(100 * 365 * 24)) + std::chrono::milliseconds(20));
 }
 
 void tst_QPlcNodeRunner::wantedSafeStopComesWithTheNextStep()

@@ -15,6 +15,8 @@ using qplc::SignalGuard;
 
 namespace {
 
+constexpr std::chrono::hours LongestTime{24 * 365 * 100};  // of a phase
+
 /// Without `writer`: one node is all that there is, so none of its signals is contested.
 QPlcSignalTable withoutWriters(const QPlcSignalTable &table)
 {
@@ -52,7 +54,9 @@ public:
         char *quality = nullptr;  // that is given with an input
     };
 
-    bool fail(const QString &text);
+    bool fail(const QString &text) const;
+    bool failForInput(QPlcSignalIndex index) const;
+    bool failForValue(QPlcSignalIndex index, const QPlcValue &value) const;
     bool bind(const QPlcSignalTable &newTable);
     void findPlaces(const QVector<QPlcSignalIndex> &inputs);
     bool reset();
@@ -108,7 +112,7 @@ private:
     bool m_isSafeShown = false;
 };
 
-bool QPlcNodeRunnerPrivate::fail(const QString &text)
+bool QPlcNodeRunnerPrivate::fail(const QString &text) const
 {
     error = QStringLiteral("node '%1': %2").arg(node.name, text);
     return false;
@@ -285,6 +289,22 @@ QVector<QPlcSignalIndex> QPlcNodeRunnerPrivate::all(Place::Kind kind) const
     return result;
 }
 
+bool QPlcNodeRunnerPrivate::failForInput(QPlcSignalIndex index) const
+{
+    if (place(index).kind == Place::Output)
+        return fail(QStringLiteral("signal '%1' is an output; set inputs only").arg(table.at(index).name));
+    return fail(index < places.size()
+                    ? QStringLiteral("it does not read signal '%1'; declare a port for it").arg(table.at(index).name)
+                    : QStringLiteral("there is no signal with the index %1; get it with indexOf()").arg(index));
+}
+
+bool QPlcNodeRunnerPrivate::failForValue(QPlcSignalIndex index, const QPlcValue &value) const
+{
+    const QPlcSignalDefinition &signal = table.at(index);
+    return fail(QStringLiteral("the value %1 (%2) does not fit signal '%3' of type %4")
+                    .arg(value.toString(), value.type().name(), signal.name, signal.type.name()));
+}
+
 /// \return null when there is no such number
 char *QPlcNodeRunnerPrivate::element(QPlcSignalIndex index, int element) const
 {
@@ -299,13 +319,18 @@ char *QPlcNodeRunnerPrivate::element(QPlcSignalIndex index, int element) const
 /// \return false when there is no such number of an input, or \a value does not fit
 bool QPlcNodeRunnerPrivate::setElement(QPlcSignalIndex index, int element, const QPlcValue &value) const
 {
-    char *bytes = place(index).kind == Place::Input ? this->element(index, element) : nullptr;
+    if (place(index).kind != Place::Input)
+        return failForInput(index);
+    char *bytes = this->element(index, element);
     if (!bytes)
-        return false;
+        return fail(QStringLiteral("signal '%1' of type %2 has no number %3")
+                        .arg(table.at(index).name, table.at(index).type.name())
+                        .arg(element));
     const QPlcValue converted = value.convertedTo(elementOf(table.at(index).type));
-    if (converted.isValid())
-        converted.toBytes(bytes);
-    return converted.isValid();
+    if (!converted.isValid())
+        return failForValue(index, value);
+    converted.toBytes(bytes);
+    return true;
 }
 
 // ---- the public class ----
@@ -379,12 +404,19 @@ bool QPlcNodeRunner::step()
     return false;
 }
 
-void QPlcNodeRunner::skip(quint64 cycles)
+bool QPlcNodeRunner::skip(quint64 cycles)
 {
+    const auto most = quint64(LongestTime / d->period);
     if (!d->isRunning)
-        return;
+        return d->fail(QStringLiteral("no phase has begun; call initialize() first"));
+    if (cycles > most - std::min(d->number, most))
+        return d->fail(
+            QStringLiteral("%1 cycles are too many to skip; the last cycle of a phase with this period is %2")
+                .arg(cycles)
+                .arg(most));  // time() has room for all cycles that follow
     d->number += cycles;
     d->skipped += cycles;
+    return true;
 }
 
 void QPlcNodeRunner::makeSafe(QPlcSlaveNode::SafeStateReason reason)
@@ -484,15 +516,13 @@ bool QPlcNodeRunner::set(const QString &name, const QPlcValue &value)
     if (index == QPlcInvalidSignalIndex)
         return false;
     if (!isInput(index))
-        return d->fail(QStringLiteral("signal '%1' is an output; set inputs only").arg(name));
+        return d->failForInput(index);
     const QPlcSignalDefinition &signal = d->table.at(index);
     if (!value.type().isString() || signal.type.isString())
-        return setValue(index, value)
-            || d->fail(QStringLiteral("the value %1 (%2) does not fit signal '%3' of type %4")
-                           .arg(value.toString(), value.type().name(), name, signal.type.name()));
+        return setValue(index, value);
     QString text;
     const QPlcValue named = signal.valueFromText(value.toString(), &text);
-    return setValue(index, named) || d->fail(QStringLiteral("signal '%1': %2").arg(name, text));
+    return named.isValid() ? setValue(index, named) : d->fail(QStringLiteral("signal '%1': %2").arg(name, text));
 }
 
 QPlcValue QPlcNodeRunner::value(const QString &name) const
@@ -510,10 +540,10 @@ QString QPlcNodeRunner::text(const QString &name) const
 bool QPlcNodeRunner::setValue(QPlcSignalIndex index, const QPlcValue &value)
 {
     if (!isInput(index))
-        return false;
+        return d->failForInput(index);
     const QPlcValue converted = value.convertedTo(d->table.at(index).type);
     if (!converted.isValid())
-        return false;
+        return d->failForValue(index, value);
     converted.toBytes(d->place(index).bytes);
     return true;
 }
@@ -528,15 +558,18 @@ bool QPlcNodeRunner::setInteger(QPlcSignalIndex index, qint64 value, int element
     return d->setElement(index, element, QPlcValue(value));
 }
 
-void QPlcNodeRunner::setBytes(QPlcSignalIndex index, const void *bytes)
+bool QPlcNodeRunner::setBytes(QPlcSignalIndex index, const void *bytes)
 {
-    Q_ASSERT_X(isInput(index), "QPlcNodeRunner::setBytes", "the signal is not an input of the node");
+    if (!isInput(index))
+        return d->failForInput(index);
     std::memcpy(d->place(index).bytes, bytes, std::size_t(d->table.at(index).type.size()));
+    return true;
 }
 
 QPlcValue QPlcNodeRunner::value(QPlcSignalIndex index) const
 {
-    return QPlcValue::fromBytes(d->table.at(index).type, bytes(index));
+    const char *bytes = this->bytes(index);
+    return bytes ? QPlcValue::fromBytes(d->table.at(index).type, bytes) : QPlcValue();
 }
 
 double QPlcNodeRunner::real(QPlcSignalIndex index, int element) const
@@ -553,14 +586,13 @@ qint64 QPlcNodeRunner::integer(QPlcSignalIndex index, int element) const
 
 const char *QPlcNodeRunner::bytes(QPlcSignalIndex index) const
 {
-    Q_ASSERT_X(isInput(index) || isOutput(index), "QPlcNodeRunner::bytes", "the node has no such signal");
     return d->place(index).bytes;
 }
 
 bool QPlcNodeRunner::setQuality(QPlcSignalIndex index, QPlcQuality quality)
 {
     if (!isInput(index))
-        return false;
+        return d->failForInput(index);
     *d->place(index).quality = char(quality.toByte());
     return true;
 }
