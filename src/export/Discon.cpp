@@ -11,7 +11,10 @@ using namespace qplc_export;
 namespace {
 
 // Records are counted from 1.
-constexpr int StatusRecord = 1;         // 0: first call, 1: step, -1: last call
+constexpr int StatusRecord = 1;
+constexpr float FirstCall = 0.0F;
+constexpr float StepCall = 1.0F;
+constexpr float LastCall = -1.0F;
 constexpr int TimeRecord = 2;           // [s]
 constexpr int PeriodRecord = 3;         // [s] between two calls
 constexpr int MessageSizeRecord = 49;   // [characters] of avcMSG
@@ -26,6 +29,7 @@ struct Call
     const char *file;
 
     float record(int number) const { return records[number - 1]; }
+    /// Of a size; 0 if it is none.
     int whole(int number) const
     {
         const float value = record(number);
@@ -56,6 +60,8 @@ private:
         return false;
     }
     bool begin(const Call &call);
+    bool prepare(const Call &call);
+    bool hasEnded(const QString &failure);
     bool setPeriod(float seconds);
     bool step(const Call &call);
     bool readInputs(const Call &call);
@@ -64,6 +70,7 @@ private:
     std::unique_ptr<ExportedNode> m_node;
     DisconMapping m_mapping;
     QString m_text;
+    QString m_failure;  // that has ended the phase, or kept it from its begin; empty: none
     bool m_isRunning = false;
     double m_start = 0.0;  // [s] time of cycle 0
 };
@@ -71,22 +78,44 @@ private:
 bool Controller::call(const Call &call)
 {
     m_text.clear();
-    const int status = call.whole(StatusRecord);
-    if (status == 0)
+    const float status = call.record(StatusRecord);
+    if (status != FirstCall && status != StepCall && status != LastCall)
+        return fail(
+            QStringLiteral("record 1 is %1; use 0 (first call), 1 (step) or -1 (last call)").arg(double(status)));
+    if (status == FirstCall)
         return begin(call);
+    if (!m_failure.isEmpty())
+        return fail(m_failure);
     if (!m_isRunning)
-        return fail(QStringLiteral("there was no successful first call (record 1 = 0) before this one (record 1 = %1)")
-                        .arg(status));
-    if (status > 0)
+        return fail(QStringLiteral("there was no first call (record 1 = 0) before this one (record 1 = %1)")
+                        .arg(double(status)));
+    if (status == StepCall)
         return step(call);
     m_isRunning = false;
     m_node.reset();
     return true;
 }
 
-bool Controller::begin(const Call &call)
+/// All calls until the next first one tell what has failed first.
+bool Controller::hasEnded(const QString &failure)
 {
     m_isRunning = false;
+    m_failure = failure;
+    return fail(failure);
+}
+
+bool Controller::begin(const Call &call)
+{
+    m_failure.clear();
+    m_isRunning = prepare(call);
+    if (m_isRunning)
+        return step(call);
+    m_node.reset();  // a plant leaves its port
+    return hasEnded(m_text);
+}
+
+bool Controller::prepare(const Call &call)
+{
     m_node = std::make_unique<ExportedNode>();
     QString error;
     if (!m_node->make(&error))
@@ -105,10 +134,7 @@ bool Controller::begin(const Call &call)
         return false;
     if (!m_node->open(&error))
         return fail(error);
-    if (!runner.initialize())
-        return fail(runner.errorString());
-    m_isRunning = true;
-    return step(call);
+    return runner.initialize() || fail(m_node->failure());
 }
 
 /// The host decides, unless the library was made for one period.
@@ -135,20 +161,26 @@ bool Controller::step(const Call &call)
 {
     QPlcNodeRunner &runner = m_node->runner();
     const double period = double(runner.period().count()) * 1e-9;
+    if (!std::isfinite(call.record(TimeRecord)))
+        return fail(QStringLiteral("the time in record 2 is not a finite number"));
     const double now = std::round((double(call.record(TimeRecord)) - m_start) / period);
     const auto next = double(runner.nextCycle());
-    if (!(now >= next - 1.0 && now < 1e12))
+    if (now < next - 1.0)
         return fail(QStringLiteral("the time in record 2 is %1 s, and the controller is at %2 s; time must not go back")
                         .arg(double(call.record(TimeRecord)))
                         .arg(m_start + (next - 1.0) * period));
     if (now >= next) {
         if (!readInputs(call))
             return false;
-        runner.skip(quint64(now - next));
+        if (!(now < 1e12) || !runner.skip(quint64(now - next)))
+            return fail(QStringLiteral("the time in record 2 is %1 s, which is too late for a controller with a period "
+                                       "of %2 s")
+                            .arg(double(call.record(TimeRecord)))
+                            .arg(period));
         const bool hasComputed = runner.step();
         writeOutputs(call);
         if (!hasComputed)
-            return m_isRunning = false, fail(runner.errorString());
+            return hasEnded(m_node->failure());
         if (runner.wantsSafeStop())
             return fail(m_node->plant() ? m_node->plant()->endReason()
                                         : QStringLiteral("the controller wants a safe stop"));
@@ -199,7 +231,10 @@ extern "C" __attribute__((visibility("default"))) void DISCON(float *avrSWAP, in
                                                               char *, char *avcMSG)
 {
     static Controller controller;
-    if (!avrSWAP || !aviFAIL)
+    if (!aviFAIL)
+        return;
+    *aviFAIL = -1;
+    if (!avrSWAP)
         return;
     const Call call{avrSWAP, accINFILE};
     const bool isDone = controller.call(call);

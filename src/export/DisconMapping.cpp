@@ -45,7 +45,13 @@ bool readEntry(const QString &text, DisconMapping::Entry *entry, QString *error)
         *error = QStringLiteral("'%1' has several factors; use RECORD * FACTOR").arg(text.trimmed());
         return false;
     }
-    return factors.size() == 1 || readNumber(factors.last(), &entry->factor, error);
+    if (factors.size() == 1)
+        return true;
+    if (!readNumber(factors.last(), &entry->factor, error))
+        return false;
+    if (entry->factor == 0.0)
+        *error = QStringLiteral("with the factor '%1', nothing is left of the value").arg(factors.last().trimmed());
+    return entry->factor != 0.0;
 }
 
 }  // namespace
@@ -68,7 +74,7 @@ bool DisconMapping::read(const QString &fileName, ExportedNode &node, QString *e
     if (node.plant())
         sections << QStringLiteral("plant");
     const auto take = [&](const IniLine &line, QString *reason) { return addLine(line, node, reason); };
-    if (!readIni(file.readAll(), fileName, sections, QStringLiteral("SIGNAL = RECORD"), take, error))
+    if (!readIni(file.readAll(), fileName, {sections, QStringLiteral("SIGNAL = RECORD"), {}, take}, error))
         return false;
     if (!m_inputs.empty() || !m_outputs.empty())
         return true;

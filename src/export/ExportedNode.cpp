@@ -56,6 +56,13 @@ bool ExportedNode::open(QString *error)
     return true;
 }
 
+/// A plant needs no node around it in the sentence, and it does not throw.
+QString ExportedNode::failure() const
+{
+    const QString reason = m_plant ? m_plant->endReason() : QString();
+    return reason.isEmpty() ? m_runner->errorString() : reason;
+}
+
 bool ExportedNode::setSetting(const QString &key, const QString &text, QString *error)
 {
     QPlcValue value;

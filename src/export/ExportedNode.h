@@ -42,10 +42,12 @@ public:
     virtual void close() = 0;
     /// What was wrong in the last cycle, although it counts; empty: nothing.
     virtual QString warning() const = 0;
-    /// Why it wants the simulation to end; empty: it does not.
+    /// Why the phase has failed, or why the simulation shall end; empty: neither.
     virtual QString endReason() const = 0;
-    /// Sets who is told where the plant listens, and what it has computed: the log of the host.
-    virtual void setTeller(const std::function<void(const QString &text)> &tell) = 0;
+    /// What the plant tells: where it listens, and what it has computed.
+    enum class News : quint8 { Address, Result };
+    /// Sets who is told: the log of the host.
+    virtual void setTeller(const std::function<void(News news, const QString &text)> &tell) = 0;
 };
 
 /// A node that somebody else's program calls, with its own table.
@@ -60,6 +62,8 @@ public:
     bool open(QString *error);
     /// Sets a setting of the plant from a text. \return false, with a sentence in \a error
     bool setSetting(const QString &key, const QString &text, QString *error);
+    /// Why the runner has failed.
+    QString failure() const;
     bool isSetting(QPlcSignalIndex index) const
     {
         return m_plant && signal(index).name.startsWith(QLatin1String(SettingPrefix));

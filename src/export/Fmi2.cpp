@@ -53,6 +53,7 @@ FmuInstance::Log logOf(const Callbacks *callbacks, const char *instanceName)
             return logger(environment, name.c_str(), Warning, "logStatusWarning", "%s", text);
         case FmuInstance::Level::Discard:
             return logger(environment, name.c_str(), Discard, "logStatusDiscard", "%s", text);
+        case FmuInstance::Level::Notice:
         case FmuInstance::Level::Info:
             return logger(environment, name.c_str(), Ok, "logEvents", "%s", text);
         }

@@ -35,6 +35,7 @@ FmuInstance::Log logOf(Logger logger, void *environment)
             return logger(environment, Warning, "logStatusWarning", text);
         case FmuInstance::Level::Discard:
             return logger(environment, Discard, "logStatusDiscard", text);
+        case FmuInstance::Level::Notice:
         case FmuInstance::Level::Info:
             return logger(environment, Ok, "logEvents", text);
         }

@@ -48,7 +48,9 @@ std::unique_ptr<FmuInstance> FmuInstance::make(Standard standard, const char *in
         return nullptr;
     }
     if (HeldPlant *plant = instance->m_node.plant())
-        plant->setTeller([one = instance.get()](const QString &text) { one->tell(Level::Info, text); });
+        plant->setTeller([one = instance.get()](HeldPlant::News news, const QString &text) {
+            one->tell(news == HeldPlant::News::Address ? Level::Notice : Level::Info, text);
+        });
     instance->m_variables = variablesOf(instance->m_node, standard);
     instance->m_texts.resize(instance->m_variables.size());
     instance->m_isRefused.resize(instance->m_variables.size());
@@ -59,7 +61,7 @@ std::unique_ptr<FmuInstance> FmuInstance::make(Standard standard, const char *in
 
 void FmuInstance::tell(Level level, const QString &text) const
 {
-    if (level == Level::Error || m_isLogging)
+    if (level != Level::Info || m_isLogging)
         m_log(level, text.toUtf8().constData());
 }
 
@@ -96,7 +98,7 @@ bool FmuInstance::enterInitialization()
 bool FmuInstance::exitInitialization()
 {
     m_phase = runner().initialize() ? Stepping : Failed;
-    return m_phase == Stepping || fail(runner().errorString());
+    return m_phase == Stepping || fail(m_node.failure());
 }
 
 double FmuInstance::time() const
@@ -133,11 +135,10 @@ FmuInstance::StepResult FmuInstance::runCycles(qint64 count, bool *wantsStop)
     for (qint64 cycle = 0; cycle < count && !*wantsStop; ++cycle) {
         if (!runner().step()) {
             m_phase = Failed;
-            fail(runner().errorString());
+            fail(m_node.failure());
             return StepResult::Failed;
         }
-        if (m_isLogging)
-            warnOfRefusedInputs();
+        warnOfRefusedInputs();
         isWarned = warnOfPlant() || isWarned;
         *wantsStop = runner().wantsSafeStop();
     }

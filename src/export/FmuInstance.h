@@ -14,7 +14,8 @@ class FmuInstance
 {
 public:
     enum Phase : quint8 { Instantiated = 1, Initializing = 2, Stepping = 4, Terminated = 8, Failed = 16 };
-    enum class Level : quint8 { Error, Warning, Discard, Info };
+    /// The host hears of Info only while logging is on.
+    enum class Level : quint8 { Error, Warning, Discard, Notice, Info };
     enum class StepResult : quint8 { Complete, Warned, Failed };
     /// How the host wants to be told; not empty.
     using Log = std::function<void(Level level, const char *text)>;

@@ -76,8 +76,12 @@ bool HeldPlantConfiguration::read(const QByteArray &text, const QPlcSignalTable 
         return line.section == QLatin1String("plant") ? readPlant(line.key, line.value, table, reason)
                                                       : readHost(line.key, line.value, table, reason);
     };
-    if (!readIni(text, QStringLiteral("configuration of the plant"), {QStringLiteral("plant"), QStringLiteral("host")},
-                 QStringLiteral("KEY = VALUE"), take, error))
+    const IniForm form{
+        {QStringLiteral("plant"), QStringLiteral("host")},
+        QStringLiteral("KEY = VALUE"),
+        {QStringLiteral("critical"), QStringLiteral("required"), QStringLiteral("gives"), QStringLiteral("gets")},
+        take};
+    if (!readIni(text, QStringLiteral("configuration of the plant"), form, error))
         return false;
     if (manifest.isEmpty())
         *error = QStringLiteral("the configuration of the plant names no node; write critical = NODE, ... in [plant]");
@@ -105,9 +109,14 @@ bool HeldPlantConfiguration::readSetting(const QString &key, const QString &text
             *value = QPlcValue(seconds);
         if (value->isValid() && setting.isInRange(*value))
             return true;
-        *error = setting.unit == QLatin1String("s")
-            ? QStringLiteral("%1 = %2: use 1 ms to 3600 s, with the unit, for example 5 s").arg(key, text)
-            : QStringLiteral("%1 = %2: use a value of type %3").arg(key, text, setting.type.name());
+        if (setting.unit == QLatin1String("s"))
+            *error = QStringLiteral("%1 = %2: use 1 ms to 3600 s, with the unit, for example 5 s").arg(key, text);
+        else if (setting.type.isString())
+            *error = QStringLiteral("%1 = %2: the text is longer than %3 bytes")
+                         .arg(key, text)
+                         .arg(setting.type.capacity());
+        else
+            *error = QStringLiteral("%1 = %2: use a whole number, %3").arg(key, text, setting.rangeText());
         return false;
     }
     *error = QStringLiteral("unknown key '%1'; use %2").arg(key, keys.join(QStringLiteral(", ")));

@@ -11,11 +11,6 @@ namespace qplc_export {
 
 namespace {
 
-std::runtime_error problem(const QString &text)
-{
-    return std::runtime_error(text.toLocal8Bit().constData());
-}
-
 QPlcValue setting(const QPlcNodeRunner &runner, const char *key)
 {
     return runner.value(QLatin1String(ExportedNode::SettingPrefix) + QLatin1String(key));
@@ -162,7 +157,8 @@ bool HeldPlantNode::listen(const QPlcNodeRunner &runner)
             own = master.serverPort();
     });
     if (own != 0)
-        m_tell(QStringLiteral("the plant listens on %1, port %2, and waits up to %3 s for its nodes")
+        m_tell(News::Address,
+               QStringLiteral("the plant listens on %1, port %2, and waits up to %3 s for its nodes")
                    .arg(address.toString())
                    .arg(own)
                    .arg(double(m_startTimeout.count()) * 1e-3));
@@ -230,9 +226,9 @@ void HeldPlantNode::reset()
 void HeldPlantNode::initialized()
 {
     if (!m_isOpen)
-        throw problem(QStringLiteral("the plant is not open"));
+        fail(QStringLiteral("the plant is not open"));
     if ((giveInputs() && !m_master->initialize(m_startTimeout)) || !m_master->start(m_startTimeout))
-        throw problem(m_master->errorString());
+        fail(m_master->errorString());
 }
 
 // ---- cycles ----
@@ -264,26 +260,40 @@ void HeldPlantNode::step(const QPlcCycle &cycle)
         m_warning = lateText(cycle.number());
         return takeOutputs();
     case Result::SafeStop:
-        throw problem(
-            QStringLiteral("the plant has stopped safely in cycle %1: %2").arg(cycle.number()).arg(stateReason()));
+        fail(QStringLiteral("the plant has stopped safely in cycle %1: %2").arg(cycle.number()).arg(failure()));
     case Result::Stopped:
+        if (const QString text = failure(); !text.isEmpty())
+            fail(QStringLiteral("the plant has stopped in cycle %1: %2").arg(cycle.number()).arg(text));
         m_endReason = QStringLiteral("a person or a program has stopped the plant in cycle %1").arg(cycle.number());
         return requestSafeStop();
     case Result::Busy:
-        throw problem(QStringLiteral("another thread is in a step of this plant; let one thread call it"));
+        fail(QStringLiteral("another thread is in a step of this plant; let one thread call it"));
     }
 }
 
-/// The thread of the master tells it a little later.
-QString HeldPlantNode::stateReason()
+void HeldPlantNode::fail(const QString &text)
+{
+    m_endReason = text;
+    throw std::runtime_error(text.toLocal8Bit().constData());
+}
+
+/// Why the phase has ended; empty: a person or a program has stopped it. The thread of the master
+/// knows it a little later than the step.
+QString HeldPlantNode::failure()
 {
     QString reason;
-    for (int i = 0; i < 20 && reason.isEmpty(); ++i) {
-        m_master->call([&](QPlcMasterNode &master) { reason = master.stateReason(); });
-        if (reason.isEmpty())
+    bool hasEnded = false;
+    for (int i = 0; i < 100 && !hasEnded; ++i) {
+        if (i > 0)
             std::this_thread::sleep_for(10ms);
+        m_master->call([&](QPlcMasterNode &master) {
+            hasEnded = master.state() != State::RealTime;
+            reason = master.stateReason();
+            if (reason.isEmpty() && master.error() == QPlcMasterNode::NodeError)
+                reason = master.errorString();
+        });
     }
-    return reason.isEmpty() ? m_master->errorString() : reason;
+    return reason;
 }
 
 /// Which nodes have not answered, or are gone.
@@ -316,7 +326,8 @@ void HeldPlantNode::stopped()
         master.stop();
         statistics = master.statistics();
     });
-    m_tell(QStringLiteral("the plant has computed %1 cycles; the digest of all values is %2")
+    m_tell(News::Result,
+           QStringLiteral("the plant has computed %1 cycles; the digest of all values is %2")
                .arg(statistics.cycles)
                .arg(statistics.imageDigest, 16, 16, QLatin1Char('0')));
 }

@@ -80,7 +80,7 @@ public:
     void close() override { m_isOpen = false; }
     QString warning() const override { return m_warning; }
     QString endReason() const override { return m_endReason; }
-    void setTeller(const std::function<void(const QString &text)> &tell) override { m_tell = tell; }
+    void setTeller(const std::function<void(News news, const QString &text)> &tell) override { m_tell = tell; }
 
 private:
     using State = QPlcMasterNode::State;
@@ -97,7 +97,8 @@ private:
     bool makeReady(QString *error);
     bool giveInputs();
     void takeOutputs();
-    QString stateReason();
+    QString failure();
+    [[noreturn]] void fail(const QString &text);
     QString lateText(quint64 cycle);
 
     const QByteArray m_text;
@@ -114,7 +115,7 @@ private:
     std::map<QString, quint64> m_late;  // answers of each node
     QString m_warning;
     QString m_endReason;
-    std::function<void(const QString &text)> m_tell = [](const QString &) {};
+    std::function<void(News news, const QString &text)> m_tell = [](News, const QString &) {};
 };
 
 }  // namespace qplc_export

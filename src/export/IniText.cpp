@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "IniText.h"
 
+#include <QtCore/QHash>
+
 namespace qplc_export {
 
 namespace {
+
+constexpr int MostErrors = 10;  // that a log can show
 
 /// "[a], [b] or [c]"
 QString listOf(const QStringList &sections)
@@ -15,40 +19,80 @@ QString listOf(const QStringList &sections)
     return names.isEmpty() ? last : QStringLiteral("%1 or %2").arg(names.join(QStringLiteral(", ")), last);
 }
 
-/// \param section  the current one; a line may begin another one
-bool readLine(const QString &text, const QStringList &sections, const QString &expected, QString *section,
-              const std::function<bool(const IniLine &, QString *)> &take, QString *error)
+/// Reads one line after the other.
+class Reader
 {
-    if (text.startsWith(QLatin1Char('['))) {
-        *section = text.mid(1, text.size() - 2);
-        const bool isKnown = text.endsWith(QLatin1Char(']')) && sections.contains(*section);
-        if (!isKnown)
-            *error = QStringLiteral("unknown section %1; use %2").arg(text, listOf(sections));
-        return isKnown;
+public:
+    explicit Reader(const IniForm &form)
+        : m_form(form)
+    {
     }
-    const int equals = text.indexOf(QLatin1Char('='));
-    if (equals >= 1 && !section->isEmpty())
-        return take({*section, text.left(equals).trimmed(), text.mid(equals + 1).trimmed()}, error);
-    *error
-        = QStringLiteral("'%1' is not expected here; write %2 in a section %3").arg(text, expected, listOf(sections));
-    return false;
-}
+
+    /// \return what is wrong with the line; empty: nothing
+    QString read(const QString &text, int number)
+    {
+        if (text.startsWith(QLatin1Char('[')))
+            return beginSection(text);
+        if (m_isUnknown)
+            return {};  // its head has been told
+        const int equals = text.indexOf(QLatin1Char('='));
+        if (equals < 1 || m_section.isEmpty())
+            return QStringLiteral("'%1' is not expected here; write %2 in a section %3")
+                .arg(text, m_form.line, listOf(m_form.sections));
+        return takeLine({m_section, text.left(equals).trimmed(), text.mid(equals + 1).trimmed()}, number);
+    }
+
+private:
+    QString beginSection(const QString &text)
+    {
+        m_section = text.mid(1, text.size() - 2);
+        m_isUnknown = !text.endsWith(QLatin1Char(']')) || !m_form.sections.contains(m_section);
+        return m_isUnknown ? QStringLiteral("unknown section %1; use %2").arg(text, listOf(m_form.sections))
+                           : QString();
+    }
+    QString takeLine(const IniLine &line, int number)
+    {
+        const QString place = line.section + QLatin1Char('\n') + line.key;
+        const auto first = m_lines.constFind(place);
+        if (first != m_lines.constEnd() && !m_form.lists.contains(line.key))
+            return QStringLiteral("'%1' is there twice, first in line %2; leave one of them out")
+                .arg(line.key)
+                .arg(*first);
+        if (first == m_lines.constEnd())
+            m_lines.insert(place, number);
+        QString error;
+        return m_form.take(line, &error) ? QString() : error;
+    }
+
+    const IniForm &m_form;
+    QString m_section;
+    bool m_isUnknown = false;
+    QHash<QString, int> m_lines;  // of each key
+};
 
 }  // namespace
 
-bool readIni(const QByteArray &text, const QString &name, const QStringList &sections, const QString &expected,
-             const std::function<bool(const IniLine &line, QString *error)> &take, QString *error)
+bool readIni(const QByteArray &text, const QString &name, const IniForm &form, QString *error)
 {
-    QString section;
+    Reader reader(form);
+    QStringList errors;
+    int more = 0;
     const QStringList lines = QString::fromUtf8(text).split(QLatin1Char('\n'));
-    for (int number = 0; number < lines.size(); ++number) {
-        const QString line = lines.at(number).section(QLatin1Char(';'), 0, 0).section(QLatin1Char('#'), 0, 0).trimmed();
-        if (line.isEmpty() || readLine(line, sections, expected, &section, take, error))
+    for (int number = 1; number <= lines.size(); ++number) {
+        const QString line
+            = lines.at(number - 1).section(QLatin1Char(';'), 0, 0).section(QLatin1Char('#'), 0, 0).trimmed();
+        const QString problem = line.isEmpty() ? QString() : reader.read(line, number);
+        if (problem.isEmpty())
             continue;
-        *error = QStringLiteral("%1:%2: %3").arg(name).arg(number + 1).arg(*error);
-        return false;
+        if (errors.size() < MostErrors)
+            errors << QStringLiteral("%1:%2: %3").arg(name).arg(number).arg(problem);
+        else
+            ++more;
     }
-    return true;
+    if (more > 0)
+        errors << QStringLiteral("%1: there are %2 more errors").arg(name).arg(more);
+    *error = errors.join(QLatin1Char('\n'));
+    return errors.isEmpty();
 }
 
 }  // namespace qplc_export

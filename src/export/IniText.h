@@ -17,11 +17,17 @@ struct IniLine
     QString value;
 };
 
-/// Calls \a take for each line; stops at the first one that it refuses.
-/// \param sections  that the text may have
-/// \param expected  what a line should look like, for a message: "SIGNAL = RECORD"
-/// \return false, with name, line and remedy in \a error
-bool readIni(const QByteArray &text, const QString &name, const QStringList &sections, const QString &expected,
-             const std::function<bool(const IniLine &line, QString *error)> &take, QString *error);
+/// What a text may look like.
+struct IniForm
+{
+    QStringList sections;
+    QString line;       // for a message: "SIGNAL = RECORD"
+    QStringList lists;  // keys that may be there several times
+    std::function<bool(const IniLine &line, QString *error)> take;
+};
+
+/// Calls \a form.take for each line.
+/// \return false, with all that is wrong in \a error: one line each, with name, number and remedy
+bool readIni(const QByteArray &text, const QString &name, const IniForm &form, QString *error);
 
 }  // namespace qplc_export

@@ -53,6 +53,7 @@ static void end(Plant *plant)
 static void values_pass(void)
 {
     Plant plant;
+    is_logging = 1;
     make_plant(&plant, &library, start_nodes);
     REQUIRE(set_number(&plant, "command", 3) == STATUS_OK);
     REQUIRE(enter_plant(&plant) == STATUS_OK);
@@ -288,6 +289,38 @@ static void stop_by_a_person(void)
     end(&plant);
 }
 
+/* The code of a node throws: the step in which that happens fails, and a new phase is possible. */
+static void fail_by(double command, int good, const char *reason)
+{
+    Plant plant;
+    begin(&plant);
+    REQUIRE(step_by(&plant, 5) == STATUS_OK && set_number(&plant, "command", command) == STATUS_OK);
+    for (int i = 0; i < good; ++i)
+        REQUIRE(step_by(&plant, 1) == STATUS_OK);
+    REQUIRE(step_by(&plant, 1) == STATUS_ERROR);
+    TOLD(reason);
+    REQUIRE(number(&plant, "level") == -1); /* its safe value */
+    REQUIRE(step_by(&plant, 1) == STATUS_ERROR);
+    REQUIRE(terminate_plant(&plant) == STATUS_OK && reset_plant(&plant) == STATUS_OK);
+    for (int node = 0; node < NODES; ++node) {
+        kill(plant.nodes[node].process, SIGKILL);
+        finish(&plant.nodes[node]);
+    }
+    start_nodes(&plant);
+    REQUIRE(enter_plant(&plant) == STATUS_OK && leave_plant(&plant) == STATUS_OK && step_by(&plant, 1) == STATUS_OK);
+    end(&plant);
+}
+
+static void failing_required(void)
+{
+    fail_by(99, 1, "the plant has stopped in cycle 6: node 'Display'"); /* it reads the level of the last cycle */
+}
+
+static void failing_critical(void)
+{
+    fail_by(-100, 0, "the plant has stopped safely in cycle 5: ");
+}
+
 /* Two libraries with a QtPLC each: the one that has made the application ends first. */
 static void two_libraries(void)
 {
@@ -328,10 +361,12 @@ static void ends(void)
     Plant plant;
     begin(&plant);
     end(&plant);
-    begin(&plant);
-    REQUIRE(step_by(&plant, 1) == STATUS_OK && terminate_plant(&plant) == STATUS_OK);
-    TOLD("has computed 1 cycles");
-    end(&plant);
+    for (is_logging = 0; is_logging <= 1; ++is_logging) {
+        begin(&plant); /* its port is told in any case */
+        REQUIRE(step_by(&plant, 1) == STATUS_OK && terminate_plant(&plant) == STATUS_OK);
+        REQUIRE((strstr(last_message, "has computed 1 cycles") != NULL) == is_logging);
+        end(&plant);
+    }
     make_plant(&plant, &library, NULL);
     free_plant(&plant);
     REQUIRE(threads() == 1);
@@ -354,6 +389,8 @@ int main(int argc, char **argv)
                      {"killed_critical", killed_critical},
                      {"hanging_required", hanging_required},
                      {"hanging_critical", hanging_critical},
+                     {"failing_required", failing_required},
+                     {"failing_critical", failing_critical},
                      {"stop_by_a_person", stop_by_a_person},
                      {"ends", ends}};
     char file[1024];

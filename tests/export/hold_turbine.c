@@ -173,7 +173,7 @@ static void wrong_settings(void)
     TOLD("'Tank'");
     call(&held, 1, 0.0125);
     REQUIRE(held.fail == -1);
-    TOLD("no successful first call");
+    TOLD("'Tank'");
 }
 
 static void killed_required(void)

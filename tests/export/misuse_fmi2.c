@@ -16,7 +16,7 @@ static unsigned of(const char *name)
 
 static Component make(void)
 {
-    Component component = fmi.instantiate("one", 1, guid, NULL, &callbacks, 0, 1);
+    Component component = fmi.instantiate("one", 1, guid, NULL, &callbacks, 0, 0); /* warnings come without logging */
     REQUIRE(component != NULL);
     return component;
 }
@@ -102,6 +102,97 @@ static void wrong_order(void)
     REQUIRE(fmi.leave(component) == STATUS_OK && fmi.step(component, 0, 0.01, 0) == STATUS_OK);
     REQUIRE(real(component, "realOut") == 1.5);
     fmi.free_instance(component);
+}
+
+/* The states of the standard, and an instance in each of them. */
+enum { INSTANTIATED, INITIALIZING, STEPPING, TERMINATED, FAILED, STATES };
+
+static Component in_state(int state)
+{
+    Component component = make();
+    if (state >= INITIALIZING)
+        REQUIRE(fmi.enter(component) == STATUS_OK);
+    if (state >= STEPPING)
+        REQUIRE(fmi.leave(component) == STATUS_OK);
+    if (state == TERMINATED)
+        REQUIRE(fmi.terminate(component) == STATUS_OK);
+    if (state == FAILED) {
+        set_mode(component, 1);
+        REQUIRE(fmi.step(component, 0, 0.01, 0) == STATUS_ERROR);
+    }
+    last_message[0] = '\0';
+    return component;
+}
+
+static int call_setup(Component component)
+{
+    return fmi.setup(component, 0, 0, 0, 0, 0);
+}
+static int call_step(Component component)
+{
+    return fmi.step(component, 0, 0.01, 0);
+}
+static int call_get(Component component)
+{
+    const unsigned reference = of("real");
+    double value;
+    return fmi.get_real(component, &reference, 1, &value);
+}
+static int call_set(Component component)
+{
+    const unsigned reference = of("real");
+    const double value = 1;
+    return fmi.set_real(component, &reference, 1, &value);
+}
+static int call_enter(Component component)
+{
+    return fmi.enter(component);
+}
+static int call_leave(Component component)
+{
+    return fmi.leave(component);
+}
+static int call_terminate(Component component)
+{
+    return fmi.terminate(component);
+}
+static int call_reset(Component component)
+{
+    return fmi.reset(component);
+}
+
+/* Each function in each state does its work, or is an error with a sentence; the instance works afterwards. */
+static void state_table(void)
+{
+    static const struct
+    {
+        const char *name;
+        int (*call)(Component);
+        const char *allowed; /* in which of the states */
+    } functions[] = {{"fmi2SetupExperiment", call_setup, "+----"},
+                     {"fmi2EnterInitializationMode", call_enter, "+----"},
+                     {"fmi2ExitInitializationMode", call_leave, "-+---"},
+                     {"fmi2DoStep", call_step, "--+--"},
+                     {"fmi2Terminate", call_terminate, "--+-+"},
+                     {"fmi2Reset", call_reset, "+++++"},
+                     {"fmi2GetReal", call_get, "-++++"},
+                     {"fmi2SetReal", call_set, "+++--"}};
+    for (size_t i = 0; i < sizeof functions / sizeof *functions; ++i) {
+        for (int state = INSTANTIATED; state < STATES; ++state) {
+            Component component = in_state(state);
+            const int status = functions[i].call(component);
+            if (functions[i].allowed[state] == '+') {
+                REQUIRE(status == STATUS_OK);
+            } else {
+                REQUIRE(status == STATUS_ERROR && strstr(last_message, functions[i].name));
+                TOLD("is not allowed now, because it ");
+            }
+            REQUIRE(fmi.reset(component) == STATUS_OK && fmi.enter(component) == STATUS_OK);
+            REQUIRE(fmi.leave(component) == STATUS_OK && fmi.step(component, 0, 0.01, 0) == STATUS_OK);
+            fmi.free_instance(component);
+        }
+        REQUIRE(functions[i].call(NULL) == STATUS_ERROR);
+    }
 }
 
 static void steps(void)
@@ -243,14 +334,29 @@ static void two_instances(void)
 
 static void functions_that_are_not_offered(void *library)
 {
-    static const char *names[] = {"fmi2GetTypesPlatform", "fmi2GetVersion", "fmi2GetStatus", "fmi2GetIntegerStatus",
-                                  "fmi2GetStringStatus", "fmi2SetRealInputDerivatives", "fmi2GetRealOutputDerivatives",
-                                  "fmi2FreeFMUstate", "fmi2SerializedFMUstateSize", "fmi2SerializeFMUstate",
-                                  "fmi2DeSerializeFMUstate", "fmi2GetDirectionalDerivative", "fmi2EnterEventMode",
-                                  "fmi2NewDiscreteStates", "fmi2EnterContinuousTimeMode", "fmi2CompletedIntegratorStep",
-                                  "fmi2SetTime", "fmi2SetContinuousStates", "fmi2GetDerivatives",
-                                  "fmi2GetEventIndicators", "fmi2GetContinuousStates",
-                                  "fmi2GetNominalsOfContinuousStates", "fmi2CancelStep"};
+    static const char *names[] = {"fmi2GetTypesPlatform",
+                                  "fmi2GetVersion",
+                                  "fmi2GetStatus",
+                                  "fmi2GetIntegerStatus",
+                                  "fmi2GetStringStatus",
+                                  "fmi2SetRealInputDerivatives",
+                                  "fmi2GetRealOutputDerivatives",
+                                  "fmi2FreeFMUstate",
+                                  "fmi2SerializedFMUstateSize",
+                                  "fmi2SerializeFMUstate",
+                                  "fmi2DeSerializeFMUstate",
+                                  "fmi2GetDirectionalDerivative",
+                                  "fmi2EnterEventMode",
+                                  "fmi2NewDiscreteStates",
+                                  "fmi2EnterContinuousTimeMode",
+                                  "fmi2CompletedIntegratorStep",
+                                  "fmi2SetTime",
+                                  "fmi2SetContinuousStates",
+                                  "fmi2GetDerivatives",
+                                  "fmi2GetEventIndicators",
+                                  "fmi2GetContinuousStates",
+                                  "fmi2GetNominalsOfContinuousStates",
+                                  "fmi2CancelStep"};
     for (size_t i = 0; i < sizeof names / sizeof *names; ++i)
         symbol(library, names[i]);
     int (*get_state)(Component, void **), (*set_state)(Component, void *);
@@ -278,6 +384,7 @@ int main(int argc, char **argv)
     fmi = load2(library);
     instances_that_cannot_be();
     wrong_order();
+    state_table();
     steps();
     values();
     limits();

@@ -16,7 +16,7 @@ static uint32_t of(const char *name)
 static Component make(void)
 {
     Component component
-        = fmi.instantiate("one", token, NULL, false, true, false, false, NULL, 0, NULL, log3_message, NULL);
+        = fmi.instantiate("one", token, NULL, false, false, false, false, NULL, 0, NULL, log3_message, NULL);
     REQUIRE(component != NULL);
     return component;
 }
@@ -80,6 +80,108 @@ static void order_and_steps(void)
     fmi.free_instance(component);
 }
 
+/* The states of the standard, and an instance in each of them. */
+enum { INSTANTIATED, INITIALIZING, STEPPING, TERMINATED, FAILED, STATES };
+static int (*set_int32)(Component, const uint32_t *, size_t, const int32_t *, size_t);
+
+static Component in_state(int state)
+{
+    const uint32_t mode = of("mode");
+    const int32_t fails = 1;
+    Component component = make();
+    if (state >= INITIALIZING)
+        REQUIRE(fmi.enter(component, false, 0, 0, false, 0) == STATUS_OK);
+    if (state >= STEPPING)
+        REQUIRE(fmi.leave(component) == STATUS_OK);
+    if (state == TERMINATED)
+        REQUIRE(fmi.terminate(component) == STATUS_OK);
+    if (state == FAILED)
+        REQUIRE(set_int32(component, &mode, 1, &fails, 1) == STATUS_OK && step(component, 0, 0.01) == STATUS_ERROR);
+    last_message[0] = '\0';
+    return component;
+}
+
+static int call_enter(Component component)
+{
+    return fmi.enter(component, false, 0, 0, false, 0);
+}
+static int call_leave(Component component)
+{
+    return fmi.leave(component);
+}
+static int call_step(Component component)
+{
+    return step(component, 0, 0.01);
+}
+static int call_terminate(Component component)
+{
+    return fmi.terminate(component);
+}
+static int call_reset(Component component)
+{
+    return fmi.reset(component);
+}
+static int call_get(Component component)
+{
+    const uint32_t reference = of("real");
+    double value;
+    return fmi.get_float64(component, &reference, 1, &value, 1);
+}
+static int call_set(Component component)
+{
+    const uint32_t reference = of("real");
+    const double value = 1;
+    return fmi.set_float64(component, &reference, 1, &value, 1);
+}
+
+/* Each function in each state does its work, or is an error with a sentence; the instance works afterwards. */
+static void state_table(void)
+{
+    static const struct
+    {
+        const char *name;
+        int (*call)(Component);
+        const char *allowed; /* in which of the states */
+    } functions[] = {{"fmi3EnterInitializationMode", call_enter, "+----"},
+                     {"fmi3ExitInitializationMode", call_leave, "-+---"},
+                     {"fmi3DoStep", call_step, "--+--"},
+                     {"fmi3Terminate", call_terminate, "--+-+"},
+                     {"fmi3Reset", call_reset, "+++++"},
+                     {"fmi3GetFloat64", call_get, "-++++"},
+                     {"fmi3SetFloat64", call_set, "+++--"}};
+    for (size_t i = 0; i < sizeof functions / sizeof *functions; ++i) {
+        for (int state = INSTANTIATED; state < STATES; ++state) {
+            Component component = in_state(state);
+            const int status = functions[i].call(component);
+            if (functions[i].allowed[state] == '+') {
+                REQUIRE(status == STATUS_OK);
+            } else {
+                REQUIRE(status == STATUS_ERROR && strstr(last_message, functions[i].name));
+                TOLD("is not allowed now, because it ");
+            }
+            REQUIRE(fmi.reset(component) == STATUS_OK && call_enter(component) == STATUS_OK);
+            REQUIRE(fmi.leave(component) == STATUS_OK && call_step(component) == STATUS_OK);
+            fmi.free_instance(component);
+        }
+        REQUIRE(functions[i].call(NULL) == STATUS_ERROR);
+    }
+}
+
+/* What a host should hear also without logging. */
+static void warnings(void)
+{
+    Component component = begin();
+    const uint32_t real = of("real"), out = of("realOut");
+    const double good = 3, bad = NAN;
+    double value = 0;
+    REQUIRE(fmi.set_float64(component, &real, 1, &good, 1) == STATUS_OK && step(component, 0, 0.01) == STATUS_OK);
+    REQUIRE(fmi.set_float64(component, &real, 1, &bad, 1) == STATUS_OK && step(component, 0.01, 0.01) == STATUS_OK);
+    TOLD("real is not finite or outside of its limits");
+    REQUIRE(fmi.get_float64(component, &out, 1, &value, 1) == STATUS_OK && value == 3);
+    REQUIRE(step(component, 0.02, 0.01) == STATUS_OK && last_message[0] == '\0'); /* once */
+    fmi.free_instance(component);
+}
+
 static void values(void)
 {
     Component component = begin();
@@ -132,10 +234,8 @@ static void values(void)
     fmi.free_instance(component);
 }
 
-static void failures_and_two_instances(void *library)
+static void failures_and_two_instances(void)
 {
-    int (*set_int32)(Component, const uint32_t *, size_t, const int32_t *, size_t);
-    *(void **)&set_int32 = symbol(library, "fmi3SetInt32");
     Component component = begin(), other = begin();
     const uint32_t mode = of("mode"), out = of("realOut");
     const int32_t fails = 1, stops = 2;
@@ -156,20 +256,53 @@ static void failures_and_two_instances(void *library)
 
 static void functions_that_are_not_offered(void *library)
 {
-    static const char *names[] = {
-        "fmi3GetVersion", "fmi3SetDebugLogging", "fmi3InstantiateScheduledExecution", "fmi3EnterEventMode",
-        "fmi3SetBinary", "fmi3GetClock", "fmi3SetClock", "fmi3GetNumberOfVariableDependencies",
-        "fmi3GetVariableDependencies", "fmi3GetFMUState", "fmi3SetFMUState", "fmi3FreeFMUState",
-        "fmi3SerializedFMUStateSize", "fmi3SerializeFMUState", "fmi3DeserializeFMUState",
-        "fmi3GetDirectionalDerivative", "fmi3GetAdjointDerivative", "fmi3EnterConfigurationMode",
-        "fmi3ExitConfigurationMode", "fmi3GetIntervalDecimal", "fmi3GetIntervalFraction", "fmi3GetShiftDecimal",
-        "fmi3GetShiftFraction", "fmi3SetIntervalDecimal", "fmi3SetIntervalFraction", "fmi3SetShiftDecimal",
-        "fmi3SetShiftFraction", "fmi3EvaluateDiscreteStates", "fmi3UpdateDiscreteStates",
-        "fmi3EnterContinuousTimeMode", "fmi3CompletedIntegratorStep", "fmi3SetTime", "fmi3SetContinuousStates",
-        "fmi3GetContinuousStateDerivatives", "fmi3GetEventIndicators", "fmi3GetContinuousStates",
-        "fmi3GetNominalsOfContinuousStates", "fmi3GetNumberOfEventIndicators", "fmi3GetNumberOfContinuousStates",
-        "fmi3EnterStepMode", "fmi3GetOutputDerivatives", "fmi3ActivateModelPartition", "fmi3GetInt16",
-        "fmi3SetInt8", "fmi3GetUInt8", "fmi3SetUInt16", "fmi3GetUInt32"};
+    static const char *names[] = {"fmi3GetVersion",
+                                  "fmi3SetDebugLogging",
+                                  "fmi3InstantiateScheduledExecution",
+                                  "fmi3EnterEventMode",
+                                  "fmi3SetBinary",
+                                  "fmi3GetClock",
+                                  "fmi3SetClock",
+                                  "fmi3GetNumberOfVariableDependencies",
+                                  "fmi3GetVariableDependencies",
+                                  "fmi3GetFMUState",
+                                  "fmi3SetFMUState",
+                                  "fmi3FreeFMUState",
+                                  "fmi3SerializedFMUStateSize",
+                                  "fmi3SerializeFMUState",
+                                  "fmi3DeserializeFMUState",
+                                  "fmi3GetDirectionalDerivative",
+                                  "fmi3GetAdjointDerivative",
+                                  "fmi3EnterConfigurationMode",
+                                  "fmi3ExitConfigurationMode",
+                                  "fmi3GetIntervalDecimal",
+                                  "fmi3GetIntervalFraction",
+                                  "fmi3GetShiftDecimal",
+                                  "fmi3GetShiftFraction",
+                                  "fmi3SetIntervalDecimal",
+                                  "fmi3SetIntervalFraction",
+                                  "fmi3SetShiftDecimal",
+                                  "fmi3SetShiftFraction",
+                                  "fmi3EvaluateDiscreteStates",
+                                  "fmi3UpdateDiscreteStates",
+                                  "fmi3EnterContinuousTimeMode",
+                                  "fmi3CompletedIntegratorStep",
+                                  "fmi3SetTime",
+                                  "fmi3SetContinuousStates",
+                                  "fmi3GetContinuousStateDerivatives",
+                                  "fmi3GetEventIndicators",
+                                  "fmi3GetContinuousStates",
+                                  "fmi3GetNominalsOfContinuousStates",
+                                  "fmi3GetNumberOfEventIndicators",
+                                  "fmi3GetNumberOfContinuousStates",
+                                  "fmi3EnterStepMode",
+                                  "fmi3GetOutputDerivatives",
+                                  "fmi3ActivateModelPartition",
+                                  "fmi3GetInt16",
+                                  "fmi3SetInt8",
+                                  "fmi3GetUInt8",
+                                  "fmi3SetUInt16",
+                                  "fmi3GetUInt32"};
     for (size_t i = 0; i < sizeof names / sizeof *names; ++i)
         symbol(library, names[i]);
     int (*get_binary)(Component, const uint32_t *, size_t, size_t *, const uint8_t **, size_t);
@@ -193,9 +326,12 @@ int main(int argc, char **argv)
     void *library = open_library(path);
     fmi = load3(library);
     instances_that_cannot_be(library);
+    *(void **)&set_int32 = symbol(library, "fmi3SetInt32");
     order_and_steps();
+    state_table();
+    warnings();
     values();
-    failures_and_two_instances(library);
+    failures_and_two_instances();
     functions_that_are_not_offered(library);
     free(description.text);
     dlclose(library);

@@ -157,6 +157,8 @@ static inline void log3_of_plant(void *environment, int status, const char *cate
     take_message(environment, status, text);
 }
 
+static int is_logging = 0; /* of the next instances: then they also tell what is no warning */
+
 /* The plant must stay where it is: the instance has its address. */
 static inline void make_plant(Plant *plant, const Library *library, void (*begin)(Plant *))
 {
@@ -165,9 +167,9 @@ static inline void make_plant(Plant *plant, const Library *library, void (*begin
     plant->begin = begin;
     plant->callbacks = (Callbacks2){log2_of_plant, NULL, NULL, NULL, plant};
     plant->component = library->version == 2
-        ? library->fmi2.instantiate("plant", 1, library->identification, NULL, &plant->callbacks, 0, 1)
-        : library->fmi3.instantiate("plant", library->identification, NULL, false, true, false, false, NULL, 0, plant,
-                                    log3_of_plant, NULL);
+        ? library->fmi2.instantiate("plant", 1, library->identification, NULL, &plant->callbacks, 0, is_logging)
+        : library->fmi3.instantiate("plant", library->identification, NULL, false, is_logging, false, false, NULL, 0,
+                                    plant, log3_of_plant, NULL);
     REQUIRE(plant->component != NULL);
 }
 

@@ -4,6 +4,7 @@
 #include <QtPlcCore>
 
 #include <cstdio>
+#include <stdexcept>
 
 namespace {
 
@@ -34,6 +35,8 @@ private:
     void initialized() override { m_first = m_command; }
     void step(const QPlcCycle &) override
     {
+        if (m_command <= -100.0)
+            throw std::runtime_error("the outlet is too small");
         m_level = m_level + m_command;
         m_began = m_first;
         m_tripleOut = m_triple.value();
@@ -53,7 +56,12 @@ public:
 private:
     QPlcInput<double> m_value;
     double m_shown = 0.0;
-    void step(const QPlcCycle &) override { m_shown = m_value; }
+    void step(const QPlcCycle &) override
+    {
+        m_shown = m_value;
+        if (m_shown == 104.0)
+            throw std::runtime_error("not on the scale");
+    }
     void stopped() override
     {
         std::printf("%.17g\n", m_shown);

@@ -16,6 +16,7 @@ private Q_SLOTS:
     void configurationIsRead();
     void wrongConfigurationsAreRefusedWithTheirLine_data();
     void wrongConfigurationsAreRefusedWithTheirLine();
+    void allErrorsOfAConfigurationAreToldAtOnce();
 
     void valuesPassWithoutADelayOfTheHost_data() { versions(); }
     void valuesPassWithoutADelayOfTheHost() { run("values_pass"); }
@@ -39,6 +40,10 @@ private Q_SLOTS:
     void hangingRequiredNodeCostsTheLimitOnce() { run("hanging_required"); }
     void hangingCriticalNodeIsAnErrorAtTheLimit_data() { versions(); }
     void hangingCriticalNodeIsAnErrorAtTheLimit() { run("hanging_critical"); }
+    void failureOfARequiredNodeIsAnErrorOfItsStep_data() { versions(); }
+    void failureOfARequiredNodeIsAnErrorOfItsStep() { run("failing_required"); }
+    void failureOfACriticalNodeIsAnErrorOfItsStep_data() { versions(); }
+    void failureOfACriticalNodeIsAnErrorOfItsStep() { run("failing_critical"); }
     void stopByAPersonEndsTheSimulation_data() { versions(); }
     void stopByAPersonEndsTheSimulation() { run("stop_by_a_person"); }
     void nodesEndWithTheHost_data() { versions(); }
@@ -107,9 +112,15 @@ void tst_HeldPlant::wrongConfigurationsAreRefusedWithTheirLine_data()
     QTest::newRow("key") << plant + "prot = 1\n"
                          << ":3: unknown key 'prot'; use critical, required, time_signal";
     QTest::newRow("port") << plant + "port = often\n"
-                          << ":3: port = often: use a value of type Int32";
-    QTest::newRow("port 65536") << plant + "port = 65536\n"
-                                << ":3: port = 65536";
+                          << ":3: port = often: use a whole number, 0 ... 65535";
+    QTest::newRow("port 70000") << plant + "port = 70000\n"
+                                << ":3: port = 70000: use a whole number, 0 ... 65535";
+    QTest::newRow("text") << plant + "listen = " + QByteArray(65, '1') + "\n"
+                          << ": the text is longer than 64 bytes";
+    QTest::newRow("nan") << plant + "longest_wait = nan s\n"
+                         << ":3: longest_wait = nan s: use 1 ms to 3600 s";
+    QTest::newRow("key twice") << plant + "port = 1\nport = 2\n"
+                               << ":4: 'port' is there twice, first in line 3; leave one of them out";
     QTest::newRow("no unit") << plant + "longest_wait = 5\n"
                              << ":3: longest_wait = 5: use 1 ms to 3600 s";
     QTest::newRow("too long") << plant + "start_timeout = 3601 s\n"
@@ -140,6 +151,22 @@ void tst_HeldPlant::wrongConfigurationsAreRefusedWithTheirLine()
     QString error;
     QVERIFY(!configuration.read(text, table(), &error));
     QVERIFY2(error.contains(sentence), qPrintable(error));
+}
+
+void tst_HeldPlant::allErrorsOfAConfigurationAreToldAtOnce()
+{
+    HeldPlantConfiguration configuration;
+    QString error;
+    QVERIFY(!configuration.read("port = 1\n[plant]\nport = 70000\nport = 1\nlongest_wait = 5\n[plan]\nport = often\n"
+                                "[host]\ngets = lenght\ngives = speed\n",
+                                table(), &error));
+    QCOMPARE(error.split('\n').size(), 6);
+    for (const char *line : {":1: 'port = 1' is not expected here", ":3: port = 70000", ":4: 'port' is there twice",
+                             ":5: longest_wait = 5", ":6: unknown section [plan]", ":9: unknown signal 'lenght'"})
+        QVERIFY2(error.contains(line), qPrintable(error));
+    QVERIFY(!configuration.read("[plant]\n" + QByteArray("port = x\n").repeated(100), table(), &error));
+    QCOMPARE(error.split('\n').size(), 11);
+    QVERIFY2(error.endsWith("there are 90 more errors"), qPrintable(error));
 }
 
 void tst_HeldPlant::versions()

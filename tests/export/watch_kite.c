@@ -38,6 +38,7 @@ int main(int argc, char **argv)
     snprintf(path, sizeof path, "%s/binaries/%s/awe_watched_plant.so", argv[2],
              version == 2 ? "linux64" : "x86_64-linux");
     const Library library = load_library(version, argv[2], path);
+    is_logging = 1;
     make_plant(&plant, &library, start_nodes);
     REQUIRE(set_integer(&plant, "plant.port", 0) == STATUS_OK);
     REQUIRE(enter_plant(&plant) == STATUS_OK && leave_plant(&plant) == STATUS_OK);
