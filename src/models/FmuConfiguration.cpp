@@ -70,7 +70,7 @@ void FmuConfiguration::interpret()
                               knownAre(sectionNames)));
         }
     }
-    if (m_fmu.value.isEmpty() && errors().isEmpty())
+    if (m_fmu.value.isEmpty())
         addError(0, 0, QStringLiteral("no FMU is named; add [fmu] with 'file = model.fmu'"));
 }
 

@@ -3,6 +3,7 @@
 
 #include "FmuArchive.h"
 #include "QPlcValue.h"
+#include "signals/ConfigurationFile.h"
 #include "signals/MessageText.h"
 
 #include <QtCore/QFileInfo>
@@ -189,7 +190,7 @@ bool FmuModel::readStart(const FmuDescription &description, const QString &name,
         qint64 integer = 0;
         bool isGood = false;
         if (isReal)
-            number = part.toDouble(&isGood);
+            isGood = finiteNumberFromText(part, &number);
         else
             isGood = integerFromText(*variable, part, &integer) && fitsKind(variable->kind, integer);
         if (!isGood) {
@@ -245,7 +246,7 @@ void FmuModel::reset()
             "again");
     Q_ASSERT_X(m_state != NotLoaded, "FmuModel::reset", "load() comes first");
     m_log->forgetComplaint();
-    m_elapsed = std::chrono::nanoseconds(0);
+    m_steps = 0;
     m_isOver = false;
     m_isRefused = false;
     if (!m_instance->exists()) {
@@ -264,7 +265,7 @@ void FmuModel::reset()
     }
     m_state = Loaded;
     writeStarts();
-    m_start = m_description.startTime.value_or(0.0);
+    m_start = m_time = m_description.startTime.value_or(0.0);
     const FmuInstance::Experiment experiment{m_start, m_settings.stopTime,
                                              m_settings.tolerance ? m_settings.tolerance : m_description.tolerance};
     expect(m_instance->enterInitializationMode(experiment), "the begin of the initialization");
@@ -297,29 +298,39 @@ void FmuModel::writeInputs()
         handleEvents(true);
 }
 
-void FmuModel::checkStep(std::chrono::nanoseconds step) const
+/// A step of whole nanoseconds gives the nearest number to the exact time: 3 * 0.1 s is 0.3 s.
+double FmuModel::multipleOf(double step, qint64 count)
+{
+    const double nanoseconds = step * 1e9;
+    const double whole = std::round(nanoseconds);
+    const bool isWhole = std::abs(nanoseconds - whole) <= 1e-15 * nanoseconds && whole * double(count) < 9e15;
+    return isWhole ? whole * double(count) / 1e9 : step * double(count);
+}
+
+void FmuModel::setStep(double step)
 {
     const double inner = m_description.fixedInternalStep.value_or(0.0);
-    const double ratio = inner > 0.0 ? double(step.count()) / 1e9 / inner : 1.0;
+    const double ratio = inner > 0.0 ? step / inner : 1.0;
     if (std::abs(ratio - std::round(ratio)) > 1e-6 || ratio < 0.5)
         throw std::runtime_error(messageOf(
             QStringLiteral(
                 "the FMU computes in steps of %1 s, of which a step of %2 s is no multiple; choose a multiple")
                 .arg(inner)
-                .arg(double(step.count()) / 1e9)));
+                .arg(step)));
+    m_step = step;
 }
 
-void FmuModel::doStep(std::chrono::nanoseconds step)
+void FmuModel::doStep()
 {
     if (m_isOver)
         return;
-    const FmuInstance::Step result = m_instance->doStep(time(), double(step.count()) / 1e9);
+    const FmuInstance::Step result = m_instance->doStep(m_time, m_step);
     if (result.status == fmi::Discard || result.isOver) {
         m_isOver = true;
         m_isRefused = !result.isOver;
-        const double done = result.isOver ? (result.lastTime - time()) * 1e9 : 0.0;
-        if (done > 0.0 && done <= double(step.count()) + 1.0)
-            m_elapsed += std::chrono::nanoseconds(std::llround(done));
+        const double done = result.isOver ? result.lastTime - m_time : 0.0;
+        if (done > 0.0 && done <= m_step + 1e-9)
+            m_time = result.lastTime;
         return;
     }
     expect(result.status, "a step");
@@ -327,7 +338,7 @@ void FmuModel::doStep(std::chrono::nanoseconds step)
         fail(fmi::Error,
              QStringLiteral("a step, which it has ended early at %1 s although that is not allowed")
                  .arg(result.lastTime));
-    m_elapsed += step;
+    m_time = m_start + multipleOf(m_step, ++m_steps);
     if (result.needsEvent && m_instance->usesEventMode())
         handleEvents(false);
 }

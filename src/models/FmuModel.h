@@ -68,12 +68,15 @@ public:
     void readOutputs();
     /// Takes the inputs.
     void writeInputs();
-    /// Throws when the FMU cannot make steps of this length.
-    void checkStep(std::chrono::nanoseconds step) const;
-    /// Moves the time on by \a step. Does nothing when isOver().
-    void doStep(std::chrono::nanoseconds step);
-    /// Time that the FMU has reached [s].
-    double time() const { return m_start + double(m_elapsed.count()) / 1e9; }
+    /// \a count steps [s], without an error that grows.
+    static double multipleOf(double step, qint64 count);
+    /// Sets the length of all steps [s], before the first one. Throws when the FMU cannot make
+    /// steps of this length.
+    void setStep(double step);
+    /// Moves the time on by a step. Does nothing when isOver().
+    void doStep();
+    /// Time that the FMU has reached [s]: the start and a multiple of the step, never a sum.
+    double time() const { return m_time; }
     /// The FMU has ended the simulation, or has refused a step.
     bool isOver() const { return m_isOver; }
     /// Why.
@@ -108,7 +111,9 @@ private:
     std::unique_ptr<FmuInstance> m_instance;
     State m_state = NotLoaded;
     double m_start = 0.0;  // [s]
-    std::chrono::nanoseconds m_elapsed{0};
+    double m_step = 0.0;   // [s]
+    qint64 m_steps = 0;    // that are done
+    double m_time = 0.0;   // [s]
     bool m_isOver = false;
     bool m_isRefused = false;
 };

@@ -109,9 +109,9 @@ bool QPlcFmuNode::configure(const QByteArray &text, const QString &fileName)
 bool QPlcFmuNode::Private::configure(FmuConfiguration *configuration)
 {
     Q_ASSERT_X(!model, "QPlcFmuNode::configure", "a node is configured once");
-    if (configuration->errors().isEmpty())
+    if (!configuration->fmuEntry().value.isEmpty())
         open(configuration);
-    if (configuration->errors().isEmpty())
+    if (wiring)
         build(configuration);
     errors = configuration->errors();
     if (!errors.isEmpty()) {
@@ -362,7 +362,7 @@ void QPlcFmuNode::update(const QPlcCycle &cycle)
         fmu.setPeriod(cycle.period());
     fmu.model->writeInputs();
     for (qint64 i = 0; i < fmu.steps; ++i)
-        fmu.model->doStep(fmu.phaseStep);
+        fmu.model->doStep();
     if (!fmu.model->isOver())
         return;
     requestSafeStop();
@@ -381,7 +381,7 @@ void QPlcFmuNode::Private::setPeriod(std::chrono::nanoseconds given)
                            "change 'step' of [fmu]")
                 .arg(qplc::durationText(phaseStep), qplc::durationText(given))
                 .toStdString());
-    model->checkStep(phaseStep);
+    model->setStep(double(phaseStep.count()) / 1e9);
     period = given;
 }
 

@@ -24,17 +24,22 @@ bool ConfigurationTerm::fromText(const QString &text, ConfigurationTerm *term, Q
         QStringLiteral(R"(^([^\s*+\[\]]+)(?:\[(\d{1,4})\])?(?:\s*\*\s*(\S+))?(?:\s+([+-])\s*(\S+))?$)"));
     const QRegularExpressionMatch match = pattern.match(text);
     *term = {};
+    error->clear();
     const QString sign = match.captured(4);
-    const bool isGood = match.hasMatch()
-        && (match.captured(3).isEmpty() || finiteNumberFromText(match.captured(3), &term->factor))
-        && (sign.isEmpty() || finiteNumberFromText(match.captured(5), &term->offset));
-    if (!isGood) {
+    const QString factor = match.captured(3);
+    if (!match.hasMatch())
         *error
             = QStringLiteral("%1 is not a name with a factor and an offset; write for example 'speed', 'speed * 0.1' "
                              "or 'position[2] * 0.001 - 5'")
                   .arg(quoted(text));
+    else if (!factor.isEmpty() && !finiteNumberFromText(factor, &term->factor))
+        *error = QStringLiteral("the factor %1 is not a finite number").arg(quoted(factor));
+    else if (term->factor == 0.0)
+        *error = QStringLiteral("with the factor %1, nothing is left of the value").arg(quoted(factor));
+    else if (!sign.isEmpty() && !finiteNumberFromText(match.captured(5), &term->offset))
+        *error = QStringLiteral("the offset %1 is not a finite number").arg(quoted(match.captured(5)));
+    if (!error->isEmpty())
         return false;
-    }
     term->name = match.captured(1);
     term->element = match.captured(2).isEmpty() ? -1 : match.captured(2).toInt();
     term->offset = sign == QLatin1String("-") ? -term->offset : term->offset;

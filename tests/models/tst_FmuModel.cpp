@@ -20,6 +20,8 @@ private Q_SLOTS:
     void initTestCase();
     void inputsMoveTheModel_data() { addVersions(); }
     void inputsMoveTheModel();
+    void timeIsAMultipleOfTheStep_data();
+    void timeIsAMultipleOfTheStep();
     void everySimulationBeginsAnew_data() { addVersions(); }
     void everySimulationBeginsAnew();
     void eventsAreHandledAfterTheStep_data();
@@ -78,6 +80,7 @@ struct Plant
                 settings.starts.append(start);
         }
         model->setSettings(settings);
+        model->setStep(0.1);
         u = model->inputs().add(variable("u"));
         x = model->outputs().add(variable("x"));
         mode = model->outputs().add(variable("mode"));
@@ -107,7 +110,7 @@ struct Plant
     {
         for (int i = 0; i < count; ++i) {
             model->writeInputs();
-            model->doStep(100ms);
+            model->doStep();
             if (!model->isOver())
                 model->readOutputs();
         }
@@ -156,6 +159,33 @@ void tst_FmuModel::inputsMoveTheModel()
     plant.step(3);
     QCOMPARE(plant.position(), 5.6);
     QCOMPARE(plant.model->time(), 0.3);
+}
+
+void tst_FmuModel::timeIsAMultipleOfTheStep_data()
+{
+    QTest::addColumn<double>("step");
+    QTest::addColumn<int>("count");
+    QTest::addColumn<double>("end");
+    QTest::newRow("1/60 s") << 1.0 / 60 << 60'000 << 1000.0;
+    QTest::newRow("1/3 s") << 1.0 / 3 << 300 << 100.0;
+    QTest::newRow("0.1 s") << 0.1 << 12'345 << 1234.5;
+    QTest::newRow("7 ns") << 7e-9 << 10'000 << 7e-5;
+}
+
+void tst_FmuModel::timeIsAMultipleOfTheStep()
+{
+    QFETCH(double, step);
+    QFETCH(int, count);
+    QFETCH(double, end);
+    Plant plant("plant2");
+    plant.model->reset();
+    plant.model->setStep(step);
+    plant.model->initialize();
+    for (int k = 0; k < count; ++k) {
+        QVERIFY2(std::abs(plant.model->time() - k * step) <= 5e-16 * k * step, qPrintable(QString::number(k)));
+        plant.model->doStep();
+    }
+    QCOMPARE(plant.model->time(), end);
 }
 
 void tst_FmuModel::everySimulationBeginsAnew()

@@ -45,6 +45,7 @@ private Q_SLOTS:
     void cyclesAllocateNothing();
     void wrongConfigurationsAreRefusedWithTheirPlace_data();
     void wrongConfigurationsAreRefusedWithTheirPlace();
+    void allErrorsOfAConfigurationAreToldAtOnce();
 
 private:
     static void addVersions()
@@ -488,6 +489,16 @@ void tst_FmuNode::wrongConfigurationsAreRefusedWithTheirPlace_data()
     row("gap", "[fmu.read]\nvector[0] = x\nvector[2] = x\n", "no variable gives a value to vector[1]");
     row("factor on the left", "[fmu.read]\nsum * 2 = x\n", "factor and offset of 'sum * 2' belong to the right side");
     row("text", "[fmu.read]\nsum = label\n", "'label' is of the type String");
+    row("factor 0", "[fmu.read]\nsum = x * 0\n", "a.ini:6:7: with the factor '0', nothing is left of the value");
+    row("factor nan", "[fmu.read]\nsum = x * nan\n", "the factor 'nan' is not a finite number");
+    row("factor inf", "[fmu.write]\nu = setpoint * inf\n", "the factor 'inf' is not a finite number");
+    row("offset", "[fmu.read]\nsum = x * 2 - inf\n", "the offset 'inf' is not a finite number");
+    row("start nan", "[fmu.start]\ngain = nan\n", "a.ini:6:8: 'nan' is not a value of 'gain' (Real)");
+    row("start inf", "[fmu.start]\nx0 = -inf\n", "'-inf' is not a value of 'x0' (Real)");
+    row("step nan", "step = nan\n", "'nan' is not a step");
+    row("step that is too long", "step = 1e9 s\n", "'1e9 s' is not a step; write for example '10 ms', at most '10 s'");
+    row("tolerance inf", "tolerance = inf\n", "'inf' is not a tolerance");
+    row("key twice", "log = on\nlog = off\n", "a.ini:6:1: 'log' is there twice, first in line 5");
 }
 
 void tst_FmuNode::wrongConfigurationsAreRefusedWithTheirPlace()
@@ -497,6 +508,20 @@ void tst_FmuNode::wrongConfigurationsAreRefusedWithTheirPlace()
     QPlcFmuNode node;
     QVERIFY(!node.configure(text, "a.ini"));
     QVERIFY2(errorsOf(node).contains(error), qPrintable(errorsOf(node)));
+    QVERIFY(node.wires().isEmpty());
+}
+
+void tst_FmuNode::allErrorsOfAConfigurationAreToldAtOnce()
+{
+    QPlcFmuNode node;
+    QVERIFY(!node.configure(configuration("plant2",
+                                          "log = perhaps\nlog = off\nstep = inf\n[fmu.start]\ngain = nan\n[fmu.read]\n"
+                                          "sum = y\nfree = x * 0\n[fmu.write]\nu = 8\n"),
+                            "a.ini"));
+    for (const char *error : {"'log' is there twice", "neither 'on' nor 'off'", "'inf' is not a step",
+                              "'nan' is not a value", "no variable 'y'", "the factor '0'", "'8' is a number"})
+        QVERIFY2(errorsOf(node).contains(error), qPrintable(errorsOf(node)));
+    QCOMPARE(node.configurationErrors().size(), 7);
     QVERIFY(node.wires().isEmpty());
 }
 

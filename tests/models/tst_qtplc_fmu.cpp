@@ -27,6 +27,7 @@ private Q_SLOTS:
     void runTellsWhyItEnds();
     void runEndsWithAWholeStep_data() { addVersions(); }
     void runEndsWithAWholeStep();
+    void runStopsAtAMultipleOfTheStep();
     void runWritesOverNothingThatItReads();
     void outputThatCannotBeWrittenIsAnError();
     void checkFindsFaults_data();
@@ -35,6 +36,7 @@ private Q_SLOTS:
     void nodeChecksItsConfiguration();
     void nodeIsPartOfAPlant_data() { addVersions(); }
     void nodeIsPartOfAPlant();
+    void crashLosesTheNodeAndNotThePlant_data();
     void crashLosesTheNodeAndNotThePlant();
     void slowStepIsLateAndThePlantGoesOn();
     void hangingStepEndsWithItsProcess();
@@ -254,7 +256,10 @@ void tst_qtplc_fmu::runTellsWhyItEnds_data()
         QTest::addRow("%s error", file) << file << 3 << 1 << "in a step: 'the tank is empty'";
         QTest::addRow("%s fatal", file) << file << 4 << 1 << "the FMU reports a fatal error";
         QTest::addRow("%s crash", file) << file << 6 << -SIGSEGV << "the FMU has crashed in fmi";
-        QTest::addRow("%s exits", file) << file << 12 << 1 << "the FMU has ended the process in fmi";
+        QTest::addRow("%s stack", file) << file << 13 << -SIGSEGV << "the FMU has crashed in fmi";
+        QTest::addRow("%s exits", file) << file << 12 << 1 << "DoStep: it has called exit(); tell the maker";
+        QTest::addRow("%s exits at once", file) << file << 14 << 1 << "DoStep: it has called _exit(); tell the maker";
+        QTest::addRow("%s exits quickly", file) << file << 15 << 1 << "DoStep: it has called quick_exit(); tell";
     }
 }
 
@@ -282,6 +287,19 @@ void tst_qtplc_fmu::runEndsWithAWholeStep()
     QFile csv(m_folder.filePath("out.csv"));
     QVERIFY(csv.open(QIODevice::ReadOnly));
     QCOMPARE(csv.readAll().trimmed().split('\n').size(), 5);
+}
+
+/// A step of no whole number of nanoseconds.
+void tst_qtplc_fmu::runStopsAtAMultipleOfTheStep()
+{
+    const Run done = run({"run", pathOf("plant2"), "--stop", "100", "--step", "0.016666666666666666", "--set", "u=1",
+                          "--out", "out.csv"});
+    QVERIFY2(done.code == 0, qPrintable(done.errors));
+    QFile csv(m_folder.filePath("out.csv"));
+    QVERIFY(csv.open(QIODevice::ReadOnly));
+    const QList<QByteArray> lines = csv.readAll().trimmed().split('\n');
+    QCOMPARE(lines.size(), 6002);
+    QVERIFY2(lines.at(61).startsWith("1,") && lines.last().startsWith("100,"), lines.last());
 }
 
 void tst_qtplc_fmu::runWritesOverNothingThatItReads()
@@ -373,20 +391,33 @@ void tst_qtplc_fmu::nodeIsPartOfAPlant()
     QVERIFY(QDir(m_folder.filePath("temporary")).isEmpty());
 }
 
+void tst_qtplc_fmu::crashLosesTheNodeAndNotThePlant_data()
+{
+    QTest::addColumn<int>("fault");
+    QTest::addColumn<bool>("isSignal");
+    QTest::addColumn<QString>("text");
+    QTest::newRow("access") << 6 << true << "the FMU has crashed in fmi2DoStep: invalid access to memory";
+    QTest::newRow("stack") << 13 << true << "the FMU has crashed in fmi2DoStep: invalid access to memory, or its stack";
+    QTest::newRow("_exit()") << 14 << false << "the FMU has ended the process in fmi2DoStep: it has called _exit()";
+}
+
 void tst_qtplc_fmu::crashLosesTheNodeAndNotThePlant()
 {
+    QFETCH(int, fault);
+    QFETCH(bool, isSignal);
+    QFETCH(QString, text);
     TestMaster master(QPlcClock::realTime());
     QVERIFY(master.listen());
     QProcess process;
-    start(&process, master, "plant2", 6);
+    start(&process, master, "plant2", fault);
     QVERIFY(waitUntil([&] { return master.nodes().size() == 1; }, 20000));
     QSignalSpy lost(&master, &QPlcMasterNode::nodeLost);
     const LogCapture log;
     QVERIFY(master.startRealTime());
     QVERIFY(waitUntil([&] { return process.state() == QProcess::NotRunning; }, 20000));
-    QCOMPARE(process.exitStatus(), QProcess::CrashExit);
+    QCOMPARE(process.exitStatus(), isSignal ? QProcess::CrashExit : QProcess::NormalExit);
     const QString output = QString::fromUtf8(process.readAll());
-    QVERIFY2(output.contains("the FMU has crashed in fmi2DoStep: invalid access to memory"), qPrintable(output));
+    QVERIFY2(output.contains(text), qPrintable(output));
     QTRY_COMPARE(lost.size(), 1);
     const quint64 cycles = master.statistics().cycles;
     QVERIFY(master.waitForCycles(cycles + 10));

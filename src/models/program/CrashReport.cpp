@@ -3,11 +3,14 @@
 
 #include "models/FmuInstance.h"
 
+#include <array>
 #include <atomic>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <sys/syscall.h>
 #include <unistd.h>
+#include <utility>
 
 namespace fmu {
 
@@ -20,11 +23,17 @@ void write(const char *text)
     static_cast<void>(written);
 }
 
+[[noreturn]] void endNow(int code)
+{
+    for (;;)
+        ::syscall(SYS_exit_group, code);
+}
+
 const char *nameOf(int signal)
 {
     switch (signal) {
     case SIGSEGV:
-        return "invalid access to memory";
+        return "invalid access to memory, or its stack is full";
     case SIGFPE:
         return "invalid arithmetic";
     case SIGILL:
@@ -67,28 +76,73 @@ void tellHang(int)
     } else {
         write("qtplc_fmu: the end takes too long; this process ends\n");
     }
-    std::_Exit(1);
+    endNow(1);
 }
 
-/// exit() calls this, in the thread that has called exit().
-void tellExit()
+pid_t ownProcess = 0;  // a process that an FMU has forked may end as it likes
+
+/// Does nothing unless an FMU has called \a function, in the thread of this call.
+void tellEnd(const char *function)
 {
-    if (!qplc::FmuInstance::isCallingHere())
+    if (!qplc::FmuInstance::isCallingHere() || ::getpid() != ownProcess)
         return;
     write("qtplc_fmu: the FMU has ended the process in ");
     write(qplc::FmuInstance::lastCall());
-    write(": it has called exit(); tell the maker of the FMU\n");
-    std::_Exit(1);
+    write(": it has called ");
+    write(function);
+    write("; tell the maker of the FMU\n");
+    endNow(1);
 }
 
 }  // namespace
 
+}  // namespace fmu
+
+/// A function of the program comes before the one of the C library, also for the libraries of FMUs.
+extern "C" [[noreturn]] __attribute__((visibility("default"))) void _exit(int code)
+{
+    fmu::tellEnd("_exit()");
+    fmu::endNow(code);
+}
+
+extern "C" [[noreturn]] __attribute__((visibility("default"))) void _Exit(int code)
+{
+    fmu::tellEnd("_Exit()");
+    fmu::endNow(code);
+}
+
+namespace fmu {
+
 void CrashReport::install()
 {
-    std::atexit(tellExit);
+    ownProcess = ::getpid();
+    std::atexit([] { tellEnd("exit()"); });
+    std::at_quick_exit([] { tellEnd("quick_exit()"); });
+    struct sigaction action
+    {
+    };
+    action.sa_handler = tellCrash;
+    action.sa_flags = SA_ONSTACK;
+    sigemptyset(&action.sa_mask);
     for (int signal : {SIGSEGV, SIGFPE, SIGILL, SIGBUS, SIGABRT})
-        std::signal(signal, tellCrash);
+        ::sigaction(signal, &action, nullptr);
     std::signal(SIGALRM, tellHang);
+    coverThread();
+}
+
+void CrashReport::coverThread() noexcept
+{
+    static thread_local std::array<char, 32768> room;
+    static thread_local bool isCovered = false;
+    if (std::exchange(isCovered, true))
+        return;
+    stack_t former{};
+    if (::sigaltstack(nullptr, &former) != 0 || !(former.ss_flags & SS_DISABLE))
+        return;  // somebody has thought of it already
+    stack_t stack{};
+    stack.ss_sp = room.data();
+    stack.ss_size = room.size();
+    ::sigaltstack(&stack, nullptr);
 }
 
 void CrashReport::endAfter(std::chrono::seconds time)

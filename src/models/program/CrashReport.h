@@ -9,8 +9,12 @@ namespace fmu {
 class CrashReport
 {
 public:
-    /// Watches for signals of a crash. They still end the process.
+    /// Watches for signals of a crash, and for functions that end the process. They still end it.
     static void install();
+    /// Gives the calling thread a stack of its own for the message, because an FMU may have
+    /// overflowed the usual one. Cheap from the second call on. install() does it for the main
+    /// thread.
+    static void coverThread() noexcept;
     /// Ends the process if it still runs after \a time; with 0 no longer. A handler of a signal may
     /// call it.
     static void endAfter(std::chrono::seconds time);

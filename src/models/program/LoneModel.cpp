@@ -87,9 +87,10 @@ bool LoneModel::readSettings(QPlcApplicationOptions &application, qint64 usualSt
         application.usageError(QStringLiteral("%1 steps are too many; choose a longer --step").arg(count));
         return false;
     }
-    m_step = std::chrono::nanoseconds(std::llround(step * 1e9));
+    m_step = step;
     m_stepCount = std::max<qint64>(std::llround(std::ceil(count - 1e-6)), 1);
-    settings.stopTime = std::max(stop, start + double(m_stepCount) * step);  // an FMU need not go beyond it
+    settings.stopTime
+        = std::max(stop, start + FmuModel::multipleOf(step, m_stepCount));  // an FMU need not go beyond it
     settings.logs = application.isSet(QStringLiteral("log"));
     if (application.isSet(QStringLiteral("tolerance")))
         settings.tolerance = tolerance;

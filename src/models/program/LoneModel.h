@@ -27,7 +27,7 @@ public:
 
     qplc::FmuModel &model() { return *m_model; }
     const QVector<Output> &outputs() const { return m_outputs; }
-    std::chrono::nanoseconds step() const { return m_step; }
+    double step() const { return m_step; }  // [s]
     /// Number of steps until the end; the last one may go beyond --stop.
     qint64 stepCount() const { return m_stepCount; }
     /// The bytes of an output.
@@ -44,7 +44,7 @@ private:
 
     std::unique_ptr<qplc::FmuModel> m_model;
     QVector<Output> m_outputs;
-    std::chrono::nanoseconds m_step{0};
+    double m_step = 0.0;  // [s]
     qint64 m_stepCount = 0;
 };
 

@@ -14,6 +14,25 @@ namespace {
 constexpr std::chrono::seconds longestEnd{5};
 constexpr std::chrono::seconds longestStandstill{10};  // of the event loop
 
+/// A node whose crash is told in any thread.
+class CoveredNode final : public QPlcFmuNode
+{
+public:
+    ~CoveredNode() override { disconnectFromMaster(); }
+
+private:
+    void outputs() override
+    {
+        CrashReport::coverThread();
+        QPlcFmuNode::outputs();
+    }
+    void update(const QPlcCycle &cycle) override
+    {
+        CrashReport::coverThread();
+        QPlcFmuNode::update(cycle);
+    }
+};
+
 /// SIGTERM comes while the event loop may wait for the FMU. More signals do not prolong the time.
 void endAfterSignal()
 {
@@ -76,7 +95,7 @@ int runNode(int argc, char **argv)
         return application.usageError(QStringLiteral("name one configuration or FMU: qtplc_fmu node model.ini"));
     // Before the node, which waits for the FMU then.
     QObject::connect(&application, &QCoreApplication::aboutToQuit, [] { CrashReport::endAfter(longestEnd); });
-    QPlcFmuNode node;
+    CoveredNode node;
     if (!node.configureFromFile(application.positionalArguments().at(1)))
         return application.usageError(QPlcParseError::toString(node.configurationErrors()));
     if (application.isSet(QStringLiteral("check"))) {

@@ -67,7 +67,7 @@ void simulate(LoneModel &alone, CsvFile *inputs, OutputFile &output)
         if (inputs)
             inputs->apply(model.time());
     };
-    model.checkStep(alone.step());
+    model.setStep(alone.step());
     model.reset();
     apply();
     model.initialize();
@@ -78,7 +78,7 @@ void simulate(LoneModel &alone, CsvFile *inputs, OutputFile &output)
         apply();
         model.writeInputs();
         const double before = model.time();
-        model.doStep(alone.step());
+        model.doStep();
         if (model.time() > before) {
             model.readOutputs();
             output.writeValues(alone);

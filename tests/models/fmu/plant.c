@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
+#include <unistd.h>
 
 void plantReset(Plant *plant)
 {
@@ -25,6 +26,14 @@ static void sleepFor(long milliseconds)
 {
     const struct timespec time = {milliseconds / 1000, milliseconds % 1000 * 1000000};
     nanosleep(&time, 0);
+}
+
+/* Takes all of the stack, and needs it afterwards. */
+static int descend(Plant *plant, int depth)
+{
+    volatile char room[4096];
+    room[depth % 4096] = (char)depth;
+    return plant->fault == OverflowsStack ? descend(plant, depth + 1) + room[depth % 4096] : Ok;
 }
 
 static int fail(Plant *plant)
@@ -47,6 +56,12 @@ static int fail(Plant *plant)
         return Ok;
     case Exits:
         exit(0);
+    case ExitsAtOnce:
+        _exit(0);
+    case ExitsQuickly:
+        quick_exit(0);
+    case OverflowsStack:
+        return descend(plant, 0);
     case Sleeps:
         sleepFor(150);
         return Ok;

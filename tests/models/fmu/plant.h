@@ -21,7 +21,10 @@ enum Fault {
     FloodsLog,
     AccessesWrongly,
     HangsInitializing,  // says so before
-    Exits
+    Exits,
+    OverflowsStack,
+    ExitsAtOnce,
+    ExitsQuickly
 };
 enum Reference { Time, U, X, Mode, X0, Limit, FaultKind, FaultTime, Gain, Enabled, Label, R1, R2, R3, RefCount };
 
