@@ -112,7 +112,7 @@ public:
         /// No cycles run, or they have ended in this step: it was stopped, or the code of a node
         /// has failed (error() is NodeError then).
         Stopped,
-        Busy       ///< another thread is in a step(): nothing has happened
+        Busy  ///< another thread is in a step(): nothing has happened
     };
     Q_ENUM(StepResult)
 
@@ -203,6 +203,10 @@ public:
     /// state() and error() are current when it returns. But messages of nodes and tools wait until
     /// the event loop runs. With remote nodes, use QPlcEmbeddedMaster, or give the master a thread
     /// of its own.
+    ///
+    /// With this clock, your program needs no QCoreApplication: if it has none when it adds nodes,
+    /// starts the server or the cycles, the master makes one, in a thread of its own, and ends it
+    /// when it is destroyed. Make your own one, if you need it, before that.
     ///
     /// \code
     /// class Tank : public QPlcCompactSlaveNode

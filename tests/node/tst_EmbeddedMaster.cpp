@@ -37,6 +37,7 @@ private Q_SLOTS:
     void objectsComeAndGoWithoutATrace();
     void severalMastersRunAtOnce();
     void programKeepsItsLocaleAndSignals();
+    void masterOfTheProgramMakesAnApplication();
 };
 
 namespace {
@@ -408,6 +409,44 @@ void tst_EmbeddedMaster::programKeepsItsLocaleAndSignals()
         sigaction(signal, nullptr, &now);
         QVERIFY2(now.sa_handler == before[signal].sa_handler, strsignal(signal));
     }
+}
+
+QStringList warnings;
+
+void keepWarning(QtMsgType type, const QMessageLogContext &, const QString &text)
+{
+    if (type == QtWarningMsg || type == QtCriticalMsg)
+        warnings << text;
+}
+
+/// A QPlcMasterNode whose clock the program turns, without a thread of its own.
+void tst_EmbeddedMaster::masterOfTheProgramMakesAnApplication()
+{
+    QVERIFY(!QCoreApplication::instance());
+    const QtMessageHandler former = qInstallMessageHandler(keepWarning);
+    double measured = 0.0;
+    bool hadApplication = false;
+    {
+        Command command;
+        Sum sum;
+        Measurement measurement;
+        QPlcMasterNode master;
+        master.setSignalTable(smallTable());
+        master.setClock(QPlcClock::external());
+        const bool hasBegun = master.startServer(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, 0))
+            && master.addLocalNode(&command) && master.addLocalNode(&sum) && master.addLocalNode(&measurement)
+            && master.startRealTime();
+        command.value = 10.0;
+        for (int i = 0; hasBegun && i < 3; ++i)
+            master.step();
+        measured = measurement.value;
+        hadApplication = QCoreApplication::instance() != nullptr;
+        master.stop();
+    }
+    qInstallMessageHandler(former);
+    QCOMPARE(warnings, QStringList());
+    QCOMPARE(measured, 3.0);
+    QVERIFY(hadApplication && !QCoreApplication::instance());
 }
 
 QTEST_APPLESS_MAIN(tst_EmbeddedMaster)

@@ -14,6 +14,7 @@
 #include "signals/MemoryNeed.h"
 
 #include <QtCore/QCoreApplication>
+#include <QtCore/QEventLoop>
 #include <QtCore/QThread>
 
 #include <algorithm>
@@ -208,8 +209,20 @@ void QPlcMasterNodePrivate::connectParts()
 
 // ---- set-up ----
 
+/// A program that turns the clock may have no application of Qt. Timers and sockets need one, and a
+/// dispatcher of events in this thread, which a loop makes.
+void QPlcMasterNodePrivate::prepareProgram()
+{
+    if (application)
+        return;
+    application.emplace();
+    const QEventLoop loop;
+}
+
 bool QPlcMasterNodePrivate::prepare()
 {
+    if (phaseSettings.clock.isExternal())
+        prepareProgram();
     if (parts)
         return true;
     if (table.isEmpty())

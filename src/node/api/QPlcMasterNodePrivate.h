@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "OwnApplication.h"
 #include "QPlcMasterNode.h"
 #include "node/session/Arming.h"
 #include "node/session/AskedStop.h"
@@ -32,6 +33,7 @@ public:
     /// Fixes the signal table and makes everything that depends on it. \return false when there is
     /// no table
     bool prepare();
+    void prepareProgram();
     bool startServer(const QPlcUnderlyingProtocol &protocol);
     bool addLocalNode(QPlcSlaveNode *node);
     void removeLocalNode(QPlcSlaveNode *node);
@@ -85,6 +87,7 @@ public:
     };
 
     QPlcMasterNode *const q;
+    std::optional<qplc::OwnApplication> application;  // ends last
     QPlcSignalTable table;
     qplc::PhaseSettings phaseSettings;
     qplc::ServerSettings serverSettings;
