@@ -92,6 +92,9 @@ namespace qplc_export {
 
 using namespace std::chrono_literals;
 
+static_assert(@period@ == 0 || (@period@ >= 10'000 && @period@ <= 10'000'000'000),
+              "PERIOD is out of range; use 10us to 10s");
+
 const Identity identity{"@name@", R"QtPLC(@arg_DESCRIPTION@)QtPLC", R"QtPLC(@table@)QtPLC", @period@,
                         []() -> std::unique_ptr<QPlcSlaveNode> {
                             return std::make_unique<@arg_NODE@>(@configuration@);

@@ -6,7 +6,6 @@ Reads names only: which variables are inputs and outputs, and which functions to
 finds the types by decltype, so a wrong guess does not compile. The same export gives the same text.
 """
 import argparse
-import configparser
 import re
 import sys
 from pathlib import Path
@@ -14,52 +13,94 @@ from pathlib import Path
 from headers import Refusal
 from model import PARAMETERS, Reader, seconds
 
+MOST_ERRORS = 10  # of MAP that one message shows
+MOST_TEXT = 60  # [characters] of a line in a message
 STANDARD = "assert ctype errno float inttypes limits math setjmp stdarg stddef stdint stdio stdlib string time".split()
 
 
 # ---------------------------------------------------------------- names of signals
 
 
+class Entry:
+    """A line of MAP: signal = field, or field[3x4] for a matrix."""
+
+    def __init__(self, line, signal, text):
+        found = re.fullmatch(r"(.+?)(?:\[\s*(\d{1,6})\s*x\s*(\d{1,6})\s*\])?", text)
+        self.line, self.signal, self.field = line, signal, found[1].strip()
+        self.rows, self.columns = (int(found[2]), int(found[3])) if found[2] else (None, None)
+
+
+def refuse(file_name, errors, remedy=""):
+    """All that is wrong with MAP, in one sentence."""
+    if errors:
+        raise Refusal(f"MAP '{file_name}', " + "; ".join(errors[:MOST_ERRORS] + [remedy] * bool(remedy)))
+
+
 def read_map(file_name):
-    """[signals] signal = field, or field[3x4] for a matrix."""
-    parser = configparser.ConfigParser(
-        delimiters=("=",), comment_prefixes=(";", "#"), inline_comment_prefixes=(";",), interpolation=None, strict=True
-    )
-    parser.optionxform = str
+    """The entries of the section [signals]."""
     try:
-        with open(file_name, encoding="utf-8") as file:
-            parser.read_file(file)
-    except (OSError, UnicodeDecodeError, configparser.Error) as error:
-        raise Refusal(f"MAP '{file_name}' cannot be read: {' '.join(str(error).split())}")
-    unknown = [section for section in parser.sections() if section != "signals"]
-    if unknown:
-        raise Refusal(f"MAP '{file_name}' has a section [{unknown[0]}]; it can have [signals] only")
-    return dict(parser["signals"]) if parser.has_section("signals") else {}
+        text = Path(file_name).read_text(encoding="utf-8-sig")
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or "it is not a text in UTF-8"
+        raise Refusal(f"MAP '{file_name}' cannot be read: {reason}")
+    entries, errors, lines, is_in_section = [], [], {}, None
+    for number, line in enumerate(text.split("\n"), 1):
+        line = re.split(r"[;#]", line)[0].strip()
+        signal, equals, field = (part.strip() for part in line.partition("="))
+        if line.startswith("["):
+            is_in_section = line == "[signals]"
+            if not is_in_section:
+                errors.append(f"line {number}: unknown section {line[:MOST_TEXT]}; it can have [signals] only")
+        elif not line or is_in_section is False:
+            continue
+        elif is_in_section is None:
+            errors.append(f"line {number}: '{line[:MOST_TEXT]}' stands before the section [signals]")
+        elif not equals or not signal or not field:
+            errors.append(f"line {number}: '{line[:MOST_TEXT]}' is not 'signal = field of the model'")
+        elif signal in lines:
+            errors.append(f"line {number}: signal '{signal[:MOST_TEXT]}' is there twice, first in line {lines[signal]}")
+        else:
+            lines[signal] = number
+            entries.append(Entry(number, signal, field))
+    refuse(file_name, errors)
+    return entries
 
 
-def give_names(model, prefix, mapping, file_name):
+def give_names(model, prefix, entries, file_name):
     leaves = {f"inputs.{leaf.path}": leaf for leaf in model.ins}
     leaves.update({f"outputs.{leaf.path}": leaf for leaf in model.outs})
     for leaf in leaves.values():
         leaf.signal = prefix + re.sub(r"\[(\d+)\]", r".\1", leaf.path)
-    for signal, text in mapping.items():
-        found = re.match(r"(.*?)(?:\[\s*(\d+)\s*x\s*(\d+)\s*\])?\s*$", text)
-        names = [name for name in leaves if found[1] in (name, name.split(".", 1)[1])]
-        if len(names) != 1:
-            what = "is both an input and an output" if names else "is no input or output of the model"
-            remedy = "write inputs.NAME or outputs.NAME" if names else "its inputs and outputs: " + ", ".join(leaves)
-            raise Refusal(f"MAP '{file_name}': '{found[1]}' of signal '{signal}' {what}; {remedy}")
-        leaf = leaves[names[0]]
-        leaf.signal = signal
-        if found[2]:
-            leaf.rows, leaf.columns = int(found[2]), int(found[3])
-            if len(leaf.dims) != 1 or leaf.dims[0] != leaf.rows * leaf.columns:
-                size = f"{leaf.dims or 1} elements, which is not {found[2]}x{found[3]}"
-                raise Refusal(f"MAP '{file_name}': '{leaf.path}' has {size}")
+    errors, is_unknown, lines = [], False, {}
+    for entry in entries:
+        names = [name for name in leaves if entry.field in (name, name.split(".", 1)[1])]
+        where = f"line {entry.line}: '{entry.field[:MOST_TEXT]}' of signal '{entry.signal[:MOST_TEXT]}'"
+        if len(names) > 1:
+            errors.append(f"{where} is both an input and an output; write inputs.NAME or outputs.NAME")
+        elif not names:
+            errors.append(f"{where} is no input or output of the model")
+            is_unknown = True
+        elif names[0] in lines:
+            errors.append(f"{where} has a signal already, in line {lines[names[0]]}")
+        else:
+            lines[names[0]] = entry.line
+            errors += rename(leaves[names[0]], entry)
+    refuse(file_name, errors, "its inputs and outputs: " + ", ".join(leaves) if is_unknown else "")
     signals = [leaf.signal for leaf in leaves.values() if leaf in model.outs]
     repeated = sorted({signal for signal in signals if signals.count(signal) > 1})
     if repeated:
         raise Refusal(f"two outputs have the signal '{repeated[0]}'; give them names of their own with MAP")
+
+
+def rename(leaf, entry):
+    """Returns what is wrong."""
+    leaf.signal = entry.signal
+    if entry.rows is None:
+        return []
+    leaf.rows, leaf.columns = entry.rows, entry.columns
+    if len(leaf.dims) == 1 and leaf.dims[0] == leaf.rows * leaf.columns:
+        return []
+    return [f"line {entry.line}: '{leaf.path}' has {leaf.dims or 1} elements, which is not {leaf.rows}x{leaf.columns}"]
 
 
 # ---------------------------------------------------------------- C++
@@ -264,7 +305,7 @@ def cmake_list(name, paths):
 
 def generate(options):
     model = Reader(options).read()
-    give_names(model, options.prefix, read_map(options.map) if options.map else {}, options.map)
+    give_names(model, options.prefix, read_map(options.map) if options.map else [], options.map)
     output = Path(options.output)
     output.mkdir(parents=True, exist_ok=True)
     node = Node(model, options)

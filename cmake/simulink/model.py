@@ -70,7 +70,10 @@ def seconds(text):
     found = re.match(r"\s*(\d+(?:\.\d*)?(?:[eE][-+]?\d+)?)\s*(ns|us|ms|s)\s*$", text)
     if not found or float(found[1]) <= 0.0:
         raise Refusal(f"PERIOD '{text}' is not a duration; write it as in 10ms, 250us, 0.1s")
-    return float(found[1]) * {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0}[found[2]]
+    time = float(found[1]) * {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0}[found[2]]
+    if not 0.99999e-5 < time < 10.00001:
+        raise Refusal(f"PERIOD '{text}' is out of range; use 10us to 10s")
+    return time
 
 
 class Export:

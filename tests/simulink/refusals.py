@@ -90,6 +90,10 @@ def period_that_is_no_time(folder):
     export = Export(folder, "Tank")
     for period in ("10", "fast", "0ms", "-1s"):
         refuses(export, f"'{period}' is not a duration", "10ms", period=period)
+    for period in ("1e9s", "1e999s", "10.1s", "9us", "1ns"):
+        refuses(export, f"PERIOD '{period}' is out of range; use 10us to 10s", period=period)
+    for period in ("10us", "10s"):
+        takes(export, period=period)
 
 
 def entry_points_with_names_of_their_own(folder):
@@ -162,11 +166,29 @@ def maps_that_do_not_fit(folder):
         ("[signals]\nJ = inputs.inertia[3x3]\n", ["'inertia'", "3x3"]),
         ("[signals]\ncount = moving\n", ["two outputs", "'count'"]),
         ("[inputs]\nx = gear\n", ["[inputs]", "[signals]"]),
-        ("x = gear\n", ["cannot be read"]),
+        ("x = gear\n", ["line 1: 'x = gear' stands before the section [signals]"]),
+        ("[signals]\nx = inputs.gear\n  more\n", ["line 3: 'more' is not 'signal = field"]),
+        ("[signals]\nx\n", ["line 2: 'x' is not 'signal = field"]),
+        ("[signals]\n= gear\n", ["line 2: '= gear' is not 'signal = field"]),
+        ("[signals]\nx =\n", ["line 2: 'x =' is not 'signal = field"]),
+        ("[signals\nx = inputs.gear\n", ["line 1: unknown section [signals"]),
+        ("[signals]\nx = [3x3]\n", ["'[3x3]' of signal 'x' is no input or output"]),
+        ("[signals]\nx = inputs.gear * 0\n", ["'inputs.gear * 0' of signal 'x' is no input or output"]),
+        ("[signals]\nx = inputs.inertia[0x0]\n", ["'inertia'", "0x0"]),
+        ("[signals]\nx = inputs.inertia[99999999999999999999x3]\n", ["is no input or output"]),
+        ("[signals]\nx = inputs.gear\ny = inputs.gear\n", ["line 3", "has a signal already, in line 2"]),
+        ("[signals]\nx = inputs.gear\nx = outputs.gear\n", ["line 3: signal 'x' is there twice, first in line 2"]),
+        # all errors at once
+        ("[DEFAULT]\nx = 1\n[signals]\ny\nz =\n", ["line 1: unknown section [DEFAULT]", "; line 4: ", "; line 5: "]),
+        ("[signals]\na = nothing\nb = gear\nc = none\n", ["line 2: 'nothing'", "; line 3: 'gear'", "; line 4: 'none'"]),
+        ("[signals]\n" + "x\n" * 1000, ["line 11: 'x' is not"]),
     ):
         file.write_text(text)
         refuses(export, *words, map=file)
+    file.write_bytes(b"\xff\xfe[signals]\n")
+    refuses(export, "it is not a text in UTF-8", map=file)
     refuses(export, "none.ini", map=export.folder / "none.ini")
+    refuses(export, "cannot be read", map=export.folder)
 
 
 def definitions_decide_what_a_header_declares(folder):
