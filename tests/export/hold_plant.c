@@ -8,18 +8,32 @@
 #include <dirent.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 
 enum { TANK, DISPLAY, NODES };
 
 static Library library;
 static const char *part, *qtplc, *folder, *work;
 
+static bool has_keys = false; /* the nodes that are started */
+
+static void run_node(Plant *plant, int node)
+{
+    char master[80], keys[1024];
+    snprintf(master, sizeof master, "--master=udp://127.0.0.1:%d", plant->port);
+    snprintf(keys, sizeof keys, "--keys=%s/key_%d.ini", work, node);
+    char *arguments[] = {(char *)part, "--part", node == TANK ? "tank" : "display", master, NULL, NULL, NULL};
+    if (has_keys) {
+        arguments[4] = "--security=psk";
+        arguments[5] = keys;
+    }
+    plant->nodes[node] = start_program(arguments);
+}
+
 static void start_node(Plant *plant, int node)
 {
-    char master[80], line[80];
-    snprintf(master, sizeof master, "--master=udp://127.0.0.1:%d", plant->port);
-    char *arguments[] = {(char *)part, "--part", node == TANK ? "tank" : "display", master, NULL};
-    plant->nodes[node] = start_program(arguments);
+    char line[80];
+    run_node(plant, node);
     read_line(&plant->nodes[node], line, sizeof line);
     REQUIRE(strcmp(line, "registered") == 0);
 }
@@ -132,6 +146,44 @@ static void wrong_settings(void)
     refused(&plant, "plant.port is 70000; use 0 ... 65535");
     plant.begin = start_nodes;
     REQUIRE(enter_plant(&plant) == STATUS_OK && leave_plant(&plant) == STATUS_OK && step_by(&plant, 1) == STATUS_OK);
+    end(&plant);
+}
+
+static void write_keys(const char *name, bool has_tank, bool has_display)
+{
+    char file[1024];
+    snprintf(file, sizeof file, "%s/%s", work, name);
+    FILE *stream = fopen(file, "wb");
+    REQUIRE(stream != NULL && chmod(file, 0600) == 0);
+    if (has_tank)
+        fprintf(stream, "[Tank]\nrole = Node\nkey = %064d\n", 1);
+    if (has_display)
+        fprintf(stream, "[Display]\nrole = Node\nkey = %064d\n", 2);
+    fclose(stream);
+}
+
+/* A node without a key is refused, and then the others come. */
+static void start_stranger_and_nodes(Plant *plant)
+{
+    has_keys = false;
+    run_node(plant, TANK);
+    REQUIRE(finish(&plant->nodes[TANK]) == 2);
+    has_keys = true;
+    start_nodes(plant);
+}
+
+static void keys(void)
+{
+    Plant plant;
+    char file[1024];
+    write_keys("keys.ini", true, true);
+    write_keys("key_0.ini", true, false);
+    write_keys("key_1.ini", false, true);
+    make_plant(&plant, &library, start_stranger_and_nodes);
+    snprintf(file, sizeof file, "%s/keys.ini", work);
+    REQUIRE(set_text(&plant, "plant.keys", file) == STATUS_OK && set_number(&plant, "command", 2) == STATUS_OK);
+    REQUIRE(enter_plant(&plant) == STATUS_OK && leave_plant(&plant) == STATUS_OK);
+    REQUIRE(step_by(&plant, 10) == STATUS_OK && number(&plant, "level") == 25);
     end(&plant);
 }
 
@@ -381,6 +433,7 @@ int main(int argc, char **argv)
     } scenarios[] = {{"values_pass", values_pass},
                      {"wrong_steps", wrong_steps},
                      {"wrong_settings", wrong_settings},
+                     {"keys", keys},
                      {"port_in_use", port_in_use},
                      {"absent_nodes", absent_nodes},
                      {"two_plants", two_plants},

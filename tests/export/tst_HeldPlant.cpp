@@ -24,6 +24,8 @@ private Q_SLOTS:
     void stepsAreWholePeriods() { run("wrong_steps"); }
     void wrongSettingsAreNamed_data() { versions(); }
     void wrongSettingsAreNamed() { run("wrong_settings"); }
+    void nodesNeedTheKeysOfThePlant_data() { versions(); }
+    void nodesNeedTheKeysOfThePlant() { run("keys"); }
     void portInUseIsNamed_data() { versions(); }
     void portInUseIsNamed() { run("port_in_use"); }
     void nodesThatNeverComeAreNamedInTime_data() { versions(); }
