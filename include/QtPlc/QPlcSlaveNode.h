@@ -347,7 +347,7 @@ public:
     /// of its own.
     /// \param timeout  longest time to wait
     /// \return false when the node is not registered after \a timeout, or earlier on an error: see
-    ///     errorString()
+    ///     errorString(). Also when the application quits meanwhile, which is no error
     bool connectToMasterAndWaitForConnected(const QPlcUnderlyingProtocol &master,
                                             std::chrono::milliseconds timeout = std::chrono::seconds(5));
 

@@ -3,8 +3,10 @@
 #include "QPlcNodeApplication.h"
 
 #include <QtCore/QTemporaryDir>
+#include <QtNetwork/QTcpServer>
 #include <QtTest/QtTest>
 
+#include <csignal>
 #include <stdexcept>
 #include <unistd.h>
 
@@ -60,9 +62,10 @@ public:
 
     /// Before the options are read: a port is known only when there is an application. The last
     /// argument is that of anyPort, and becomes the address of \a master.
-    void setMaster(const TestMaster &master)
+    void setMaster(const TestMaster &master) { setMasterPort(master.serverPort()); }
+    void setMasterPort(quint16 port)
     {
-        const QString text = QStringLiteral("tcp://127.0.0.1:%1").arg(master.serverPort(), 5, 10, QLatin1Char('0'));
+        const QString text = QStringLiteral("tcp://127.0.0.1:%1").arg(port, 5, 10, QLatin1Char('0'));
         Q_ASSERT(m_bytes.last().size() == text.size());
         std::copy_n(text.toLatin1().constData(), text.size(), m_pointers[std::size_t(m_count - 1)]);
     }
@@ -95,6 +98,8 @@ private Q_SLOTS:
     void withoutOptionsTheNodeStaysAsItIs();
     void aSecuredNodeNeedsItsKeysOnly();
     void withoutAMasterItEndsAtOnce();
+    void aSignalEndsItBeforeItsConnectionIsSettled_data();
+    void aSignalEndsItBeforeItsConnectionIsSettled();
     void itEndsWithItsMaster();
     void itEndsWithItsMasterAlsoAfterAFault();
     void itStaysWithoutItsMaster();
@@ -229,6 +234,30 @@ void tst_NodeApplication::withoutAMasterItEndsAtOnce()
     CounterNode node;
     QCOMPARE(program.run(node), int(QPlcApplicationOptions::UsageError));
     QCOMPARE(node.error(), QPlcSlaveNode::ConnectionError);
+}
+
+void tst_NodeApplication::aSignalEndsItBeforeItsConnectionIsSettled_data()
+{
+    QTest::addColumn<int>("signal");
+    QTest::newRow("SIGINT") << SIGINT;
+    QTest::newRow("SIGTERM") << SIGTERM;
+}
+
+/// It is connected, and its master has not answered.
+void tst_NodeApplication::aSignalEndsItBeforeItsConnectionIsSettled()
+{
+    QFETCH(int, signal);
+    Program program({"--master", anyPort});
+    QTcpServer silent;
+    QVERIFY(silent.listen(QHostAddress::LocalHost));
+    program.setMasterPort(silent.serverPort());
+    QObject::connect(&silent, &QTcpServer::newConnection, [signal] { std::raise(signal); });
+    CounterNode node;
+    const StandardError error;
+    QCOMPARE(program.run(node), int(QPlcApplicationOptions::Success));
+    QCOMPARE(error.text(), QString());
+    QCOMPARE(node.error(), QPlcSlaveNode::NoError);
+    QCOMPARE(node.state(), QPlcSlaveNode::Disconnected);
 }
 
 void tst_NodeApplication::itEndsWithItsMaster()

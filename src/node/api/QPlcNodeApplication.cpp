@@ -124,12 +124,13 @@ int QPlcNodeApplication::run(QPlcSlaveNode &node)
         return exitCode();
     const bool stays = isSet(QStringLiteral("stay"));
     QPlcServiceNotifier service(node);
+    quitOnSignals();  // also while it waits for the connection
     if (stays)
         node.connectToMaster(master);
     else if (!node.connectToMasterAndWaitForConnected(master))
         return node.error() == QPlcSlaveNode::NoError
             ? Success
-            : UsageError;  // the node has said why; without an error the master has just ended
+            : UsageError;  // the node has said why; without an error the master or this program just ends
     service.setReady();    // one that stays does its work already when it waits for its master
     if (!stays) {
         connect(&node, &QPlcSlaveNode::disconnectedFromMaster, this, [this, &node] {
@@ -144,7 +145,6 @@ int QPlcNodeApplication::run(QPlcSlaveNode &node)
                 Qt::QueuedConnection);
         });
     }
-    quitOnSignals();
     const int code = exec();
     node.disconnect(this);
     node.disconnectFromMaster();

@@ -353,11 +353,13 @@ bool QPlcSlaveNode::connectToMasterAndWaitForConnected(const QPlcUnderlyingProto
         loop.exec(QEventLoop::ExcludeUserInputEvents);
     }
     if (isComing()) {
+        const bool hasTime = timer.isActive();  // the application quits
         d->disconnectFromMaster();
-        d->setError(ConnectionError,
-                    QStringLiteral("node '%1': no answer of a master at %2 within %3 ms; check address and port")
-                        .arg(name(), master.toString())
-                        .arg(timeout.count()));
+        if (!hasTime)
+            d->setError(ConnectionError,
+                        QStringLiteral("node '%1': no answer of a master at %2 within %3 ms; check address and port")
+                            .arg(name(), master.toString())
+                            .arg(timeout.count()));
     }
     return d->hasChannel;
 }
