@@ -117,7 +117,9 @@ void tst_PlantPrograms::aSlowWindowKeepsABoundedBacklog()
     plant.open();
     QTRY_VERIFY_WITH_TIMEOUT(plant.values().rows() > 50, patience);
     const quint64 gaps = plant.values().gaps();
-    QThread::sleep(3);
+    const quint64 cycles = master.statistics().cycles;
+    for (int looks = 0; looks < 1000 && master.statistics().cycles < cycles + 3000; ++looks)
+        QThread::msleep(50);  // nothing is taken meanwhile
     int largestBatch = 0;
     connect(&plant, &Plant::updated, this, [&] { largestBatch = std::max(largestBatch, plant.values().batchSize()); });
     QTRY_VERIFY_WITH_TIMEOUT(plant.values().gaps() > gaps, patience);
