@@ -84,16 +84,17 @@ bool Controller::call(const Call &call)
             QStringLiteral("record 1 is %1; use 0 (first call), 1 (step) or -1 (last call)").arg(double(status)));
     if (status == FirstCall)
         return begin(call);
+    const bool wasRunning = m_isRunning;
+    if (status == LastCall) {
+        m_isRunning = false;
+        m_node.reset();  // also after a failure: a plant leaves its port
+    }
     if (!m_failure.isEmpty())
         return fail(m_failure);
-    if (!m_isRunning)
+    if (!wasRunning)
         return fail(QStringLiteral("there was no first call (record 1 = 0) before this one (record 1 = %1)")
                         .arg(double(status)));
-    if (status == StepCall)
-        return step(call);
-    m_isRunning = false;
-    m_node.reset();
-    return true;
+    return status == LastCall || step(call);
 }
 
 /// All calls until the next first one tell what has failed first.

@@ -197,6 +197,16 @@ static void killed_required(void)
     end_node(&tank);
 }
 
+static bool is_listening(void)
+{
+    struct sockaddr_in address = {
+        .sin_family = AF_INET, .sin_port = htons((uint16_t)port), .sin_addr = {htonl(INADDR_LOOPBACK)}};
+    const int client = socket(AF_INET, SOCK_STREAM, 0);
+    const bool is_there = connect(client, (struct sockaddr *)&address, sizeof address) == 0;
+    close(client);
+    return is_there;
+}
+
 static void killed_critical(void)
 {
     Program tank, display;
@@ -208,7 +218,11 @@ static void killed_critical(void)
     REQUIRE(held.fail == -1 && held.records[47] == -1); /* its safe value */
     REQUIRE(strstr(last_message, "stopped safely") && strstr(last_message, "'Tank'"));
     REQUIRE(finish(&tank) == -SIGKILL);
-    end_node(&display); /* the host ends without a last call */
+    REQUIRE(is_listening());
+    call(&held, -1, 1e4);
+    REQUIRE(held.fail == -1 && !is_listening()); /* the plant ends with the last call, also after a failure */
+    TOLD("'Tank'");
+    end_node(&display);
 }
 
 static void stop_by_a_person(void)

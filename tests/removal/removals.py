@@ -1188,7 +1188,7 @@ REMOVALS = [
             "    if (record == reserved.back())",
             "call_discon"),
     Removal("host of a controller DLL makes no first call", "src/export/Discon.cpp",
-            "    if (!m_isRunning)\n", "    if (m_isRunning && !m_node)\n",
+            "    if (!wasRunning)\n", "    if (wasRunning && !m_node)\n",
             "call_discon"),
     Removal("host of a controller DLL gives a wrong period", "src/export/Discon.cpp",
             "    if (!(given >= 1e-5 && given <= 10.0))", "    if (given > 10.0)",
