@@ -4,7 +4,7 @@
 option(QTPLC_INSTALL_SERVICES "Install units of systemd, and what belongs to them (for CMAKE_INSTALL_PREFIX=/usr)" OFF)
 
 set(units_of_awe qtplc-awe.target qtplc-awe-master.service qtplc-awe-model.service qtplc-awe-autopilot.service)
-set(units_of_tools qtplc-hardware@.service)
+set(units_of_tools qtplc-hardware@.service qtplc-recorder.service)
 set(packaging ${PROJECT_SOURCE_DIR}/packaging)
 foreach(part real-time sandbox)
     file(READ ${packaging}/systemd/${part}.conf text)
@@ -22,6 +22,8 @@ if(QTPLC_INSTALL_SERVICES)
     install(FILES ${units_of_tools} DESTINATION lib/systemd/system COMPONENT qtplc-tools)
     install(FILES ${packaging}/udev/50-qtplc.rules DESTINATION lib/udev/rules.d COMPONENT qtplc-tools)
     install(FILES ${packaging}/debian/qtplc-hardware.default DESTINATION /etc/default RENAME qtplc-hardware
+        COMPONENT qtplc-tools)
+    install(FILES ${packaging}/debian/qtplc-recorder.default DESTINATION /etc/default RENAME qtplc-recorder
         COMPONENT qtplc-tools)
     install(DIRECTORY DESTINATION /etc/qtplc COMPONENT qtplc-tools)
     if(QTPLC_BUILD_EXAMPLES)

@@ -14,6 +14,7 @@ namespace qplc::mcap {
 
 namespace {
 
+constexpr std::uint64_t ReservedAtOnce = 1U << 20;  // [byte]: few calls of the system
 constexpr int Level = 3;  // of zstd: 1.60 : 1 for a flight of the example, and 1.57 : 1 with level 1
 
 class DiskFile final : public FileSink
@@ -23,6 +24,11 @@ public:
         : m_descriptor(std::move(descriptor))
         , m_name(name)
     {
+    }
+    ~DiskFile() override
+    {
+        // Without what was reserved.
+        [[maybe_unused]] const int cut = ::ftruncate(m_descriptor.number(), off_t(m_size));
     }
 
     bool append(const QByteArray &bytes, QString *error) override
@@ -40,6 +46,17 @@ public:
         m_size += std::uint64_t(written);
         return true;
     }
+    bool reserve(std::uint64_t bytes, QString *error) override
+    {
+        if (m_size + bytes <= m_reserved)
+            return true;
+        int result = allocate(bytes + ReservedAtOnce);
+        if (result == ENOSPC)
+            result = allocate(bytes);
+        errno = result;
+        // Other errors: the file system cannot reserve.
+        return result != ENOSPC || fail(QStringLiteral("write"), error);
+    }
     bool sync(QString *error) override
     {
         return ::fdatasync(m_descriptor.number()) == 0 || fail(QStringLiteral("save"), error);
@@ -47,6 +64,17 @@ public:
     std::uint64_t size() const override { return m_size; }
 
 private:
+    /// \return an errno value, or 0
+    int allocate(std::uint64_t bytes)
+    {
+        int result = 0;
+        do {
+            result = ::fallocate(m_descriptor.number(), FALLOC_FL_KEEP_SIZE, 0, off_t(m_size + bytes)) == 0 ? 0 : errno;
+        } while (result == EINTR);
+        if (result == 0)
+            m_reserved = m_size + bytes;
+        return result;
+    }
     /// What was written in part is cut off.
     bool fail(const QString &what, QString *error)
     {
@@ -58,11 +86,17 @@ private:
     Descriptor m_descriptor;
     QString m_name;
     std::uint64_t m_size = 0;
+    std::uint64_t m_reserved = 0;  // end of what the file has room for
 };
 
 }  // namespace
 
 FileSink::~FileSink() = default;
+
+bool FileSink::reserve(std::uint64_t /*bytes*/, QString * /*error*/)
+{
+    return true;
+}
 
 std::unique_ptr<FileSink> FileSink::create(const QString &file, QString *error)
 {
@@ -105,7 +139,7 @@ bool Writer::addAttachment(const QByteArray &name, const QByteArray &mediaType, 
 {
     NamedEntry entry;
     const QByteArray record = attachmentRecord(name, mediaType, data, time, size(), &entry);
-    if (!append(record, error))
+    if (!m_sink->reserve(std::uint64_t(record.size()) + summarySize({}), error) || !append(record, error))
         return false;
     m_index.attachments.push_back(entry);
     return true;
@@ -173,6 +207,24 @@ QByteArray Writer::compressed(QByteArray *compression) const
     return result;
 }
 
+/// At most [byte], with the summary of \a next.
+std::uint64_t Writer::summarySize(const ChunkEntry &next) const
+{
+    constexpr std::uint64_t fixedPart = 4096;  // statistics, offsets, footer, and metadata to come
+    std::uint64_t size = fixedPart + m_chunkIndexSize + std::uint64_t(next.record().size());
+    for (const Schema &schema : m_index.schemas)
+        size += std::uint64_t(schema.record().size());
+    for (const Channel &channel : m_index.channels)
+        size += std::uint64_t(channel.record().size()) + sizeof(channel.id) + sizeof(next.size);
+    const auto add = [&size](const std::vector<NamedEntry> &entries) {
+        for (const NamedEntry &entry : entries)
+            size += 64 + std::uint64_t(entry.name.size() + entry.mediaType.size());
+    };
+    add(m_index.attachments);
+    add(m_index.metadata);
+    return size;
+}
+
 bool Writer::flush(QString *error)
 {
     if (m_messages.empty())
@@ -196,9 +248,11 @@ bool Writer::flush(QString *error)
                                            .bytes());
     chunk.length = std::uint64_t(record.size());
     const QByteArray indexes = messageIndexes(m_messages, chunk.offset + chunk.length, &chunk);
-    if (!append(record + indexes, error))
+    const QByteArray all = record + indexes;
+    if (!m_sink->reserve(std::uint64_t(all.size()) + summarySize(chunk), error) || !append(all, error))
         return false;
     m_index.chunks.push_back(chunk);
+    m_chunkIndexSize += std::uint64_t(chunk.record().size());
     beginChunk();
     return true;
 }

@@ -16,6 +16,9 @@ public:
     virtual ~FileSink();
     /// \return false when not all bytes could be written; then none of them are in the file
     virtual bool append(const QByteArray &bytes, QString *error) = 0;
+    /// Keeps room for \a bytes behind the end: an append() of so many does not find the disk full.
+    /// \return false when there is not so much room
+    virtual bool reserve(std::uint64_t bytes, QString *error);
     /// What was written survives a loss of power. \return false when that is not sure
     virtual bool sync(QString *error) = 0;
     /// [byte]
@@ -51,6 +54,8 @@ public:
     /// Compresses the messages in memory and writes them.
     bool flush(QString *error);
     bool sync(QString *error) { return m_sink->sync(error); }
+    /// Forgets the messages in memory.
+    void discard() { beginChunk(); }
     /// Writes what is left, and the summary. Nothing can be written behind it.
     bool finish(QString *error);
     std::uint64_t size() const { return m_sink->size(); }
@@ -59,6 +64,7 @@ private:
     bool append(const QByteArray &bytes, QString *error) { return m_sink->append(bytes, error); }
     QByteArray compressed(QByteArray *compression) const;
     void beginChunk();
+    std::uint64_t summarySize(const ChunkEntry &next) const;
 
     struct Compressor;
     std::unique_ptr<FileSink> m_sink;
@@ -66,6 +72,7 @@ private:
     Index m_index;
     QByteArray m_chunk;
     std::vector<MessageEntry> m_messages;
+    std::uint64_t m_chunkIndexSize = 0;  // [byte] of the summary, for the chunks in the file
 };
 
 /// What \a bytes were before they were compressed. \return false when they are damaged, or do not

@@ -69,9 +69,16 @@ bool PlantRecorder::attach(const QByteArray &ringFile, QString *error)
     return true;
 }
 
+void PlantRecorder::goOnFrom(const Position &position)
+{
+    m_next = position.next;
+    m_digest = position.digest;
+    m_time = std::uint64_t(m_startTime) + position.next * std::uint64_t(m_description.period);
+}
+
 bool PlantRecorder::begin(std::unique_ptr<mcap::FileSink> sink, QString *error)
 {
-    m_writer = std::make_unique<mcap::Writer>(std::move(sink));
+    auto writer = std::make_unique<mcap::Writer>(std::move(sink));
     m_overview = std::make_unique<overview::Builder>(m_message->image());
     const QMap<QByteArray, QByteArray> session{
         {"plant", m_description.plant.toUtf8()},
@@ -81,11 +88,16 @@ bool PlantRecorder::begin(std::unique_ptr<mcap::FileSink> sink, QString *error)
         {"clock", m_description.clock.toUtf8()},
         {"start_ns", QByteArray::number(qlonglong(m_startTime))},
     };
-    if (!m_writer->begin("QtPLC " + m_description.version.toUtf8(), error)
-        || !m_writer->addAttachment("recording.txt", "text/plain", m_description.toText(), std::uint64_t(m_startTime),
-                                    error)
-        || !m_writer->addMetadata("qtplc", session, error))
+    if (!writer->begin("QtPLC " + m_description.version.toUtf8(), error)
+        || !writer->addAttachment("recording.txt", "text/plain", m_description.toText(), std::uint64_t(m_startTime),
+                                  error)
+        || !writer->addMetadata("qtplc", session, error))
         return false;
+    m_writer = std::move(writer);
+    m_exchange.clear();
+    m_cycles = 0;
+    m_missing = 0;
+    m_hasEndMetadata = false;
     const QByteArray ros = "ros1msg";
     m_plant = m_writer->addChannel("/plant", "ros1", PlantMessage::schemaName(), ros, m_message->schema());
     m_before = m_writer->addChannel("/plant_before", "ros1", PlantMessage::schemaName(), ros, m_message->schema());
@@ -93,6 +105,8 @@ bool PlantRecorder::begin(std::unique_ptr<mcap::FileSink> sink, QString *error)
     m_raw = m_writer->addChannel("/raw_outputs", "ros1", "qtplc/RawOutputs", ros, rawSchema);
     m_gaps = m_writer->addChannel("/gaps", "json");
     m_digests = m_writer->addChannel("/digest", "json");
+    if (m_next > 0)
+        addDigest(",\"continues\":true");
     return true;
 }
 
@@ -154,6 +168,8 @@ void PlantRecorder::addCycle()
         return;
     }
     const RecordedCycle &cycle = view.cycle;
+    if (cycle.number < m_next)  // another file has it
+        return;
     const std::uint64_t next = cycle.number - cycle.skipped;
     if (next > m_next)  // they had been replaced before anybody recorded
         addGap({m_next, next - 1, next - m_next, 0, 0});
@@ -171,10 +187,25 @@ void PlantRecorder::addCycle()
     addRaw(view);
     if (m_overview)
         m_overview->add(cycle.number, m_startTime, view.image);
+    watch(view);
     m_next = cycle.number + 1;
     m_digest = cycle.digest;
     m_hasDigest = false;
     ++m_cycles;
+}
+
+void PlantRecorder::watch(const CycleView &view)
+{
+    const bool isSafe = (view.cycle.flags & RecordedCycle::Safe) != 0;
+    std::uint32_t faulted = 0;
+    for (std::uint32_t i = 0; i < view.cycle.nodes; ++i)
+        faulted += (view.node(i).flags & RecordedNode::Faulted) != 0 ? 1 : 0;
+    if (isSafe && !m_isSafe)
+        m_triggers |= SafeStop;
+    if (faulted > m_faulted)
+        m_triggers |= Fault;
+    m_isSafe = isSafe;
+    m_faulted = faulted;
 }
 
 void PlantRecorder::addNodes(const CycleView &view)
@@ -220,6 +251,8 @@ void PlantRecorder::addRaw(const CycleView &view)
 /// \a gap with a digest of 0: what was computed in it is not known.
 void PlantRecorder::addGap(const RecordedGap &gap)
 {
+    if (gap.last < m_next)  // another file has it
+        return;
     const QByteArray text = "{\"first\":" + QByteArray::number(qulonglong(gap.first)) + ",\"last\":"
         + QByteArray::number(qulonglong(gap.last)) + ",\"cycles\":" + QByteArray::number(qulonglong(gap.cycles))
         + ",\"skipped\":" + QByteArray::number(qulonglong(gap.skipped)) + ",\"digest\":\"" + hex(gap.digest) + "\"}";
@@ -274,10 +307,19 @@ bool PlantRecorder::finish(QString *error)
     if (!save(false, error))
         return false;
     addOverview();
-    if (!m_writer->addMetadata("end", end, error) || !m_writer->finish(error))
+    m_hasEndMetadata = m_hasEndMetadata || m_writer->addMetadata("end", end, error);
+    if (!m_hasEndMetadata || !m_writer->finish(error))
         return false;
     m_writer.reset();
     return true;
+}
+
+bool PlantRecorder::cut(QString *error)
+{
+    m_writer->discard();
+    const bool isFinished = m_writer->finish(error);
+    m_writer.reset();
+    return isFinished;
 }
 
 }  // namespace qplc

@@ -8,10 +8,13 @@
 #include "node/cycle/RingReader.h"
 
 #include <memory>
+#include <utility>
 
 namespace qplc {
 
 /// Writes the records of a ring into a recording: docs/recording.md says what is in it.
+///
+/// A phase may be cut into several files: finish() and begin() again.
 ///
 /// What is in memory goes into the file when it is large enough, or when the caller wants that;
 /// only then the ring may replace it. For one thread.
@@ -26,28 +29,50 @@ public:
         Failed      ///< the file could not be written: the ring keeps the records, try again
     };
 
+    /// Why cycles are worth to be kept.
+    enum Trigger : std::uint8_t {
+        SafeStop = 1,  ///< the master has stopped safely
+        Fault = 2      ///< the code of a node has failed
+    };
+    /// Cycles up to which a file has all.
+    struct Position
+    {
+        std::uint64_t next = 0;    // cycle that comes next
+        std::uint64_t digest = 0;  // before it
+    };
+
     PlantRecorder();
     ~PlantRecorder();
 
     /// Becomes the recorder of the ring \a ringFile. \return false when there is another one, or it
     /// is no ring
     bool attach(const QByteArray &ringFile, QString *error);
-    /// The recording goes into \a sink. \return false when it cannot be written
+    /// Another file has the cycles of this phase before \a position: they are left out.
+    void goOnFrom(const Position &position);
+    Position position() const { return {m_next, m_digest}; }
+    /// The recording goes into \a sink, from the next cycle on. \return false when it cannot be
+    /// written: then call it again, with another one
     bool begin(std::unique_ptr<mcap::FileSink> sink, QString *error);
     /// Takes what is in the ring, but not more than fits into a chunk.
     Progress proceed(QString *error);
     /// Puts what is in memory into the file, and has the ring replace it. \param sync  see FileSink
     bool save(bool sync, QString *error);
-    /// Completes the file. Records that come later are not recorded.
+    /// Completes the file. Records that come later go into the next one.
     bool finish(QString *error);
+    /// Completes the file without what is in memory, for which the disk has no room. The ring keeps
+    /// it, for the next recorder.
+    bool cut(QString *error);
+    bool hasFile() const { return m_writer != nullptr; }
     /// Records no more from the ring.
     void detach() { m_reader.detach(); }
     /// Deletes the ring, whose records are all in the file.
     void removeRing() { m_reader.memory().remove(); }
+    /// What has begun since the last call, of Trigger.
+    std::uint8_t takeTriggers() { return std::exchange(m_triggers, std::uint8_t(0)); }
 
     const RingDescription &description() const { return m_description; }
-    std::uint64_t cycles() const { return m_cycles; }    // in the file, or in memory
-    std::uint64_t missing() const { return m_missing; }  // that have no record
+    std::uint64_t cycles() const { return m_cycles; }    // of this file, or in memory
+    std::uint64_t missing() const { return m_missing; }  // of those of this file: that have no record
     std::uint64_t bytes() const { return m_writer ? m_writer->size() : 0; }
 
 private:
@@ -60,6 +85,7 @@ private:
     void addDigest(const QByteArray &more);
     void addOverview();
     bool isChunkFull() const;
+    void watch(const CycleView &view);
 
     RingReader m_reader;
     RingDescription m_description;
@@ -83,6 +109,10 @@ private:
     bool m_hasDigest = true;       // of the newest cycle, in the file
     bool m_isOver = false;
     bool m_isDamaged = false;
+    bool m_hasEndMetadata = false;  // in the file
+    bool m_isSafe = false;          // in the newest cycle
+    std::uint32_t m_faulted = 0;    // nodes, in the newest cycle
+    std::uint8_t m_triggers = 0;
 };
 
 }  // namespace qplc

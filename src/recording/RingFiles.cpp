@@ -8,17 +8,35 @@
 
 namespace qplc {
 
-QStringList ringsOfMasters()
+namespace {
+
+template<typename Condition>
+QStringList ringsThat(Condition condition, QDir::SortFlags order)
 {
     const QDir folder(QFile::decodeName(RingMemory::folder()));
     QStringList files;
-    const QStringList names = folder.entryList(QDir::Files, QDir::Time);
+    const QStringList names = folder.entryList({QStringLiteral("qtplc-ring-*")}, QDir::Files, order);
     for (const QString &name : names) {
         const QString file = folder.filePath(name);
-        if (RingMemory::useOf(QFile::encodeName(file)) == RingMemory::Alive)
+        if (condition(RingMemory::useOf(QFile::encodeName(file))))
             files << file;
     }
     return files;
+}
+
+}  // namespace
+
+QStringList ringsOfMasters()
+{
+    return ringsThat([](RingMemory::Use use) { return use == RingMemory::Alive; }, QDir::Time);
+}
+
+QStringList ringsToRecord()
+{
+    const auto isFree = [](RingMemory::Use use) {
+        return use == RingMemory::Alive || use == RingMemory::DeadAndRecorded || use == RingMemory::Dead;
+    };
+    return ringsThat(isFree, QDir::Time | QDir::Reversed);
 }
 
 }  // namespace qplc

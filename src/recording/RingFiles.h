@@ -7,5 +7,8 @@ namespace qplc {
 
 /// The rings of the masters of this user that run cycles on this computer, the newest first.
 QStringList ringsOfMasters();
+/// All rings of this user that nobody records, also those of masters that have ended: the oldest
+/// first.
+QStringList ringsToRecord();
 
 }  // namespace qplc

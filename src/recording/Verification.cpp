@@ -70,6 +70,7 @@ public:
     {
         if (!m_hasDigest)
             problem(QStringLiteral("the cycles from %1 on have no digest to compare with").arg(m_result.checkedCycles));
+        m_result.next = m_next;
     }
 
 private:
@@ -124,6 +125,8 @@ private:
         const std::optional<quint64> wanted = numberIn(text, "digest", 16);
         const std::optional<quint64> next = numberIn(text, "next");
         m_hasDigest = true;
+        if (text.contains("\"continues\":true") && m_next == 0)
+            return goOn(next.value_or(0), wanted.value_or(0));
         m_result.hasEnd = m_result.hasEnd || text.contains("\"end\":true");
         if (!m_isBroken && (!wanted || *wanted != m_result.digest || next.value_or(~quint64(0)) != m_next))
             problem(QStringLiteral("the digest of the cycles before %1 is %2, and that of the flight %3")
@@ -135,6 +138,14 @@ private:
         m_result.digest = wanted.value_or(0);  // what follows is judged by itself
         m_isBroken = !wanted;
         m_next = next.value_or(m_next);
+    }
+
+    /// Other files have what was before.
+    void goOn(quint64 next, quint64 digest)
+    {
+        m_result.continues = true;
+        m_result.from = m_result.checkedCycles = m_next = next;
+        m_result.digest = digest;
     }
 
     VerifiedFile &m_result;

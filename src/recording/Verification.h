@@ -21,6 +21,9 @@ struct VerifiedFile
     RingDescription description;
     bool isFinished = false;  // the file has its summary
     bool hasEnd = false;      // of the phase
+    bool continues = false;   // other files have the cycles before `from`
+    quint64 from = 0;         // cycle with which this file begins
+    quint64 next = 0;         // cycle that comes behind this file
     quint64 cycles = 0;
     quint64 firstCycle = 0;
     quint64 lastCycle = 0;

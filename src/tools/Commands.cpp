@@ -300,14 +300,24 @@ const QVector<Command> &commands()
          2,
          &checkManifest},
         {"record",
-         "FILE",
-         "Records every cycle of a plant on this computer.",
-         "Reads the ring of the master, which runs on this computer and belongs to the\n"
-         "same user, and writes FILE, which must not exist. It begins with the cycles that\n"
-         "are in the ring, and ends with the phase or at Ctrl-C. If it is killed, the ring\n"
-         "keeps what is not in FILE: record into another file then, and run qtplc recover.",
-         {{"ring", "RING", "The ring of the master, default the only one."}},
-         {QStringLiteral("qtplc record flight.mcap")},
+         "FILE | FOLDER/",
+         "Records every cycle of plants on this computer.",
+         "Reads the ring of a master, which runs on this computer and belongs to the same\n"
+         "user, and writes FILE, which must not exist. It begins with the cycles that are\n"
+         "in the ring, and ends with the phase or at Ctrl-C. If it is killed, the ring\n"
+         "keeps what is not in FILE: record into another file then, and run qtplc recover.\n"
+         "With a FOLDER, it records all plants, one after the other and at once, until\n"
+         "Ctrl-C. It makes a file for each phase and segment, and deletes the oldest ones.\n"
+         "If it was killed, the next one in the same FOLDER finishes the files and goes on.",
+         {{"ring", "RING", "The ring of the master, default the only one."},
+          {"plant", "NAME", "With a FOLDER: records the plant NAME alone."},
+          {"segment-hours", "H", "With a FOLDER: a file is not longer, default 1."},
+          {"segment-mib", "MIB", "With a FOLDER: a file is not larger, default 256."},
+          {"keep-days", "DAYS", "With a FOLDER: older files are deleted."},
+          {"keep-gib", "GIB", "With a FOLDER: keeps no more of them."},
+          {"free-gib", "GIB", "With a FOLDER: keeps so much of the disk free, default 1."}},
+         {QStringLiteral("qtplc record flight.mcap"),
+          QStringLiteral("qtplc record /var/lib/qtplc/ --keep-days 10 --keep-gib 50")},
          Command::NoArguments,
          1,
          1,

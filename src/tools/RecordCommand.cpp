@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// record: from the ring of a master on this computer into a file.
+// record: from the rings of masters on this computer into a file, or a folder.
 #include "Commands.h"
 #include "TerminalText.h"
-#include "recording/PlantRecorder.h"
 #include "recording/RingFiles.h"
 
-#include <QtCore/QFile>
-#include <QtCore/QTimer>
+#include <QtPlcRecording>
 
 #include <cstdio>
 
@@ -14,10 +12,8 @@ namespace tools {
 
 namespace {
 
-constexpr int LookAfter = 5;                 // [ms] between two looks for records
-constexpr qint64 SaveAfter = 1'000'000'000;  // [ns] a loss of power costs no more
-constexpr int MostAtEnd = 1000;              // chunks
-constexpr int TryAgainAfter = 1000;          // [ms] when the file could not be written
+constexpr double Mebibyte = 1024.0 * 1024.0;
+constexpr double Gibibyte = 1024.0 * Mebibyte;
 
 /// The ring of the only master of this user. Empty, with the message out: none, or several.
 QString onlyRing(const CommandCall &call)
@@ -32,103 +28,89 @@ QString onlyRing(const CommandCall &call)
     return {};
 }
 
-/// Records until the phase is over, or a signal comes.
-class Recording
+/// \return false, with the message out
+bool readLimits(const CommandCall &call, QPlcRecorder *recorder)
 {
-public:
-    Recording(const CommandCall &call, const QString &file)
-        : m_call(call)
-        , m_file(file)
-        , m_isStopped(call.quitOnSignals())
-    {
-        m_timer.setTimerType(Qt::PreciseTimer);
-        QObject::connect(&m_timer, &QTimer::timeout, &m_timer, [this] { proceed(); });
-    }
+    double hours = 1.0;
+    double megabytes = 256.0;
+    double days = 0.0;
+    double total = 0.0;
+    double free = 1.0;
+    if (!call.readNumber("segment-hours", 0.001, 1000.0, &hours)
+        || !call.readNumber("segment-mib", 1.0, 1e6, &megabytes) || !call.readNumber("keep-days", 0.001, 1e5, &days)
+        || !call.readNumber("keep-gib", 0.001, 1e6, &total) || !call.readNumber("free-gib", 0.0, 1e6, &free))
+        return false;
+    const auto seconds = [](double value) { return std::chrono::seconds(qRound64(value)); };
+    recorder->setSegmentDuration(seconds(hours * 3600.0));
+    recorder->setSegmentSize(quint64(megabytes * Mebibyte));
+    recorder->setLongestAge(seconds(days * 86400.0));
+    recorder->setLargestTotal(quint64(total * Gibibyte));
+    recorder->setLeastFree(quint64(free * Gibibyte));
+    return true;
+}
 
-    bool begin(const QString &ring, QString *error)
-    {
-        if (!m_recorder.attach(QFile::encodeName(ring), error))
-            return false;
-        std::unique_ptr<qplc::mcap::FileSink> sink = qplc::mcap::FileSink::create(m_file, error);
-        return sink && m_recorder.begin(std::move(sink), error);
-    }
-    int run()
-    {
-        printLine(QStringLiteral("recording plant '%1' to %2")
-                      .arg(printable(m_recorder.description().plant), printable(m_file)));
+void tellFiles(QPlcRecorder *recorder)
+{
+    QObject::connect(recorder, &QPlcRecorder::fileStarted, recorder, [](const QString &file, const QString &plant) {
+        printLine(QStringLiteral("recording plant '%1' to %2").arg(printable(plant), printable(file)));
         std::fflush(stdout);
-        m_timer.start(LookAfter);
-        if (!*m_isStopped)
-            m_call.application.exec();
-        return end();
-    }
-
-private:
-    void proceed()
-    {
-        QString error;
-        const qplc::PlantRecorder::Progress progress = m_recorder.proceed(&error);
-        m_hasEnded = progress == qplc::PlantRecorder::Ended;
-        m_isAbandoned = progress == qplc::PlantRecorder::Abandoned;
-        if (m_hasEnded || m_isAbandoned)
-            return QCoreApplication::quit();
-        const qint64 now = qplc::monotonicNow();
-        bool isWritten = progress != qplc::PlantRecorder::Failed;
-        if (isWritten && now - m_saved > SaveAfter) {
-            isWritten = m_recorder.save(true, &error);
-            m_saved = now;
-        }
-        if (!isWritten && !m_hasFailed)
-            QPlcCoreApplication::printError(error
+    });
+    QObject::connect(
+        recorder, &QPlcRecorder::fileFinished, recorder, [](const QString &file, quint64 cycles, quint64 missing) {
+            printLine(QStringLiteral("%1 cycles in %2, %3 missing").arg(cycles).arg(printable(file)).arg(missing));
+            std::fflush(stdout);
+        });
+    QObject::connect(recorder, &QPlcRecorder::masterLost, recorder, [](const QString &file) {
+        QPlcCoreApplication::printError(
+            QStringLiteral("the master has ended without the end of its phase, which is recorded to %1")
+                .arg(printable(file)));
+    });
+    QObject::connect(recorder, &QPlcRecorder::errorOccurred, recorder, [recorder] {
+        if (recorder->error() == QPlcRecorder::WriteError)
+            QPlcCoreApplication::printError(recorder->errorString()
                                             + QStringLiteral("; the ring keeps the cycles, and it is tried again"));
-        m_hasFailed = !isWritten;
-        m_timer.setInterval(m_hasFailed ? TryAgainAfter : progress == qplc::PlantRecorder::Recorded ? 0 : LookAfter);
-    }
-    int end()
-    {
-        QString error;
-        // A signal: what is in the ring by now is still recorded.
-        for (int i = 0; i < MostAtEnd && m_recorder.proceed(&error) == qplc::PlantRecorder::Recorded; ++i) {}
-        if (!m_recorder.finish(&error)) {
-            QPlcCoreApplication::printError(error);
-            return QPlcCoreApplication::Failure;
-        }
-        m_recorder.detach();
-        if (m_hasEnded || m_isAbandoned)
-            m_recorder.removeRing();
-        printLine(QStringLiteral("%1 cycles in %2, %3 missing")
-                      .arg(m_recorder.cycles())
-                      .arg(printable(m_file))
-                      .arg(m_recorder.missing()));
-        if (m_isAbandoned)
-            QPlcCoreApplication::printError(QStringLiteral("the master has ended without the end of its phase"));
-        return m_isAbandoned ? QPlcCoreApplication::Failure : QPlcCoreApplication::Success;
-    }
-
-    const CommandCall &m_call;
-    QString m_file;
-    std::shared_ptr<const bool> m_isStopped;
-    qplc::PlantRecorder m_recorder;
-    QTimer m_timer;
-    qint64 m_saved = 0;
-    bool m_hasFailed = false;
-    bool m_hasEnded = false;
-    bool m_isAbandoned = false;
-};
+    });
+}
 
 }  // namespace
 
 int recordPlant(const CommandCall &call)
 {
-    const QString option = QStringLiteral("ring");
-    const QString ring = call.application.isSet(option) ? call.application.value(option) : onlyRing(call);
-    if (ring.isEmpty())
+    QPlcRecorder recorder;
+    recorder.setTarget(call.arguments.value(0));
+    if (!readLimits(call, &recorder))
         return QPlcCoreApplication::UsageError;
-    Recording recording(call, call.arguments.value(0));
-    QString error;
-    if (!recording.begin(ring, &error))
-        return call.application.usageError(error);
-    return recording.run();
+    const QString option = QStringLiteral("ring");
+    const bool isOnePhase = call.application.isSet(option) || !recorder.isFolder();
+    QString ring = call.application.value(option);
+    if (isOnePhase && ring.isEmpty())
+        ring = onlyRing(call);
+    if (isOnePhase && ring.isEmpty())
+        return QPlcCoreApplication::UsageError;
+    tellFiles(&recorder);
+    bool isAbandoned = false;
+    QObject::connect(&recorder, &QPlcRecorder::masterLost, &recorder, [&isAbandoned] { isAbandoned = true; });
+    if (isOnePhase)
+        QObject::connect(&recorder, &QPlcRecorder::stateChanged, &recorder, [](QPlcRecorder::State state) {
+            if (state == QPlcRecorder::Waiting)  // the phase is over
+                QCoreApplication::quit();
+        });
+    else
+        recorder.setPlant(call.application.value(QStringLiteral("plant")));
+    const std::shared_ptr<const bool> isStopped = call.quitOnSignals();
+    if (!recorder.start() || (isOnePhase && !recorder.addRing(ring)))
+        return call.application.usageError(recorder.errorString());
+    if (!isOnePhase) {
+        printLine(QStringLiteral("recording into %1").arg(printable(recorder.target())));
+        std::fflush(stdout);
+    }
+    if (!*isStopped)
+        call.application.exec();
+    if (!recorder.stop()) {
+        QPlcCoreApplication::printError(recorder.errorString());
+        return QPlcCoreApplication::Failure;
+    }
+    return isOnePhase && isAbandoned ? QPlcCoreApplication::Failure : QPlcCoreApplication::Success;
 }
 
 }  // namespace tools

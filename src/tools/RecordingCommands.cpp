@@ -28,6 +28,8 @@ QJsonDocument jsonOf(const qplc::VerifiedFile &file)
                                      {QStringLiteral("cycles"), double(file.cycles)},
                                      {QStringLiteral("firstCycle"), double(file.firstCycle)},
                                      {QStringLiteral("lastCycle"), double(file.lastCycle)},
+                                     {QStringLiteral("from"), double(file.from)},
+                                     {QStringLiteral("next"), double(file.next)},
                                      {QStringLiteral("skipped"), double(file.skipped)},
                                      {QStringLiteral("missing"), double(file.missing)},
                                      {QStringLiteral("gaps"), gaps},

@@ -23,6 +23,7 @@ LIBRARIES = {
     "core": ("QtPlcCore", "<QtNetwork/QtNetwork>"),
     "hardware": ("QtPlcHardware", "<QtNetwork/QtNetwork>"),
     "models": ("QtPlcModels", "<QtNetwork/QtNetwork>"),
+    "recording": ("QtPlcRecording", "<QtNetwork/QtNetwork>"),
     "gui": ("QtPlcGui", "<QtWidgets/QtWidgets>"),
     "gui3d": ("QtPlcGui3D", "<QtWidgets/QtWidgets>"),
     "test": ("QtPlcTest", "<QtNetwork/QtNetwork>"),

@@ -80,6 +80,7 @@ ARROWS = {
 LIBRARIES = {
     "hardware": ("src/hardware", "QtPlcHardware"),
     "models": ("src/models", "QtPlcModels"),
+    "recording": ("src/recording", "QtPlcRecording"),
     "gui": ("src/gui", "QtPlcGui"),
     "gui3d": ("src/gui3d", "QtPlcGui3D"),
     "test_support": ("src/test_support", "QtPlcTest"),
@@ -99,6 +100,7 @@ HEADER_ONLY = {
     "QPlcGui3DGlobal": "gui3d",
     "QPlcHardwareGlobal": "hardware",
     "QPlcModelsGlobal": "models",
+    "QPlcRecordingGlobal": "recording",
     "QPlcReadChannel": "hardware",
     "QPlcWriteChannel": "hardware",
     "QPlcInput": "node",
@@ -229,6 +231,11 @@ OF_MACHINE = (
     ("wakes a wait of the kernel, where a host has kernel timers", "a timer", "realtime/AlarmTime.cpp"),
     ("does long work beside an event loop where a host has threads", "a thread", "realtime/Worker.cpp"),
     ("writes the log of the machine behind the cycles", "a sleep, a thread", "realtime/LogWriter.cpp"),
+    (
+        "writes recordings beside the cycles, to disks that may stall",
+        "a thread",
+        "recording/RecorderThread.cpp recording/RecorderThread.h",
+    ),
     (
         "sets up or measures the machine",
         "a thread",

@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Kills recorders and masters at random (SIGKILL), and stops a recorder for a while: no cycle is
-missing in the recordings.
+missing in the recordings. A recorder that starts again in the same folder finishes them.
 
 usage: tst_kills.py FOLDER_OF_PROGRAMS KILLS
 """
 import json
 import random
+import signal
 import subprocess
 import sys
 import tempfile
@@ -21,7 +22,7 @@ class Plant:
     """Flights and recorders whose rings are in a folder of their own."""
 
     def __init__(self, programs, folder, rings):
-        self.programs, self.folder = programs, folder
+        self.programs, self.folder, self.rings = programs, folder, Path(rings)
         self.environment = {"PATH": "/usr/bin:/bin", "QTPLC_RING_DIR": rings}
 
     def start(self, program, *arguments):
@@ -42,6 +43,17 @@ class Plant:
                 return recorder, file
             recorder.wait()
         sys.exit("no recorder has begun")
+
+    def finish(self, folder):
+        """Records what is left in rings."""
+        recorder = self.start("qtplc", "record", f"{folder}/")
+        recorder.stdout.readline()
+        end = time.monotonic() + PATIENCE
+        while list(self.rings.iterdir()) and time.monotonic() < end:
+            time.sleep(0.01)
+        recorder.send_signal(signal.SIGTERM)
+        recorder.communicate(timeout=PATIENCE)
+        assert not list(self.rings.iterdir()), "rings are left"
 
     def verify(self, file):
         said = subprocess.run([self.programs / "qtplc", "verify", file, "--json"], stdout=subprocess.PIPE, text=True)
@@ -85,21 +97,65 @@ def masters_are_killed(plant, kills):
 
 
 def a_stopped_recorder_loses_nothing(plant):
-    file, report = plant.folder / "stopped.mcap", plant.folder / "stopped.json"
-    flight = plant.start("awe_sil", "--duration", 2000, "--record", file, "--report", report)
-    end = time.monotonic() + PATIENCE
-    while not file.exists() and time.monotonic() < end:
-        time.sleep(0.001)
-    found = subprocess.run(["pgrep", "-f", f"qtplc record {file}"], stdout=subprocess.PIPE, text=True).stdout.split()
-    if found:
-        recorder = int(found[0])
-        subprocess.run(["kill", "-STOP", str(recorder)])
-        time.sleep(2)
-        subprocess.run(["kill", "-CONT", str(recorder)])
+    report = plant.folder / "stopped.json"
+    flight = plant.start("awe_sil", "--duration", 2000, "--report", report)
+    recorder, file = plant.record("stopped.mcap")
+    recorder.send_signal(signal.SIGSTOP)
+    time.sleep(2)
+    recorder.send_signal(signal.SIGCONT)
     assert flight.wait(PATIENCE) == 0
+    recorder.communicate(timeout=PATIENCE)
     facts = plant.verify(file)
-    assert facts["complete"] and facts["cycles"] == 200000, facts
+    assert facts["problems"] == [] and facts["lastCycle"] == 199999, facts
+    assert all(gap["first"] == 0 for gap in facts["gaps"]), facts  # what was before the recorder
     assert facts["digest"] == json.loads(report.read_text())["image_digest"]
+
+
+def master_of(file):
+    return file.name.split("_phase")[0].split("_")[-1]
+
+
+def files_follow_each_other(plant, folder):
+    """All files of a folder are finished, and those of a master have each cycle once."""
+    following, cycles = {}, 0
+    for file in sorted(folder.iterdir()):
+        if file.name.startswith("."):
+            continue
+        assert file.suffix == ".mcap", f"{file} is not finished"
+        facts, master = plant.verify(file), master_of(file)
+        assert facts["finished"] and facts["problems"] in ([], [NO_END]), facts
+        assert all(gap["first"] == 0 for gap in facts["gaps"]), facts
+        assert following.setdefault(master, facts["from"]) == facts["from"], f"{file}: {facts}"
+        following[master] = facts["next"]
+        cycles += facts["cycles"]
+    assert cycles > 0, "nothing was recorded"
+    return len(following)
+
+
+def recorders_of_a_folder_are_killed(plant, kills):
+    folder = plant.folder / "recorders"
+    flight = plant.start("awe_sil", "--scale", 10, "--duration", 100000)
+    for _ in range(kills):
+        recorder = plant.start("qtplc", "record", f"{folder}/")
+        recorder.stdout.readline()
+        time.sleep(random.uniform(0, 0.5))
+        kill(recorder)
+    kill(flight)
+    plant.finish(folder)
+    assert files_follow_each_other(plant, folder) == 1
+
+
+def masters_that_record_are_killed(plant, kills):
+    folder = plant.folder / "masters"
+    for number in range(kills):
+        flight = plant.start("awe_sil", "--scale", 10, "--duration", 100000, "--record", f"{folder}/")
+        end = time.monotonic() + PATIENCE
+        while len({master_of(file) for file in folder.glob("*_phase1*")}) <= number and time.monotonic() < end:
+            time.sleep(0.001)
+        time.sleep(random.uniform(0, 0.25))
+        kill(flight)
+        plant.finish(folder)
+    assert files_follow_each_other(plant, folder) == kills
 
 
 def main():
@@ -112,6 +168,10 @@ def main():
         for ring in Path(rings).iterdir():
             ring.unlink()
         recorders_are_killed(plant, kills)
+        for ring in Path(rings).iterdir():
+            ring.unlink()
+        recorders_of_a_folder_are_killed(plant, kills)
+        masters_that_record_are_killed(plant, kills)
     print(f"{kills} recorders and {kills} masters were killed: no cycle is missing")
 
 

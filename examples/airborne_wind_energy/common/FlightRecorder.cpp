@@ -1,67 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "FlightRecorder.h"
 
-#include <QtCore/QFileInfo>
-
 #include <cstdio>
 
 namespace awe {
 
-namespace {
-
-constexpr int patience = 10'000;  // [ms] for the begin and for the end of the recorder
-
-}  // namespace
-
-FlightRecorder::FlightRecorder(QPlcMasterNode &master, const QString &file)
-    : m_file(file)
+FlightRecorder::FlightRecorder(QPlcMasterNode &master, const QString &target)
 {
-    if (!file.isEmpty())
-        connect(&master, &QPlcMasterNode::ringIsReady, this, &FlightRecorder::record, Qt::DirectConnection);
+    if (target.isEmpty())
+        return;
+    m_recorder.setTarget(target);
+    m_recorder.setMaster(&master);
+    connect(&m_recorder, &QPlcRecorder::fileFinished, this, [](const QString &file, quint64 cycles, quint64 missing) {
+        std::printf("%llu cycles in %s, %llu missing\n", cycles, qPrintable(file), missing);
+    });
+    connect(&m_recorder, &QPlcRecorder::errorOccurred, this, [this] {
+        m_hasFailed = m_hasFailed || m_recorder.error() != QPlcRecorder::WriteError;
+        if (m_recorder.error() == QPlcRecorder::WriteError)  // it goes on by itself
+            QPlcCoreApplication::printError(m_recorder.errorString());
+        else
+            Q_EMIT failed(m_recorder.errorString());
+    });
 }
 
-FlightRecorder::~FlightRecorder()
+bool FlightRecorder::start()
 {
-    finish();
-}
-
-QString FlightRecorder::nextFile()
-{
-    ++m_count;
-    if (m_count == 1)
-        return m_file;
-    const QFileInfo info(m_file);
-    const QString suffix = info.suffix().isEmpty() ? QString() : QLatin1Char('.') + info.suffix();
-    return m_file.left(m_file.size() - suffix.size()) + QStringLiteral("-%1").arg(m_count) + suffix;
-}
-
-/// Cycles begin when this returns: the recorder gets all of them.
-void FlightRecorder::record(const QString &ring)
-{
-    finish();
-    m_process = std::make_unique<ChildProcess>();
-    m_process->setProcessChannelMode(QProcess::ForwardedErrorChannel);
-    m_process->start(ChildProcess::pathOf(QStringLiteral("qtplc")),
-                     {QStringLiteral("record"), nextFile(), QStringLiteral("--ring"), ring});
-    if (!m_process->waitForStarted(patience))
-        Q_EMIT failed(QStringLiteral("cannot start %1: %2; is it beside this program?")
-                          .arg(m_process->program(), m_process->errorString()));
-    else if (!m_process->waitForReadyRead(patience) || !m_process->readLine().startsWith("recording "))
-        Q_EMIT failed({});
+    return m_recorder.target().isEmpty() || m_recorder.start();
 }
 
 bool FlightRecorder::finish()
 {
-    if (!m_process)
-        return true;
-    const std::unique_ptr<ChildProcess> process = std::move(m_process);
-    const bool hasEnded = process->state() == QProcess::NotRunning || process->waitForFinished(patience);
-    std::fputs(process->readAllStandardOutput().constData(), stdout);
-    if (!hasEnded)
-        process->terminate();
-    return process->waitForFinished(patience) || hasEnded
-        ? process->exitStatus() == QProcess::NormalExit && process->exitCode() == QPlcCoreApplication::Success
-        : false;
+    constexpr std::chrono::seconds patience(10);
+    if (m_recorder.waitForFinished(patience))
+        return !m_hasFailed;
+    QPlcCoreApplication::printError(
+        QStringLiteral("the last cycles are not in the file yet: %1").arg(m_recorder.status().error));
+    return false;
 }
 
 }  // namespace awe

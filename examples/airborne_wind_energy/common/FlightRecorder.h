@@ -1,40 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "ChildProcess.h"
-
-#include <QtPlcCore>
-
-#include <memory>
+#include <QtPlcRecording>
 
 namespace awe {
 
-/// Records each phase of a master into a file, by `qtplc record`: the first one into FILE, the next
-/// ones into FILE-2, FILE-3, ...
+/// Records each phase of a master into a file or folder, and prints what it has recorded.
 class FlightRecorder : public QObject
 {
     Q_OBJECT
 public:
     /// \param master  outlives this object
-    /// \param file  empty: nothing is recorded
-    FlightRecorder(QPlcMasterNode &master, const QString &file);
-    ~FlightRecorder() override;
+    /// \param target  see QPlcRecorder::setTarget(); empty: nothing is recorded
+    FlightRecorder(QPlcMasterNode &master, const QString &target);
 
-    /// Waits until all cycles of the phase that has ended are in the file.
+    /// Begins. \return false when nothing can be recorded there, and failed() has told why
+    bool start();
+    /// Waits until all cycles of the phase that has ended are in its file.
     /// \return whether they are, or nothing is recorded
     bool finish();
 
 Q_SIGNALS:
-    /// The phase cannot be recorded. \param text  empty: the recorder has said why
+    /// A phase cannot be recorded.
     void failed(const QString &text);
 
 private:
-    void record(const QString &ring);
-    QString nextFile();
-
-    const QString m_file;
-    int m_count = 0;
-    std::unique_ptr<ChildProcess> m_process;
+    QPlcRecorder m_recorder;
+    bool m_hasFailed = false;
 };
 
 }  // namespace awe

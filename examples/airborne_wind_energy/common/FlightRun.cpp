@@ -73,8 +73,10 @@ void addRunOptions(QPlcCoreApplication &application, const QString &defaultDurat
                                              QStringLiteral("FILE")));
     application.addOption(QCommandLineOption(
         QStringLiteral("record"),
-        QStringLiteral("Records every cycle into FILE, which must not exist: see qtplc verify, qtplc record."),
-        QStringLiteral("FILE")));
+        QStringLiteral(
+            "Records every cycle into FILE, which must not exist, or into files in FOLDER/: see qtplc verify, "
+            "qtplc record."),
+        QStringLiteral("PATH")));
     application.addOption(QCommandLineOption(
         QStringLiteral("watch"),
         QStringLiteral("Draws the flight on the terminal; --real-time unless another clock is given.")));
@@ -144,7 +146,7 @@ FlightRun::FlightRun(QPlcMasterNode &master, const RunSettings &settings)
         && master.activateJitterMeasurement(QStringLiteral("masterJitter"))
         && master.activateWorkloadMeasurement(QStringLiteral("masterWorkload")) && master.setInterval(period)
         && master.setClock(settings.clock) && master.setOverrunPolicy(settings.overrunPolicy)
-        && master.addLocalNode(&m_observer) && addWinchObserver() && m_display.isValid();
+        && master.addLocalNode(&m_observer) && addWinchObserver() && m_display.isValid() && startRecorder();
     master.setCycleLimit(quint64(std::llround(settings.duration / std::chrono::duration<double>(period).count())));
     connect(&master, &QPlcMasterNode::nodeRegistered, this, &FlightRun::startIfComplete);
     connect(&master, &QPlcMasterNode::realTimeHasStarted, this, &FlightRun::started);
@@ -153,8 +155,6 @@ FlightRun::FlightRun(QPlcMasterNode &master, const RunSettings &settings)
         if (m_begun && !m_ending)
             fail(QPlcCoreApplication::UsageError, {});  // the master has said why
     });
-    connect(&m_recorder, &FlightRecorder::failed, this,
-            [this](const QString &text) { fail(QPlcCoreApplication::UsageError, text); });
     connect(&master, &QPlcMasterNode::nodeLost, this, &FlightRun::nodeIsLost);
     m_numbersTimer.setInterval(numbersPeriod);
     connect(&m_numbersTimer, &QTimer::timeout, this, &FlightRun::requireNumbers);
@@ -165,6 +165,13 @@ FlightRun::FlightRun(QPlcMasterNode &master, const RunSettings &settings)
         fail(QPlcCoreApplication::Failure,
              QStringLiteral("the plant has stopped safely (%1): the flight ends").arg(reason));
     });
+}
+
+bool FlightRun::startRecorder()
+{
+    connect(&m_recorder, &FlightRecorder::failed, this,
+            [this](const QString &text) { fail(QPlcCoreApplication::UsageError, text); });
+    return m_recorder.start();
 }
 
 bool FlightRun::addWinchObserver()

@@ -81,6 +81,7 @@ Q_SIGNALS:
     void finished(int exitCode);
 
 private:
+    bool startRecorder();
     bool addWinchObserver();
     void nodeIsLost(const QString &name, const QString &reason);
     /// Ends the flight when one of its nodes gives NaN or infinity: a simulation holds the last

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "RecordingFolder.h"
+
+#include "Recovery.h"
+#include "Verification.h"
+
+#include <QtCore/QDateTime>
+#include <QtCore/QDir>
+#include <QtCore/QFile>
+#include <QtCore/QFileInfo>
+#include <QtCore/QRegularExpression>
+
+#include <cerrno>
+#include <fcntl.h>
+#include <sys/file.h>
+
+namespace qplc {
+
+namespace {
+
+const QString timeFormat = QStringLiteral("yyyyMMdd'T'HHmmss.zzz'Z'");
+const QString part = QStringLiteral(".part");
+const QString suffix = QStringLiteral(".mcap");
+const QString markedSuffix = QStringLiteral("_marked.mcap");
+const QString lockName = QStringLiteral(".qtplc-recorder");
+
+const QRegularExpression &pattern()
+{
+    static const QRegularExpression expression(
+        QStringLiteral("^(\\d{8}T\\d{6}\\.\\d{3}Z)_(\\w+_[0-9a-f]+_phase\\d+)(_marked)?\\.mcap(\\.part)?$"));
+    return expression;
+}
+
+/// Plant, session and phase.
+QString nameOf(const RingDescription &phase)
+{
+    QString plant = phase.plant.left(64);
+    for (QChar &sign : plant) {
+        if (!sign.isLetterOrNumber() || sign.unicode() > 127)
+            sign = QLatin1Char('_');
+    }
+    return QStringLiteral("%1_%2_phase%3")
+        .arg(plant.isEmpty() ? QStringLiteral("plant") : plant, QString::number(phase.session, 16))
+        .arg(phase.phase);
+}
+
+qint64 timeOf(const QString &stamp)
+{
+    QDateTime time = QDateTime::fromString(stamp, timeFormat);
+    time.setTimeSpec(Qt::UTC);
+    return time.isValid() ? time.toMSecsSinceEpoch() : -1;
+}
+
+QString fileNameOf(const QString &path)
+{
+    return QFileInfo(path).fileName();
+}
+
+}  // namespace
+
+RecordingFolder::RecordingFolder(Disk &disk)
+    : m_disk(disk)
+{
+}
+
+bool RecordingFolder::open(const QString &path, QString *error)
+{
+    m_path = QDir(path).absolutePath();
+    if (!QDir().mkpath(m_path)) {
+        *error = QStringLiteral("cannot make the folder '%1'").arg(m_path);
+        return false;
+    }
+    const QString lock = QDir(m_path).filePath(lockName);
+    m_lock = Descriptor(::open(QFile::encodeName(lock).constData(), O_RDWR | O_CREAT | O_CLOEXEC, 0644));
+    if (!m_lock.isOpen()) {
+        *error = QStringLiteral("cannot write into the folder '%1': %2").arg(m_path, qt_error_string(errno));
+        return false;
+    }
+    if (::flock(m_lock.number(), LOCK_EX | LOCK_NB) != 0) {
+        *error = QStringLiteral("another recorder records into '%1'; stop it first, or use another folder").arg(m_path);
+        return false;
+    }
+    QString why;
+    finishOthers({}, &why);  // what cannot be finished now stays as it is
+    return true;
+}
+
+QVector<RecordingFolder::File> RecordingFolder::files(const QString &folder)
+{
+    const QDir dir(folder);
+    QVector<File> result;
+    const QFileInfoList all = dir.entryInfoList(QDir::Files, QDir::Name);
+    for (const QFileInfo &info : all) {
+        const QRegularExpressionMatch match = pattern().match(info.fileName());
+        if (match.hasMatch() && timeOf(match.captured(1)) >= 0)
+            result.append({info.filePath(), timeOf(match.captured(1)), quint64(info.size()),
+                           !match.captured(3).isEmpty(), !match.captured(4).isEmpty()});
+    }
+    return result;
+}
+
+QString RecordingFolder::nextFile(const RingDescription &phase, qint64 now) const
+{
+    const QVector<File> known = files(m_path);
+    for (const File &file : known)
+        now = std::max(now, file.begin + 1);  // also where the clock was set back
+    const QString stamp = QDateTime::fromMSecsSinceEpoch(now, Qt::UTC).toString(timeFormat);
+    return QDir(m_path).filePath(stamp + QLatin1Char('_') + nameOf(phase) + suffix + part);
+}
+
+PlantRecorder::Position RecordingFolder::position(const RingDescription &phase) const
+{
+    const QString name = nameOf(phase);
+    const QVector<File> known = files(m_path);
+    for (int i = known.size() - 1; i >= 0; --i) {
+        if (pattern().match(fileNameOf(known[i].path)).captured(2) != name)
+            continue;
+        VerifiedFile found;
+        QString error;
+        if (!verifyRecording(known[i].path, &found, &error))
+            return {};
+        return {found.next, found.digest};
+    }
+    return {};
+}
+
+QString RecordingFolder::finished(const QString &path, bool isMarked) const
+{
+    QString name = path;
+    if (name.endsWith(part))
+        name.chop(part.size());
+    if (name != path && !QFile::rename(path, name))
+        return path;
+    return isMarked ? mark(name) : name;
+}
+
+QString RecordingFolder::mark(const QString &path)
+{
+    QString name = path;
+    const bool isPart = name.endsWith(part);
+    if (isPart)
+        name.chop(part.size());
+    if (!name.endsWith(suffix) || name.endsWith(markedSuffix))
+        return path;
+    name.replace(name.size() - suffix.size(), suffix.size(), markedSuffix);
+    if (isPart)
+        name += part;
+    return QFile::rename(path, name) ? name : path;
+}
+
+QStringList RecordingFolder::clean(const Limits &limits, qint64 now) const
+{
+    const QVector<File> known = files(m_path);
+    quint64 total = 0;
+    for (const File &file : known)
+        total += file.size;
+    QStringList deleted;
+    for (const File &file : known) {
+        const bool isTooOld = limits.longestAge > 0 && now - file.begin > limits.longestAge;
+        const bool isTooMuch = limits.largestTotal > 0 && total > limits.largestTotal;
+        const bool isTooFull = limits.leastFree > 0 && freeBytes() < limits.leastFree;
+        if (!isTooOld && !isTooMuch && !isTooFull)
+            break;
+        if (file.isMarked || file.isUnfinished || !QFile::remove(file.path))
+            continue;
+        total -= file.size;
+        deleted << file.path;
+    }
+    return deleted;
+}
+
+int RecordingFolder::finishOthers(const QStringList &own, QString *error) const
+{
+    int count = 0;
+    const QVector<File> known = files(m_path);
+    for (const File &file : known) {
+        RecoveredFile result;
+        if (!file.isUnfinished || own.contains(file.path) || !recoverRecording(file.path, &result, error))
+            continue;
+        finished(file.path, false);
+        ++count;
+    }
+    return count;
+}
+
+}  // namespace qplc
