@@ -77,12 +77,27 @@ public:
     ///     if the name exists already
     /// \return the name of the plant
     QString connectToMaster(const QString &address, const QString &name = QString());
-    /// Disconnects from a plant, which keeps running, and removes it from the window. Does nothing
-    /// for an unknown name.
+    /// Opens a recording. It stands among the plants: panels show its signals, and a bar plays it.
+    /// Nothing in it can be commanded.
+    ///
+    /// \code
+    /// QString error;
+    /// if (controlCenter.openRecording({"flight.mcap"}, &error).isEmpty())
+    ///     qWarning("%s", qPrintable(error));
+    /// \endcode
+    ///
+    /// \param paths  files, and folders with files `*.mcap`, which are shown as one recording
+    /// \param error  gets a sentence if the function fails; may be null
+    /// \param name  for people and for references to signals; empty: the name of the first file. A
+    ///     number is added if the name exists already
+    /// \return the name of the plant; empty if a file cannot be read
+    QString openRecording(const QStringList &paths, QString *error = nullptr, const QString &name = QString());
+    /// Disconnects from a plant, which keeps running, or closes a recording, and removes it from
+    /// the window. Does nothing for an unknown name.
     void disconnectFromMaster(const QString &plant);
-    /// Returns the names of the plants, in the order of connectToMaster().
+    /// Returns the names of the plants, in the order in which they came.
     QStringList plants() const;
-    /// Returns true if the master of the plant answers; false for an unknown name.
+    /// Returns true if the master of the plant answers; false for a recording and an unknown name.
     bool isConnected(const QString &plant) const;
     /// Returns true if cycles of the plant arrive, so that the window shows present values; false
     /// for an unknown name.

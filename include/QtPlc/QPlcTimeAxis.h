@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <optional>
 
-/// A time axis: which span of time is shown, live or frozen, with two cursors and the pointer of
-/// the mouse.
+/// A time axis: which span of time is shown, live or frozen, with two cursors, the pointer of
+/// the mouse, and the playhead of a recording.
 ///
 /// \code
 /// class Chart : public QPlcWidget
@@ -102,8 +102,15 @@ public:
     /// Sets the time under the mouse.
     /// \param time  not set: the mouse is elsewhere
     void setPointer(std::optional<Time> time);
+    /// Returns the time at which a recording is played, or stands; not set: none is open.
+    std::optional<Time> playhead() const { return m_playhead; }
+    /// Sets the time at which a recording is played, and freezes. A frozen axis moves if the time
+    /// is outside of what it shows.
+    /// \param time  not set: there is no playhead
+    void setPlayhead(std::optional<Time> time);
     /// Returns the time whose values gauges and tables show: on a frozen axis the pointer, or
-    /// without one the right end, but never later than newest(). Not set: the newest values.
+    /// without one the playhead, or without that the right end, but never later than newest(). Not
+    /// set: the newest values.
     std::optional<Time> displayTime() const;
 
     /// Sets the time of the newest values. The window does it for the shared axis, a chart for its
@@ -119,6 +126,8 @@ Q_SIGNALS:
     void cursorsChanged();
     /// Emitted when the pointer has changed.
     void pointerChanged();
+    /// Emitted when the playhead has changed.
+    void playheadChanged();
     /// Emitted when displayTime() has changed.
     void displayTimeChanged();
 
@@ -131,4 +140,5 @@ private:
     Time m_span = defaultSpan;
     std::optional<Time> m_cursors[2];
     std::optional<Time> m_pointer;
+    std::optional<Time> m_playhead;
 };

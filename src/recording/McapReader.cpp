@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "McapReader.h"
 
-#include "McapWriter.h"
-
 #include <algorithm>
+
+#include <zstd.h>
 
 namespace qplc::mcap {
 
@@ -382,6 +382,23 @@ void forEachSchema(const QByteArray &records, const std::function<void(const Sch
             found(schema);
         return true;
     });
+}
+
+bool uncompress(const QByteArray &compression, const char *bytes, std::size_t compressedSize, std::uint64_t size,
+                QByteArray *result)
+{
+    constexpr std::uint64_t largest = 64U << 20;  // a chunk is in memory as a whole
+    if (size > largest)
+        return false;
+    if (compression.isEmpty()) {
+        *result = QByteArray(bytes, int(compressedSize));
+        return compressedSize == size;
+    }
+    // A size that the bytes cannot give takes no memory.
+    if (compression != "zstd" || ZSTD_getFrameContentSize(bytes, compressedSize) != size)
+        return false;
+    result->resize(int(size));
+    return ZSTD_decompress(result->data(), std::size_t(size), bytes, compressedSize) == size;
 }
 
 }  // namespace qplc::mcap

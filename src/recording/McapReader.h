@@ -115,6 +115,10 @@ private:
     int m_damages = 0;
 };
 
+/// What \a bytes were before they were compressed. \return false when they are damaged, or do not
+/// give \a size bytes
+bool uncompress(const QByteArray &compression, const char *bytes, std::size_t compressedSize, std::uint64_t size,
+                QByteArray *result);
 /// A message out of its record. \return false when it is not whole
 bool readMessage(FieldReader fields, Message *message);
 /// Calls \a found for each message in the records of a chunk, and \a isChannel for each channel.

@@ -262,21 +262,4 @@ bool Writer::finish(QString *error)
     return flush(error) && append(m_index.end(size()), error) && sync(error);
 }
 
-bool uncompress(const QByteArray &compression, const char *bytes, std::size_t compressedSize, std::uint64_t size,
-                QByteArray *result)
-{
-    constexpr std::uint64_t largest = 64U << 20;  // a chunk is in memory as a whole
-    if (size > largest)
-        return false;
-    if (compression.isEmpty()) {
-        *result = QByteArray(bytes, int(compressedSize));
-        return compressedSize == size;
-    }
-    // A size that the bytes cannot give takes no memory.
-    if (compression != "zstd" || ZSTD_getFrameContentSize(bytes, compressedSize) != size)
-        return false;
-    result->resize(int(size));
-    return ZSTD_decompress(result->data(), std::size_t(size), bytes, compressedSize) == size;
-}
-
 }  // namespace qplc::mcap

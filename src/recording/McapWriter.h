@@ -75,9 +75,4 @@ private:
     std::uint64_t m_chunkIndexSize = 0;  // [byte] of the summary, for the chunks in the file
 };
 
-/// What \a bytes were before they were compressed. \return false when they are damaged, or do not
-/// give \a size bytes
-bool uncompress(const QByteArray &compression, const char *bytes, std::size_t compressedSize, std::uint64_t size,
-                QByteArray *result);
-
 }  // namespace qplc::mcap

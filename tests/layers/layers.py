@@ -42,6 +42,7 @@ ARROWS = {
         "node/state",
         "node/cycle",
         "node/session",
+        "recording",
         "gui",
         "gui/store",
         "gui/plant",

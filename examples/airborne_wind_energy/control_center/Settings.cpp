@@ -80,6 +80,8 @@ void addControlCenterOptions(QPlcApplicationOptions &application)
     add(application, "master",
         QStringLiteral("Master to connect to, for ever; may be given several times, NAME=HOST:PORT then."),
         "HOST:PORT");
+    add(application, "recording", QStringLiteral("Recording to open, a file or a folder; may be given several times."),
+        "PATH");
     add(application, "demo",
         QStringLiteral("Flies the kite of the demo: master, model and autopilot on this computer."));
     add(application, "layout", QStringLiteral("Layout of the window."), "FILE");
@@ -113,6 +115,7 @@ bool readControlCenterOptions(QPlcApplicationOptions &application, ControlCenter
         : QString();
     if (error.isEmpty())
         error = readMasters(application.values(QStringLiteral("master")), settings);
+    settings->recordings = application.values(QStringLiteral("recording"));
     if (error.isEmpty())
         error = readLook(application, settings);
     if (error.isEmpty() && application.isSet(QStringLiteral("screenshot")))

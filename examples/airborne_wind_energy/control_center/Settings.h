@@ -20,6 +20,7 @@ struct ControlCenterSettings
     };
 
     QVector<Master> masters;
+    QStringList recordings;  // to open
     bool demo = false;
     QString screenshot;  // file name; empty: none
     double after = 5.0;  // [s]
@@ -29,7 +30,7 @@ struct ControlCenterSettings
     QSize size;      // empty: as it was
 
     /// Whether it is said what the window shows; else it shows what it did last.
-    bool namesPlants() const { return demo || !masters.isEmpty(); }
+    bool namesPlants() const { return demo || !masters.isEmpty() || !recordings.isEmpty(); }
 };
 
 void addControlCenterOptions(QPlcApplicationOptions &application);

@@ -70,6 +70,10 @@ bool prepare(QPlcGuiApplication &application, QPlcControlCenter &window, const a
         window.resize(settings.size);
     for (const awe::ControlCenterSettings::Master &master : settings.masters)
         window.connectToMaster(master.address, master.name);
+    for (const QString &recording : settings.recordings) {
+        if (window.openRecording({recording}, &error).isEmpty())
+            return application.usageError(error), false;
+    }
     return true;
 }
 
@@ -81,6 +85,7 @@ void addTexts(QPlcGuiApplication &application)
     application.setExamples(
         {QStringLiteral("awe_control_center --demo"), QStringLiteral("awe_control_center --master 192.168.1.5:50000"),
          QStringLiteral("awe_control_center --master north=winch1:50000 --master south=winch2:50000"),
+         QStringLiteral("awe_control_center --recording flight.mcap"),
          QStringLiteral("awe_control_center --demo --tab 'Real time' --theme dark"),
          QStringLiteral("awe_control_center --demo --size 1366x768 --screenshot kite.png --after 20")});
     awe::addControlCenterOptions(application);

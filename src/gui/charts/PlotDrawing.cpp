@@ -90,16 +90,18 @@ void QPlcTimePlot::Private::showOverlay()
         picture.cursorA = place(shared->cursor(QPlcTimeAxis::A));
         picture.cursorB = place(shared->cursor(QPlcTimeAxis::B));
         picture.pointer = place(shared->pointer());
+        picture.playhead = place(shared->playhead());
     }
-    if (picture.pointer) {
-        const Time moment = *shared->pointer();
+    if (picture.pointer && !canvas->isCompact()) {
         const bool isCoarse = (canvas->end() - canvas->begin()) / std::max(canvas->canvas()->width(), 1) >= 1'000'000;
-        if (!canvas->isCompact())
-            picture.pointerText = TimeTicks::clockText(moment, isCoarse ? 1'000'000 : 1'000);
+        picture.pointerText = TimeTicks::clockText(*shared->pointer(), isCoarse ? 1'000'000 : 1'000);
+    }
+    if (const std::optional<int> x = picture.pointer ? picture.pointer : picture.playhead) {
+        const Time moment = picture.pointer ? *shared->pointer() : *shared->playhead();
         for (const PlotCurve &curve : curves) {
             const double value = curve.isLine() ? curve.value(moment) : NAN;
             if (!std::isnan(value))
-                picture.dots.append({QPointF(*picture.pointer, canvas->yOf(curve.axis, value)), curve.color});
+                picture.dots.append({QPointF(*x, canvas->yOf(curve.axis, value)), curve.color});
         }
     }
     placeTrigger(&picture);
@@ -168,7 +170,7 @@ void QPlcTimePlot::Private::showNumbers()
     const QPlcTimeAxis *shared = time.shared();
     if (time.view()->isLive())
         pointAtMouse();
-    std::optional<Time> moment = shared->pointer();
+    std::optional<Time> moment = shared->pointer() ? shared->pointer() : shared->playhead();
     const bool isElsewhere = moment && (*moment < canvas->begin() || *moment > canvas->end());
     if (isElsewhere && time.view()->isLive())
         moment.reset();  // of a plot whose time is another one

@@ -28,7 +28,8 @@ QColor faint(QColor color, double opacity)
 bool isSame(const PlotOverlay::Picture &a, const PlotOverlay::Picture &b)
 {
     return a.cursorA == b.cursorA && a.cursorB == b.cursorB && a.pointer == b.pointer && a.pointerText == b.pointerText
-        && a.dots == b.dots && a.box == b.box && a.hint == b.hint && a.event == b.event && a.levels == b.levels;
+        && a.playhead == b.playhead && a.dots == b.dots && a.box == b.box && a.hint == b.hint && a.event == b.event
+        && a.levels == b.levels;
 }
 
 }  // namespace
@@ -76,7 +77,9 @@ void PlotOverlay::paint(QPainter *painter) const
     painter->setFont(font());
     paintBetween(painter);
     paintTrigger(painter);
+    paintPlayhead(painter);
     paintPointer(painter);
+    paintDots(painter);
     if (m_picture.cursorA)
         paintCursor(painter, *m_picture.cursorA, QStringLiteral("A"));
     if (m_picture.cursorB)
@@ -124,13 +127,22 @@ void PlotOverlay::paintTrigger(QPainter *painter) const
     paintArrow({*m_picture.event, arrowSize}, {0, arrowSize}, {arrowSize - 2, 0}, m_theme.text);
 }
 
-void PlotOverlay::paintPointer(QPainter *painter) const
+/// A line with a triangle at its foot.
+void PlotOverlay::paintPlayhead(QPainter *painter) const
 {
-    if (!m_picture.pointer)
+    if (!m_picture.playhead)
         return;
-    const int x = *m_picture.pointer;
-    painter->setPen(QPen(m_theme.mutedText, 0.0, Qt::DotLine));
+    const int x = *m_picture.playhead;
+    painter->setPen(QPen(m_theme.accent, 0.0));
     painter->drawLine(x, 0, x, height());
+    painter->setPen(Qt::NoPen);
+    painter->setBrush(m_theme.accent);
+    painter->drawPolygon(
+        QPolygon({{x, height() - arrowSize}, {x - arrowSize + 1, height()}, {x + arrowSize - 1, height()}}));
+}
+
+void PlotOverlay::paintDots(QPainter *painter) const
+{
     painter->setRenderHint(QPainter::Antialiasing);
     for (const Dot &dot : m_picture.dots) {
         painter->setPen(QPen(m_theme.surface, 1.0));
@@ -138,6 +150,15 @@ void PlotOverlay::paintPointer(QPainter *painter) const
         painter->drawEllipse(dot.position, dotRadius, dotRadius);
     }
     painter->setRenderHint(QPainter::Antialiasing, false);
+}
+
+void PlotOverlay::paintPointer(QPainter *painter) const
+{
+    if (!m_picture.pointer)
+        return;
+    const int x = *m_picture.pointer;
+    painter->setPen(QPen(m_theme.mutedText, 0.0, Qt::DotLine));
+    painter->drawLine(x, 0, x, height());
     if (m_picture.pointerText.isEmpty())
         return;
     const QSize size = fontMetrics().size(Qt::TextSingleLine, m_picture.pointerText) + QSize(2 * labelMargin, 2);

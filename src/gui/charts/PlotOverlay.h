@@ -27,8 +27,9 @@ public:
         std::optional<int> cursorA;  // [px] from the left edge
         std::optional<int> cursorB;
         std::optional<int> pointer;
+        std::optional<int> playhead;
         QString pointerText;
-        QVector<Dot> dots;  // where the pointer meets the curves
+        QVector<Dot> dots;  // where the pointer, or else the playhead, meets the curves
         QRect box;
         QString hint;
         std::optional<int> event;  // of a trigger
@@ -51,7 +52,9 @@ protected:
     void paintEvent(QPaintEvent *event) override;
 
 private:
+    void paintPlayhead(QPainter *painter) const;
     void paintPointer(QPainter *painter) const;
+    void paintDots(QPainter *painter) const;
     void paintCursor(QPainter *painter, int x, const QString &name) const;
     void paintTrigger(QPainter *painter) const;
     void paintBetween(QPainter *painter) const;

@@ -200,6 +200,8 @@ QString stateWord(const Plant &plant)
     case PlantConnection::Disconnected:
         break;
     }
+    if (plant.recording())
+        return QCoreApplication::translate("ValueFormat", "recording");
     return plant.store() ? QCoreApplication::translate("ValueFormat", "lost")
                          : QCoreApplication::translate("ValueFormat", "not there");
 }

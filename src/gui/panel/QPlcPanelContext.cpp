@@ -196,8 +196,9 @@ struct QPlcPanelContext::Private : public QObject
 
     void followTime(const QPlcTimeAxis *time)
     {
-        for (const auto changed : {&QPlcTimeAxis::viewChanged, &QPlcTimeAxis::cursorsChanged,
-                                   &QPlcTimeAxis::pointerChanged, &QPlcTimeAxis::displayTimeChanged})
+        for (const auto changed :
+             {&QPlcTimeAxis::viewChanged, &QPlcTimeAxis::cursorsChanged, &QPlcTimeAxis::pointerChanged,
+              &QPlcTimeAxis::playheadChanged, &QPlcTimeAxis::displayTimeChanged})
             connect(time, changed, this, [this] {
                 Q_EMIT q->timeChanged();
                 touch();

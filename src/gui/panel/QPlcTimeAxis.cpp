@@ -59,11 +59,27 @@ void QPlcTimeAxis::setPointer(std::optional<Time> time)
         Q_EMIT displayTimeChanged();
 }
 
+void QPlcTimeAxis::setPlayhead(std::optional<Time> time)
+{
+    if (time == m_playhead)
+        return;
+    const std::optional<Time> before = displayTime();
+    m_playhead = time;
+    if (time) {
+        // A playhead that runs out of the picture goes on near the left edge of the next one.
+        const bool isSeen = *time >= begin() && *time <= end();
+        change(false, isSeen ? end() : *time + m_span - m_span / 16, m_span);
+    }
+    Q_EMIT playheadChanged();
+    if (displayTime() != before)
+        Q_EMIT displayTimeChanged();
+}
+
 std::optional<QPlcTimeAxis::Time> QPlcTimeAxis::displayTime() const
 {
     if (m_isLive)
         return std::nullopt;
-    const Time wanted = m_pointer.value_or(m_end);
+    const Time wanted = m_pointer.value_or(m_playhead.value_or(m_end));
     const bool hasValues = m_newest > 0;  // before, what is looked at is an event of the log, say
     return hasValues ? std::min(wanted, m_newest) : wanted;
 }

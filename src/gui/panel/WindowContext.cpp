@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "WindowContext.h"
 
+#include "gui/plant/PlantRecording.h"
 #include "gui/plot/Formula.h"
 
 #include <algorithm>
@@ -53,6 +54,9 @@ void WindowContext::follow(Plant *plant)
 {
     connect(plant, &Plant::storeChanged, this, &WindowContext::renewNewest);
     connect(plant, &Plant::updated, this, &WindowContext::renewNewest);
+    if (PlantRecording *recording = plant->recording())
+        connect(&m_timeAxis, &QPlcTimeAxis::viewChanged, recording,
+                [this, recording] { recording->see(m_timeAxis.begin(), m_timeAxis.end()); });
 }
 
 /// Of the plants that are there: the one that was ahead may have gone, or begun anew.

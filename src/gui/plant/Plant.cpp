@@ -2,6 +2,7 @@
 #include "Plant.h"
 
 #include "PlantFeed.h"
+#include "PlantRecording.h"
 
 #include "node/Logging.h"
 #include "node/state/StateText.h"
@@ -209,8 +210,24 @@ PlantFeed *Plant::makeFeed()
     return m_feed;
 }
 
+PlantRecording *Plant::makeRecording(std::unique_ptr<Recording> recording)
+{
+    if (!m_recording)
+        m_recording = new PlantRecording(this, std::move(recording));
+    return m_recording;
+}
+
+/// Those of another part of a recording.
+void Plant::giveValues(PlantValues values)
+{
+    m_values = std::move(values);
+    m_writers.resize(table().size());
+}
+
 PlantConnection::State Plant::connectionState() const
 {
+    if (m_recording)
+        return PlantConnection::Disconnected;
     if (m_feed)
         return m_feed->isConnected() ? PlantConnection::Connected : PlantConnection::Disconnected;
     return m_connection.state();
@@ -218,6 +235,9 @@ PlantConnection::State Plant::connectionState() const
 
 QString Plant::stateText() const
 {
+    if (m_recording)
+        return m_recording->isReading() ? tr("Reading the recording, %1 %").arg(int(100.0 * m_recording->progress()))
+                                        : tr("Recording: %1").arg(m_recording->text());
     switch (connectionState()) {
     case PlantConnection::Connected:
         return qplc::stateText(m_status.master.state);
@@ -307,6 +327,8 @@ double Plant::staleAfter() const
 
 Plant::Quality Plant::quality() const
 {
+    if (m_recording)
+        return m_values.hasValues() ? AtRest : NoValue;
     if (age() < 0.0)
         return NoValue;
     if (!isConnected())

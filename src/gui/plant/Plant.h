@@ -14,6 +14,8 @@
 namespace qplc {
 
 class PlantFeed;
+class PlantRecording;
+class Recording;
 
 /// One plant as a window sees it: its signals with values and age, its state and the next thing to
 /// do, its nodes, and its commands.
@@ -54,6 +56,11 @@ public:
     PlantFeed *makeFeed();
     /// Null for a plant with a connection of its own.
     PlantFeed *feed() const { return m_feed; }
+    /// Makes this a plant whose values come from files, in place of open(); the plant owns the
+    /// recording. Its master is never connected.
+    PlantRecording *makeRecording(std::unique_ptr<Recording> recording);
+    /// Null for a plant that runs, or may run.
+    PlantRecording *recording() const { return m_recording; }
 
     // -- state --
     PlantConnection::State connectionState() const;
@@ -180,7 +187,10 @@ Q_SIGNALS:
 
 private:
     friend class PlantFeed;
+    friend class PlantRecording;
 
+    void giveValues(PlantValues values);
+    QString refusalToCommand() const;
     void connected(const QPlcSignalTable &table);
     void disconnected(const QString &reason);
     void refused(const QString &reason);
@@ -217,6 +227,7 @@ private:
     PlantConnection m_connection;
     std::optional<messages::Hex64> m_token;  // that permits a start
     PlantFeed *m_feed = nullptr;
+    PlantRecording *m_recording = nullptr;
     PlantValues m_values;
     PlantStatus m_status;
     PlantLeases m_leases{m_connection.control()};

@@ -46,11 +46,15 @@ int Plant::command(const Request &request)
     } else if (isConnected()) {
         m_connection.control().request(request, finish);
     } else {
-        callLater([this, finish] {
-            finish(messages::Failed{{}, QStringLiteral("there is no connection to the master at %1").arg(address())});
-        });
+        callLater([this, finish] { finish(messages::Failed{{}, refusalToCommand()}); });
     }
     return number;
+}
+
+QString Plant::refusalToCommand() const
+{
+    return m_recording ? QStringLiteral("'%1' is a recording: nothing can be commanded").arg(name())
+                       : QStringLiteral("there is no connection to the master at %1").arg(address());
 }
 
 /// \param failed  null: it was carried out

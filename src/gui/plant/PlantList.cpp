@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PlantList.h"
 
+#include "PlantRecording.h"
+
+#include <QtCore/QFileInfo>
+
 #include <algorithm>
 
 namespace qplc {
@@ -80,6 +84,18 @@ Plant *PlantList::addFed(const QString &name)
 {
     Plant *plant = insert(QString(), name, QString());
     plant->makeFeed();
+    Q_EMIT added(plant);
+    return plant;
+}
+
+Plant *PlantList::addRecording(const QStringList &paths, const QString &name, QString *error)
+{
+    auto recording = std::make_unique<Recording>();
+    if (!recording->open(paths, error))
+        return nullptr;
+    const QString usual = QFileInfo(recording->files().front().name).completeBaseName();
+    Plant *plant = insert(QString(), name.isEmpty() ? usual : name, QString());
+    plant->makeRecording(std::move(recording));
     Q_EMIT added(plant);
     return plant;
 }

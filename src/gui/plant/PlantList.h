@@ -41,6 +41,9 @@ public:
     Plant *add(const QString &address, const QString &name = QString(), const QString &nodeName = QString());
     /// Adds a plant that a program feeds (Plant::feed()).
     Plant *addFed(const QString &name);
+    /// Adds a recording (Plant::recording()). \param name  empty: that of the first file or folder
+    /// \return null, with \a error, when it cannot be read
+    Plant *addRecording(const QStringList &paths, const QString &name, QString *error);
     void remove(Plant *plant);
     /// Calls \a follow with each plant: with those that are there now, and with those that come, as
     /// long as \a receiver lives.

@@ -9,10 +9,6 @@ namespace qplc {
 namespace {
 
 constexpr int leastRows = 16;
-constexpr std::int64_t bytesOfRow(int channels)
-{
-    return 9 + std::int64_t(channels) * 13 / 3;  // as SignalStore says
-}
 
 }  // namespace
 

@@ -25,6 +25,9 @@ class PlantValues
 public:
     using Time = std::int64_t;  // [ns]
 
+    /// What a row of the store takes [byte].
+    static constexpr std::int64_t bytesOfRow(int channels) { return 9 + std::int64_t(channels) * 13 / 3; }
+
     struct Budget
     {
         Time history = 600'000'000'000;           // [ns] that the store keeps...

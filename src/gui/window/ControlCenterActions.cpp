@@ -39,6 +39,8 @@ void ControlCenterActions::makePlantMenu()
 {
     connectTo = add(plantMenu, tr("&Connect..."), tr("Ctrl+O"));
     connectTo->setToolTip(tr("To the master of a running plant, here or elsewhere"));
+    openRecording = add(plantMenu, tr("&Open a recording..."), tr("Ctrl+R"));
+    openRecording->setToolTip(tr("To see, play and measure what a plant has done"));
     disconnectFrom = add(plantMenu, tr("&Disconnect"), tr("Ctrl+D"));
     nextPlant = add(plantMenu, tr("&Next plant"), tr("Ctrl+P"));
     plantMenu->addSeparator();
@@ -66,6 +68,7 @@ void ControlCenterActions::makeViewMenu()
     freeze = add(viewMenu, tr("&Freeze"), tr("Ctrl+Shift+L"));
     shorterSpan = add(viewMenu, tr("Shorter time span"), tr("Ctrl+["));
     longerSpan = add(viewMenu, tr("Longer time span"), tr("Ctrl+]"));
+    makePlaybackMenu();
     makeRateMenu();
     viewMenu->addSeparator();
     eventLog = add(viewMenu, tr("&Event log"), tr("F8"));
@@ -89,6 +92,16 @@ void ControlCenterActions::makeViewMenu()
     alarmSound->setToolTip(tr("Errors are heard when they happen"));
     fullScreen = add(viewMenu, tr("F&ull screen"), tr("F11"));
     fullScreen->setCheckable(true);
+}
+
+void ControlCenterActions::makePlaybackMenu()
+{
+    QMenu *menu = viewMenu->addMenu(tr("&Playback"));
+    play = add(menu, tr("Play or pause"), tr("Ctrl+Space"));
+    cycleBack = add(menu, tr("A cycle back"), tr("Alt+Left"));
+    cycleOn = add(menu, tr("A cycle on"), tr("Alt+Right"));
+    slower = add(menu, tr("Slower playback"), tr("Alt+Down"));
+    faster = add(menu, tr("Faster playback"), tr("Alt+Up"));
 }
 
 void ControlCenterActions::makeRateMenu()

@@ -35,6 +35,7 @@ public:
 
     // Plant
     QAction *connectTo = nullptr;
+    QAction *openRecording = nullptr;
     QAction *disconnectFrom = nullptr;
     QAction *nextPlant = nullptr;
     QAction *initialize = nullptr;
@@ -52,6 +53,11 @@ public:
     QAction *freeze = nullptr;
     QAction *shorterSpan = nullptr;
     QAction *longerSpan = nullptr;
+    QAction *play = nullptr;
+    QAction *cycleBack = nullptr;
+    QAction *cycleOn = nullptr;
+    QAction *slower = nullptr;
+    QAction *faster = nullptr;
     QVector<Rate> rates;
     QAction *eventLog = nullptr;
     QAction *acknowledge = nullptr;
@@ -84,6 +90,7 @@ private:
     QAction *add(QMenu *menu, const QString &text, const QString &keys = {});
     void makePlantMenu();
     void makeViewMenu();
+    void makePlaybackMenu();
     void makeRateMenu();
     void makeLayoutMenu();
 

@@ -5,6 +5,7 @@
 #include "QPlcControlCenterPrivate.h"
 #include "QPlcSignalTree.h"
 #include "QPlcWidgetFactory.h"
+#include "RecordingDrop.h"
 #include "TouchStyle.h"
 #include "WindowSettings.h"
 #include "gui/layout/LayoutJson.h"
@@ -40,6 +41,7 @@ void QPlcControlCenter::Private::resizeToScreen()
 void QPlcControlCenter::Private::connectPlantActions()
 {
     connect(actions->connectTo, &QAction::triggered, connectStrip, &ConnectStrip::open);
+    connect(actions->openRecording, &QAction::triggered, q, [this] { askForRecording(); });
     connect(actions->disconnectFrom, &QAction::triggered, q, [this] { disconnectFrom(); });
     connect(actions->nextPlant, &QAction::triggered, &selection, &PlantSelection::selectNext);
     connect(actions->initialize, &QAction::triggered, q, [this] { perform(Plant::Initialize); });
@@ -85,6 +87,22 @@ void QPlcControlCenter::Private::connectViewActions()
     connect(about, &AboutWindow::licencesRequested, q, [this] { openDocument(QStringLiteral("design/licences.md")); });
 }
 
+void QPlcControlCenter::Private::connectPlaybackActions()
+{
+    connect(actions->play, &QAction::triggered, &playback, &Playback::toggle);
+    connect(actions->cycleBack, &QAction::triggered, q, [this] { playback.step(-1); });
+    connect(actions->cycleOn, &QAction::triggered, q, [this] { playback.step(1); });
+    connect(actions->slower, &QAction::triggered, q, [this] { playbackBar->stepSpeed(-1); });
+    connect(actions->faster, &QAction::triggered, q, [this] { playbackBar->stepSpeed(1); });
+    const auto follow = [this] {
+        for (QAction *action : {actions->play, actions->cycleBack, actions->cycleOn, actions->slower, actions->faster})
+            action->setEnabled(playback.plant() != nullptr);
+    };
+    connect(&playback, &Playback::changed, q, follow);
+    follow();
+    new RecordingDrop(q, [this](const QStringList &paths) { openRecording(paths); });
+}
+
 void QPlcControlCenter::Private::connectLayoutActions()
 {
     QUndoStack *stack = editor.undoStack();
@@ -106,6 +124,16 @@ void QPlcControlCenter::Private::connectLayoutActions()
     connect(actions->newTab, &QAction::triggered, q, [this] { editor.addTab(); });
     connect(actions->addPanel, &QAction::triggered, q, [this] { openPanelPalette(); });
     connect(view, &LayoutView::addRequested, q, [this] { openPanelPalette(); });
+}
+
+void QPlcControlCenter::Private::askForRecording()
+{
+    auto *dialog = new QFileDialog(q, tr("Open a recording"), QString(), tr("Recordings (*.mcap);;All files (*)"));
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    dialog->setFileMode(QFileDialog::ExistingFiles);
+    dialog->setModal(false);
+    connect(dialog, &QFileDialog::filesSelected, q, [this](const QStringList &paths) { openRecording(paths); });
+    dialog->show();
 }
 
 void QPlcControlCenter::Private::askForLayoutFile(bool isToSave)
@@ -276,7 +304,7 @@ void QPlcControlCenter::Private::save()
 {
     QStringList plants;
     for (const Plant *plant : context.plants()->all()) {
-        if (!plant->feed())
+        if (!plant->feed() && !plant->recording())
             plants << plant->address() << plant->name();
     }
     const bool isStart = q->isStartPageShown();

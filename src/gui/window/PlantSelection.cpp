@@ -82,8 +82,15 @@ QVector<Plant *> PlantSelection::plantsToStop() const
     }
     if (controlled.isEmpty())
         controlled = lost;
-    if (controlled.isEmpty() && plant())
+    if (controlled.isEmpty() && plant() && !plant()->recording())
         controlled << plant();
+    if (controlled.isEmpty()) {
+        // A recording cannot be meant.
+        for (Plant *each : m_plants->all()) {
+            if (!each->recording())
+                controlled << each;
+        }
+    }
     return controlled;
 }
 

@@ -22,9 +22,10 @@ public:
     void select(Plant *plant) { m_plants->select(plant); }
     void selectNext();
     /// What STOP means: the plants of which this window has taken over signals; without any the
-    /// selected plant. Empty: there is no plant. A plant that a person controlled when its master
-    /// was lost is what STOP means until the master is back, or the person controls or selects
-    /// another plant: a stop that cannot arrive must not arrive in a plant that was not meant.
+    /// selected plant, or, if that is a recording, all plants. Empty: there is none. A plant that a
+    /// person controlled when its master was lost is what STOP means until the master is back, or
+    /// the person controls or selects another plant: a stop that cannot arrive must not arrive in a
+    /// plant that was not meant.
     QVector<Plant *> plantsToStop() const;
     /// Whether the master of the selected plant has initialized all nodes, and runs no cycles yet.
     bool isInitialized() const { return m_initialized.contains(plant()); }

@@ -108,6 +108,8 @@ PlantSummary conditionOf(const Plant &plant)
 
 PlantSummary PlantSummary::of(const Plant &plant, const ViolationWatch &violations)
 {
+    if (plant.recording())
+        return {Tone::Calm, WindowText::tr("recording"), plant.stateText(), {}};
     if (!plant.isConnected())
         return withoutConnection(plant);
     PlantSummary summary = conditionOf(plant);

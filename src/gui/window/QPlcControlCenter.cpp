@@ -30,6 +30,13 @@ QString QPlcControlCenter::connectToMaster(const QString &address, const QString
     return d->context.plants()->add(plain, name)->name();
 }
 
+QString QPlcControlCenter::openRecording(const QStringList &paths, QString *error, const QString &name)
+{
+    QString ignored;
+    const Plant *plant = d->context.plants()->addRecording(paths, name, error ? error : &ignored);
+    return plant ? plant->name() : QString();
+}
+
 void QPlcControlCenter::disconnectFromMaster(const QString &plant)
 {
     if (Plant *found = d->context.plants()->find(plant))

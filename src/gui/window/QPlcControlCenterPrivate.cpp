@@ -32,8 +32,10 @@ QPlcControlCenter::Private::Private(QPlcControlCenter *window)
     connectParts();
     connectPlantActions();
     connectViewActions();
+    connectPlaybackActions();
     connectLayoutActions();
-    startPage->addAction(actions->connectTo);
+    startPage->addOwnAction(actions->connectTo);
+    startPage->addOwnAction(actions->openRecording);
     startPage->setWayBack(actions->startPage);
     pages->setCurrentIndex(1);
     applyTheme();
@@ -88,6 +90,8 @@ void QPlcControlCenter::Private::makeCentre()
     column->addWidget(stopNotice);
     column->addWidget(hint);
     column->addWidget(pages, 1);
+    playbackBar = new PlaybackBar(&playback, &context, centre);
+    column->addWidget(playbackBar);
     q->setCentralWidget(centre);
     connect(view, &LayoutView::widgetAdded, &wiring, [this](const QString &id, QPlcWidget *widget) {
         wiring.add(widget);
@@ -214,7 +218,9 @@ void QPlcControlCenter::Private::followSelection()
     actions->start->setEnabled(next == Plant::Start);
     actions->resetPlant->setEnabled(next == Plant::Reset);
     actions->disconnectFrom->setEnabled(plant != nullptr);
-    actions->disconnectFrom->setText(plant ? tr("&Disconnect from %1").arg(plant->name()) : tr("&Disconnect"));
+    actions->disconnectFrom->setText(!plant                   ? tr("&Disconnect")
+                                         : plant->recording() ? tr("&Close %1").arg(plant->name())
+                                                              : tr("&Disconnect from %1").arg(plant->name()));
     actions->nextPlant->setEnabled(context.plants()->size() > 1);
     const QString toStop = context.plants()->size() > 1 ? stopText(selection) : QString();
     actions->stop->setText(toStop.isEmpty() ? tr("S&top (Esc Esc)") : tr("S&top %1 (Esc Esc)").arg(toStop));
@@ -253,10 +259,21 @@ void QPlcControlCenter::Private::connectTo(const QString &address)
 Plant *QPlcControlCenter::Private::plantAt(const QString &address)
 {
     for (Plant *plant : context.plants()->all()) {
-        if (!plant->feed() && plant->address() == address)
+        if (!plant->feed() && !plant->recording() && plant->address() == address)
             return plant;
     }
     return nullptr;
+}
+
+void QPlcControlCenter::Private::openRecording(const QStringList &paths)
+{
+    QString error;
+    const QString name = q->openRecording(paths, &error);
+    if (name.isEmpty())
+        return hint->showText(error);
+    isStartPageWanted = false;
+    followPlants();
+    selection.select(context.plants()->find(name));
 }
 
 void QPlcControlCenter::Private::disconnectFrom()

@@ -14,6 +14,8 @@
 #include "MasterSearch.h"
 #include "PanelPlants.h"
 #include "PanelWiring.h"
+#include "Playback.h"
+#include "PlaybackBar.h"
 #include "QPlcControlCenter.h"
 #include "RecentMasters.h"
 #include "SignalDock.h"
@@ -44,6 +46,7 @@ struct QPlcControlCenter::Private
     void connectParts();
     void connectPlantActions();
     void connectViewActions();
+    void connectPlaybackActions();
     void connectLayoutActions();
 
     // -- plants --
@@ -51,6 +54,8 @@ struct QPlcControlCenter::Private
     void followSelection();
     void connectTo(const QString &address);
     qplc::Plant *plantAt(const QString &address);
+    void openRecording(const QStringList &paths);
+    void askForRecording();
     void disconnectFrom();
     void perform(qplc::Plant::Action action);
     /// \param how  what the person did, for the line that tells of it
@@ -93,6 +98,7 @@ struct QPlcControlCenter::Private
     qplc::PanelWiring wiring{&context};
     qplc::PanelPlants panelPlants{&context};
     qplc::PlantSelection selection{context.plants()};
+    qplc::Playback playback{&context};
     qplc::RecentMasters recent;
     qplc::MasterSearch *search = nullptr;
     QList<QPlcWidgetFactory *> factories;
@@ -116,6 +122,7 @@ struct QPlcControlCenter::Private
     qplc::LayoutView *view = nullptr;
     qplc::SignalPlacer *placer = nullptr;
     qplc::SignalDock *dock = nullptr;
+    qplc::PlaybackBar *playbackBar = nullptr;
     qplc::TimeBar *timeBar = nullptr;
     qplc::EventLine *eventLine = nullptr;
     qplc::CommandPalette *palette = nullptr;

@@ -107,12 +107,23 @@ void StartPage::follow()
 
 void StartPage::addAction(QAction *action)
 {
-    m_actions->insertWidget(std::max(0, m_actions->count() - 1), new StartButton(action, m_context));
-    for (int place = 0; place < m_actions->count(); ++place) {
-        auto *button = static_cast<StartButton *>(m_actions->itemAt(place)->widget());
-        button->setRank(place == 0 ? StartButton::First : StartButton::Other);
-        if (place > 0)
-            setTabOrder(m_actions->itemAt(place - 1)->widget(), button);
+    insertAction(m_actions->count() - m_ownActions, action);
+}
+
+void StartPage::addOwnAction(QAction *action)
+{
+    ++m_ownActions;
+    insertAction(m_actions->count(), action);
+}
+
+void StartPage::insertAction(int place, QAction *action)
+{
+    m_actions->insertWidget(place, new StartButton(action, m_context));
+    for (int each = 0; each < m_actions->count(); ++each) {
+        auto *button = static_cast<StartButton *>(m_actions->itemAt(each)->widget());
+        button->setRank(each == 0 ? StartButton::First : StartButton::Other);
+        if (each > 0)
+            setTabOrder(m_actions->itemAt(each - 1)->widget(), button);
         else
             setFocusProxy(button);
     }

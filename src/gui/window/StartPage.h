@@ -24,9 +24,11 @@ public:
     /// \param context  outlives the page
     explicit StartPage(WindowContext *context, QWidget *parent = nullptr);
 
-    /// A big button; those that come later stand before the last one. \param action owned by
-    /// others; text, icon, and toolTip as a sentence below the text
+    /// A big button before those of the window. \param action owned by others; text, icon, and
+    /// toolTip as a sentence below the text
     void addAction(QAction *action);
+    /// A big button of the window, behind all that are there. \param action  as above
+    void addOwnAction(QAction *action);
     /// The big button below all others, which leads back to the panels; hidden until showWayBack().
     /// \param action owned by others
     void setWayBack(QAction *action);
@@ -46,6 +48,7 @@ private:
     QWidget *makeHead();
     QWidget *makeMasters();
     void follow();
+    void insertAction(int place, QAction *action);
     QWidget *lastAction();
 
     WindowContext *m_context;
@@ -55,6 +58,7 @@ private:
     QLabel *m_recentTitle;
     QVBoxLayout *m_actions;
     QVBoxLayout *m_ways;  // m_actions, and the way back
+    int m_ownActions = 0;
     StartButton *m_back = nullptr;
     FoundMasters *m_found;
     QVBoxLayout *m_recent;

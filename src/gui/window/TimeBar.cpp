@@ -60,10 +60,19 @@ TimeBar::TimeBar(WindowContext *context, QWidget *parent)
 TimeBar::State TimeBar::stateNow() const
 {
     const QPlcTimeAxis *view = m_context->timeAxis();
+    if (hasRecordingsAlone())
+        return {State::AtRest, QStringLiteral("○  ") + tr("Recording")};
     if (view->isLive())
         return liveState();
     return {State::Frozen,
             QStringLiteral("❚❚  ") + tr("Frozen, %1 s behind").arg(double(view->behind()) * 1e-9, 0, 'f', 1)};
+}
+
+bool TimeBar::hasRecordingsAlone() const
+{
+    const QVector<Plant *> all = m_context->plants()->all();
+    return !all.isEmpty()
+        && std::all_of(all.begin(), all.end(), [](const Plant *plant) { return plant->recording() != nullptr; });
 }
 
 /// Live is what has new values: the view follows them by itself, but a lost master has none.

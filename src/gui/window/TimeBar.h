@@ -14,7 +14,8 @@ public:
     /// \param context  outlives the bar
     explicit TimeBar(WindowContext *context, QWidget *parent = nullptr);
 
-    /// "Live", "No new values for 12 s", "At rest", "No values", or "Frozen, 12.3 s behind".
+    /// "Live", "No new values for 12 s", "At rest", "No values", "Recording", or "Frozen, 12.3 s
+    /// behind".
     QString stateText() const { return m_state->text(); }
     BarButton *stateButton() const { return m_state; }
 
@@ -33,6 +34,7 @@ private:
     };
     State stateNow() const;
     State liveState() const;
+    bool hasRecordingsAlone() const;
     void show(const State &state);
     void follow();
     void openSpanMenu();

@@ -23,6 +23,8 @@ private Q_SLOTS:
     void spansHaveLimits();
     void liveNobodyHasToLookAtAnotherTime();
     void frozenTheDisplayedTimeIsThatOfThePointerOrTheRightEdge();
+    void withoutAPointerTheDisplayedTimeIsThatOfThePlayhead();
+    void aPlayheadOutsideOfTheViewMovesIt();
     void theDisplayedTimeOfAViewIntoTheFutureGoesOn();
     void beforeTheFirstValuesAnyTimeCanBeLookedAt();
     void goingLiveForgetsThePointer();
@@ -117,6 +119,35 @@ void tst_QPlcTimeAxis::liveNobodyHasToLookAtAnotherTime()
 {
     m_view->setPointer(95 * s);
     QVERIFY(!m_view->displayTime());
+}
+
+void tst_QPlcTimeAxis::withoutAPointerTheDisplayedTimeIsThatOfThePlayhead()
+{
+    QSignalSpy heads(m_view.get(), &QPlcTimeAxis::playheadChanged);
+    m_view->show(20 * s, 30 * s);
+    m_view->setPlayhead(25 * s);
+    QCOMPARE(m_view->displayTime().value_or(0), 25 * s);
+    QCOMPARE(m_view->begin(), 20 * s);
+    m_view->setPointer(22 * s);
+    QCOMPARE(m_view->displayTime().value_or(0), 22 * s);
+    m_view->setPointer(std::nullopt);
+    m_view->setPlayhead(25 * s);
+    QCOMPARE(heads.size(), 1);
+    m_view->setPlayhead(std::nullopt);
+    QCOMPARE(m_view->displayTime().value_or(0), 30 * s);
+    m_view->goLive();
+    m_view->setPlayhead(95 * s);
+    QVERIFY(!m_view->isLive());
+}
+
+void tst_QPlcTimeAxis::aPlayheadOutsideOfTheViewMovesIt()
+{
+    m_view->show(20 * s, 30 * s);
+    for (const Time time : {31 * s, 19 * s, 90 * s}) {
+        m_view->setPlayhead(time);
+        QVERIFY(m_view->begin() <= time && time <= m_view->end());
+        QCOMPARE(m_view->span(), 10 * s);
+    }
 }
 
 void tst_QPlcTimeAxis::theDisplayedTimeOfAViewIntoTheFutureGoesOn()

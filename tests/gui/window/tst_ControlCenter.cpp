@@ -47,7 +47,7 @@ void tst_ControlCenter::windowWithoutPlantShowsTheStartPage()
     QVERIFY(fixture.part<SignalDock>()->isHidden());
     QTRY_VERIFY(fixture.structure().shows(QStringLiteral("Fly the demo kite")));
     const QList<QWidget *> buttons = fixture.part<StartPage>()->buttons();
-    QCOMPARE(buttons.size(), 2);
+    QCOMPARE(buttons.size(), 3);
     fixture.press(Qt::Key_Return);  // the first button has the focus
     QCOMPARE(flown.count(), 1);
     const QString name = fixture.window.connectToMaster(QStringLiteral("127.0.0.1:%1").arg(freePort()));
@@ -80,7 +80,8 @@ void tst_ControlCenter::aTypedAddressConnectsAndTheNextActionStarts()
     QTRY_COMPARE_WITH_TIMEOUT(fixture.topBar()->stepper()->step(), StateStep::RealTime, patience);
     QVERIFY(!fixture.topBar()->nextButton()->isVisible());  // STOP is the next one
     QTRY_COMPARE_WITH_TIMEOUT(fixture.topBar()->selector()->headline(), QStringLiteral("live"), patience);
-    QCOMPARE(fixture.part<StartPage>()->buttons().size(), 3);  // Connect..., Back, and the address for the next time
+    // Connect..., Open a recording..., Back, and the address for the next time
+    QCOMPARE(fixture.part<StartPage>()->buttons().size(), 4);
 }
 
 void tst_ControlCenter::stopWorksByButtonAndByKeys()

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "PlantValues.h"
+#include "recording/Recording.h"
+
+#include <QtCore/QObject>
+#include <QtCore/QTimer>
+
+namespace qplc {
+
+class Plant;
+
+/// What a plant lives from that is a recording: the values of its past, of which the store of the
+/// plant has a part.
+///
+/// That part is the whole recording if it fits into the memory of a store. If not, it is an
+/// overview, with the smallest and the largest value of each of its intervals, or, once a person
+/// looks closer, all cycles around what is seen. Files are read a little at a time, beside what
+/// people do.
+///
+/// Times are those of the recording. A simulation, whose times begin at 0, begins at 00:00 of the
+/// clock of this computer.
+///
+/// Threads: that of the window.
+class PlantRecording : public QObject
+{
+    Q_OBJECT
+public:
+    using Time = PlantValues::Time;
+
+    static constexpr std::int64_t UsualMemory = std::int64_t(512) << 20;  // [byte]
+
+    /// Begins to read the cycles.
+    /// \param plant  owns this object; never open()ed
+    /// \param recording  open \param memory  of the store [byte]
+    PlantRecording(Plant *plant, std::unique_ptr<Recording> recording, std::int64_t memory = UsualMemory);
+    ~PlantRecording() override;
+
+    const Recording &recording() const { return *m_recording; }
+    /// Of the first and of the last cycle, on the clock of the window [ns].
+    Time begin() const { return m_begin; }
+    Time end() const { return m_end; }
+    Time period() const { return m_period; }  // [ns]
+    bool isReading() const { return m_section != nullptr; }
+    /// What has been read of what is wanted, 0 to 1.
+    double progress() const;
+    /// "32 signals, 100 Hz, 10 min" and what the files lack.
+    QString text() const;
+    /// Looked at are now the times \a begin to \a end.
+    void see(Time begin, Time end);
+
+Q_SIGNALS:
+    /// The store has what is looked at.
+    void read();
+
+private:
+    struct Section;
+
+    bool isWhole() const;
+    std::int64_t rowsThatFit() const;
+    void beginSection(Time begin, Time end);
+    void readSome();
+    bool readRow();
+    bool readColumn();
+    void storeRow(const RecordedRows &rows);
+    void storeOverview();
+    void finish();
+
+    Plant *m_plant;
+    std::unique_ptr<Recording> m_recording;
+    std::unique_ptr<Section> m_section;  // that is being read; null: none
+    QTimer m_timer;
+    std::int64_t m_memory;  // of the store [byte]
+    Time m_shift = 0;       // to the clock of the window
+    Time m_begin = 0;
+    Time m_end = 0;
+    Time m_period = 1;
+    Time m_storeBegin = 0;  // of what the store has
+    Time m_storeEnd = 0;
+    bool m_hasCycles = false;  // the store has all cycles of its times, and no overview
+    bool m_isRead = false;     // the store has something
+    int m_damages = 0;
+};
+
+}  // namespace qplc

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "Playback.h"
+
+#include <QtWidgets/QWidget>
+
+namespace qplc {
+
+/// The whole of a recording as a line: what the plots show of it, the playhead, the cursors, and a
+/// tick for each event. A click or a drag moves the playhead.
+///
+/// Keys: left and right step a cycle, page up and page down a screen, home and end go to the ends.
+class RecordingTimeline : public QWidget
+{
+    Q_OBJECT
+public:
+    using Time = Playback::Time;
+
+    /// \param playback, context  outlive the widget
+    RecordingTimeline(Playback *playback, WindowContext *context, QWidget *parent = nullptr);
+
+    Playback *playback() const { return m_playback; }
+    QSize sizeHint() const override { return {400, 32}; }
+    QSize minimumSizeHint() const override { return {120, 32}; }
+    /// [px] from the left edge
+    double xOf(Time time) const;
+    Time timeAt(double x) const;
+    /// Times of the events of the recording that is played, oldest first.
+    std::vector<Time> events() const;
+
+protected:
+    bool event(QEvent *event) override;
+    void paintEvent(QPaintEvent *event) override;
+    void mousePressEvent(QMouseEvent *event) override;
+    void mouseMoveEvent(QMouseEvent *event) override;
+    void keyPressEvent(QKeyEvent *event) override;
+
+private:
+    void seekTo(double x);
+    QString textOf(Time time) const;
+
+    Playback *m_playback;
+    WindowContext *m_context;
+};
+
+}  // namespace qplc
