@@ -19,7 +19,7 @@ public:
 
 TimeSource &TimeSource::monotonic()
 {
-    static MonotonicTime time;
+    static MonotonicTime &time = *new MonotonicTime;  // for ever: threads that end with the program use it, too
     return time;
 }
 

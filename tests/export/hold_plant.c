@@ -424,6 +424,15 @@ static void ends(void)
     REQUIRE(threads() == 1);
 }
 
+/* The host calls exit() while an instance is there that is initialized, and no phase has begun. */
+static void exits_early(void)
+{
+    static Plant plant;
+    make_plant(&plant, &library, start_nodes);
+    REQUIRE(enter_plant(&plant) == STATUS_OK);
+    exit(0);
+}
+
 int main(int argc, char **argv)
 {
     static const struct
@@ -445,6 +454,7 @@ int main(int argc, char **argv)
                      {"failing_required", failing_required},
                      {"failing_critical", failing_critical},
                      {"stop_by_a_person", stop_by_a_person},
+                     {"exits_early", exits_early},
                      {"ends", ends}};
     char file[1024];
     if (argc != 7)

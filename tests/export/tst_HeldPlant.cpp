@@ -48,6 +48,8 @@ private Q_SLOTS:
     void failureOfACriticalNodeIsAnErrorOfItsStep() { run("failing_critical"); }
     void stopByAPersonEndsTheSimulation_data() { versions(); }
     void stopByAPersonEndsTheSimulation() { run("stop_by_a_person"); }
+    void hostMayExitBeforeThePhase_data() { versions(); }
+    void hostMayExitBeforeThePhase() { run("exits_early"); }
     void nodesEndWithTheHost_data() { versions(); }
     void nodesEndWithTheHost() { run("ends"); }
 
