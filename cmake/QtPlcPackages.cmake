@@ -108,7 +108,7 @@ qtplc_package(qtplc-awe SECTION science
     SUMMARY "distributed real-time controllers, airborne wind energy"
     DESCRIPTION "A kite that generates power on its tether, simulated in real time: master,
 model and autopilot as programs and as services. Nothing starts by itself."
-    DEPENDS libqtplc qtplc-tools)
+    DEPENDS libqtplc qtplc-tools RECOMMENDS python3)
 qtplc_package(libqtplc-gui SECTION libs LIBRARIES
     SUMMARY "distributed real-time controllers, libraries of windows"
     DESCRIPTION "Plots, gauges, tables and the 3D view of QtPLC."

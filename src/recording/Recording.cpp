@@ -103,8 +103,10 @@ bool Recording::openFile(const QString &name, QString *error)
     }
     const mcap::NamedEntry *entry = entryOf(outline.attachments, DescriptionName);
     mcap::Attachment text;
-    if (!entry || !reader.readAttachment(*entry, &text) || !RingDescription::fromText(text.data, &file.description)
-        || tableOf(file.description.table).isEmpty()) {
+    const bool isDescribed
+        = entry && reader.readAttachment(*entry, &text) && RingDescription::fromText(text.data, &file.description);
+    file.layout = isDescribed ? layoutOf(file.description) : 0;
+    if (!isDescribed || layout(file.layout).message.table().isEmpty()) {
         *error = QStringLiteral("'%1' has no description of a plant: it is not a recording of QtPLC, or damaged at its "
                                 "begin")
                      .arg(name);
@@ -117,7 +119,6 @@ bool Recording::openFile(const QString &name, QString *error)
     file.begin = RecordedTime(outline.begin);
     file.end = RecordedTime(outline.end);
     file.attachments = std::move(outline.attachments);
-    file.layout = layoutOf(file.description);
     m_files.push_back(std::move(file));
     return true;
 }
@@ -264,7 +265,7 @@ bool Recording::addBuckets(std::size_t number, int column, RecordedTime from, do
 {
     const RecordedFile &file = m_files[number];
     const double period = double(file.description.period);
-    constexpr double bucketsOfInterval = 2.0;  // at least: an edge is then half an interval wrong at most
+    constexpr double bucketsOfInterval = 1.0;  // at least: a value is then an interval away at most
     constexpr double finest = 64.0;            // a level has no shorter buckets
     if (width / period < bucketsOfInterval * finest)
         return false;

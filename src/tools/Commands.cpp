@@ -15,6 +15,10 @@ constexpr int any = std::numeric_limits<int>::max();
 const Option verbose{"verbose", "", "Every column and counter."};
 const Option count{"count", "N", "Ends after N lines."};
 const Option every{"every", "CYCLES", "Hears one cycle of CYCLES only, for slow links."};
+const Option output{"output", "FILE", "Where it is written to; or -o FILE.", "o"};
+const Option force{"force", "", "Replaces a file that is there."};
+const Option from{"from", "TIME", "Leaves out the cycles before."};
+const Option upTo{"to", "TIME", "Leaves out the cycles behind."};
 
 }  // namespace
 
@@ -347,6 +351,48 @@ const QVector<Command> &commands()
          1,
          1,
          &recoverFile},
+        {"export",
+         "FILE|FOLDER",
+         "Writes a recording as a table: CSV, Parquet or MATLAB.",
+         "A row for each cycle: time, number, values, and the quality of each signal (0\n"
+         "Good, 1 to 252 Held, 253 Safe, 254 Invalid). The recordings of a folder are one.\n"
+         "TIME is in seconds since the begin, or a moment as 2026-11-20T14:03:12 (UTC).\n"
+         "Needs no master. The file appears when all of it is written. The exit code is 1\n"
+         "when parts of the recording are damaged: the rest is in the table.",
+         {output,
+          {"format", "FORMAT", "csv, parquet or mat, default as the name of FILE ends."},
+          {"signals", "LIST", "Names and patterns, such as 'power,kite.*'; default all."},
+          from,
+          upTo,
+          {"every", "CYCLES", "One cycle of CYCLES only."},
+          {"values-only", "", "No qualities."},
+          force},
+         {QStringLiteral("qtplc export flight.mcap -o flight.csv"),
+          QStringLiteral("qtplc export flight.mcap -o power.mat --signals 'power,tether*' --from 10 --to 60"),
+          QStringLiteral("qtplc export recordings/ -o day.parquet --from 2026-11-20T08:00:00 --every 10")},
+         Command::NoArguments,
+         1,
+         1,
+         &exportRecording},
+        {"report",
+         "FILE|FOLDER",
+         "Writes a page about a recording that people can read.",
+         "One file of HTML that needs no other: figures, plots, events, jitter, nodes and\n"
+         "signals. --section adds text behind the figures: headings (#), tables (| a | b |),\n"
+         "lists (-) and paragraphs, as in Markdown; - reads it from the standard input.\n"
+         "TIME is in seconds since the begin, or a moment as 2026-11-20T14:03:12 (UTC).",
+         {output,
+          {"signals", "LIST", "Those that have plots; default the first that change."},
+          from,
+          upTo,
+          {"section", "FILES", "Files with text, with commas between them."},
+          force},
+         {QStringLiteral("qtplc report flight.mcap -o report.html"),
+          QStringLiteral("qtplc report flight.mcap -o report.html --signals 'power,tether*' --section power.md")},
+         Command::NoArguments,
+         1,
+         1,
+         &writeReport},
         {"doctor",
          "",
          "Examines this computer: is it fit for real time?",

@@ -55,6 +55,7 @@ struct Option
     const char *name;
     const char *value;  // as the help shows it; empty: the option is a switch
     const char *description;
+    const char *letter = "";  // a short name, as in -o
 };
 
 /// One command of qtplc.
@@ -111,6 +112,8 @@ int checkManifest(const CommandCall &call);
 int recordPlant(const CommandCall &call);
 int verifyFile(const CommandCall &call);
 int recoverFile(const CommandCall &call);
+int exportRecording(const CommandCall &call);
+int writeReport(const CommandCall &call);
 int showHelp(const CommandCall &call);
 int completeWord(const CommandCall &call);
 

@@ -23,8 +23,10 @@ void addOptions(QPlcCoreApplication &application)
     QStringList added;
     for (const Option &option : qAsConst(options)) {
         const QString name = QString::fromLatin1(option.name);
+        QStringList names{name, QString::fromLatin1(option.letter)};
+        names.removeAll(QString());
         if (!added.contains(name))
-            application.addOption(QCommandLineOption(name, QString(), QString::fromLatin1(option.value)));
+            application.addOption(QCommandLineOption(names, QString(), QString::fromLatin1(option.value)));
         added << name;
     }
     application.addPositionalArgument(QStringLiteral("COMMAND"), QString());

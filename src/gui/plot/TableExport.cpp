@@ -1,46 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TableExport.h"
 
-#include <QtCore/QDateTime>
-
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 
 namespace qplc {
-
-namespace {
-
-using Time = SignalStore::Time;
-
-/// Exact, whatever the size: "12.345", with nine digits at most.
-void appendSeconds(Time time, QByteArray *text)
-{
-    *text += QByteArray::number(qint64(time / SignalStore::Second));
-    QByteArray fraction = QByteArray::number(qint64(time % SignalStore::Second)).rightJustified(9, '0');
-    while (fraction.endsWith('0'))
-        fraction.chop(1);
-    if (!fraction.isEmpty())
-        *text += '.' + fraction;
-}
-
-void appendMoment(Time time, QByteArray *text)
-{
-    const QDateTime moment = QDateTime::fromSecsSinceEpoch(time / SignalStore::Second, Qt::UTC);
-    *text += moment.toString(QStringLiteral("yyyy-MM-ddTHH:mm:ss.")).toLatin1();
-    *text += QByteArray::number(qint64(time % SignalStore::Second / 1000)).rightJustified(6, '0') + 'Z';
-}
-
-void appendNumber(float value, QByteArray *text)
-{
-    if (std::isnan(value))
-        return;
-    char digits[32];
-    const std::to_chars_result result = std::to_chars(digits, digits + sizeof digits, value);
-    text->append(digits, int(result.ptr - digits));
-}
-
-}  // namespace
 
 TableExport::Column TableExport::Column::of(const QPlcPast &past, const QString &name, double gain, double offset)
 {
@@ -66,28 +29,15 @@ TableExport::TableExport(Format format, std::vector<Column> columns, Time begin,
         m_begin = first;
 }
 
-QByteArray TableExport::field(const QString &text) const
-{
-    if (m_format == Tsv)
-        return QString(text).replace(QLatin1Char('\t'), QLatin1Char(' ')).toUtf8();
-    const bool needsQuotes = std::any_of(text.begin(), text.end(), [](QChar c) {
-        return c == QLatin1Char(',') || c == QLatin1Char('"') || c == QLatin1Char('\r') || c == QLatin1Char('\n');
-    });
-    if (!needsQuotes)
-        return text.toUtf8();
-    QByteArray quoted = text.toUtf8();
-    return '"' + quoted.replace("\"", "\"\"") + '"';
-}
-
 QByteArray TableExport::header() const
 {
-    const char separator = m_format == Csv ? ',' : '\t';
-    QByteArray line = QByteArrayLiteral("UTC") + separator + QByteArrayLiteral("time [s]");
-    for (const Column &column : m_columns) {
-        const bool hasUnit = !column.unit.isEmpty();
-        line += separator + field(hasUnit ? QStringLiteral("%1 [%2]").arg(column.name, column.unit) : column.name);
-    }
-    return line + (m_format == Csv ? "\r\n" : "\n");
+    TableText text(m_format);
+    text.addText(QStringLiteral("UTC"));
+    text.addTitle(QStringLiteral("time"), QStringLiteral("s"));
+    for (const Column &column : m_columns)
+        text.addTitle(column.name, column.unit);
+    text.endRow();
+    return text.take();
 }
 
 bool TableExport::hasRow(const Reader &reader) const
@@ -116,7 +66,7 @@ bool TableExport::isAtEnd() const
 
 QByteArray TableExport::next(int mostRows)
 {
-    QByteArray text;
+    TableText text(m_format);
     for (Reader &reader : m_readers)  // rows that have been overwritten since are gone
         reader.row = std::max(reader.row, reader.store->firstRow());
     Time time = 0;
@@ -126,25 +76,24 @@ QByteArray TableExport::next(int mostRows)
             reader.row += hasRow(reader) && reader.store->time(reader.row) == time ? 1 : 0;
         ++m_rows;
     }
-    return text;
+    return text.take();
 }
 
-void TableExport::appendRow(Time time, QByteArray *text) const
+void TableExport::appendRow(Time time, TableText *text) const
 {
-    const char separator = m_format == Csv ? ',' : '\t';
-    appendMoment(time, text);
-    *text += separator;
-    appendSeconds(time - m_begin, text);
+    text->addMoment(time);
+    text->addSeconds(time - m_begin);
     for (std::size_t i = 0; i < m_columns.size(); ++i) {
         const Column &column = m_columns[i];
         const Reader &reader = m_readers[m_readerOf[i]];
-        *text += separator;
         if (hasRow(reader) && reader.store->time(reader.row) == time) {
             const double value = double(reader.store->value(column.channel, reader.row));
-            appendNumber(float(column.gain * value + column.offset), text);
+            text->addNumber(float(column.gain * value + column.offset));
+        } else {
+            text->addNothing();
         }
     }
-    *text += m_format == Csv ? "\r\n" : "\n";
+    text->endRow();
 }
 
 }  // namespace qplc

@@ -3,6 +3,7 @@
 
 #include "PastRows.h"
 #include "gui/store/SignalStore.h"
+#include "signals/TableText.h"
 
 #include <QtCore/QByteArray>
 #include <QtCore/QString>
@@ -11,8 +12,8 @@
 
 namespace qplc {
 
-/// Rows of curves as text, a piece at a time: CSV after RFC 4180, or tabs for spreadsheets and
-/// clipboards. Numbers are those of the C locale, with as many digits as 32 bits hold.
+/// Rows of curves as text, a piece at a time (see TableText). Numbers have as many digits as 32
+/// bits hold.
 ///
 /// Each row has the moment (UTC, ISO 8601), the seconds since the first row, and a value for each
 /// column, nothing where there is none. Columns of several stores are one table: each time of any
@@ -22,7 +23,9 @@ class TableExport
 public:
     using Time = SignalStore::Time;
 
-    enum Format { Csv, Tsv };
+    using Format = TableText::Format;
+    static constexpr Format Csv = TableText::Csv;
+    static constexpr Format Tsv = TableText::Tsv;
     struct Column
     {
         const SignalStore *store;  // outlives the export, or
@@ -56,8 +59,7 @@ private:
 
     bool hasRow(const Reader &reader) const;
     bool findTime(Time *time) const;
-    void appendRow(Time time, QByteArray *text) const;
-    QByteArray field(const QString &text) const;
+    void appendRow(Time time, TableText *text) const;
 
     Format m_format;
     std::vector<Column> m_columns;

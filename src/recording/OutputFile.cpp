@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "OutputFile.h"
+
+#include <QtCore/QFileInfo>
+
+#include <cerrno>
+#include <cstdio>
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace qplc {
+
+namespace {
+
+QString existsText(const QString &name)
+{
+    return QStringLiteral("'%1' is there already; choose another name, or give --force to replace it").arg(name);
+}
+
+/// What a file gets that a program makes in the usual way.
+mode_t usualMode()
+{
+    const mode_t mask = ::umask(0);
+    ::umask(mask);
+    return mode_t(0666) & ~mask;
+}
+
+}  // namespace
+
+OutputFile::OutputFile(const QString &name, Existing existing)
+    : m_name(name)
+    , m_existing(existing)
+    , m_file(QFileInfo(name).absolutePath() + QStringLiteral("/.qtplc-XXXXXX"))
+{
+}
+
+bool OutputFile::fail(const QString &reason, QString *error) const
+{
+    *error = QStringLiteral("cannot write '%1': %2").arg(m_name, reason);
+    return false;
+}
+
+bool OutputFile::open(QString *error)
+{
+    if (m_existing == Refuse && QFileInfo::exists(m_name)) {
+        *error = existsText(m_name);
+        return false;
+    }
+    if (QFileInfo(m_name).isDir())
+        return fail(QStringLiteral("it is a folder"), error);
+    return m_file.open() || fail(m_file.errorString(), error);
+}
+
+bool OutputFile::write(const QByteArray &bytes, QString *error)
+{
+    return m_file.write(bytes) == bytes.size() || fail(m_file.errorString(), error);
+}
+
+bool OutputFile::commit(QString *error)
+{
+    if (!m_file.flush())
+        return fail(m_file.errorString(), error);
+    if (::fdatasync(m_file.handle()) != 0 || ::fchmod(m_file.handle(), usualMode()) != 0)
+        return fail(qt_error_string(errno), error);
+    const QByteArray from = QFile::encodeName(m_file.fileName());
+    const QByteArray to = QFile::encodeName(m_name);
+    if (m_existing == Replace) {
+        m_file.setAutoRemove(false);
+        if (::rename(from.constData(), to.constData()) == 0)
+            return true;
+        m_file.setAutoRemove(true);
+        return fail(qt_error_string(errno), error);
+    }
+    if (::link(from.constData(), to.constData()) == 0)
+        return true;
+    if (errno != EEXIST)
+        return fail(qt_error_string(errno), error);
+    *error = existsText(m_name);
+    return false;
+}
+
+}  // namespace qplc

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "Recording.h"
+
+namespace qplc {
+
+/// What a report shows of a recording.
+struct ReportSelection
+{
+    RecordedTime begin = 0;
+    RecordedTime end = 0;
+    /// Of Recording::signalList(): each has a plot. Empty: the first ones that change.
+    std::vector<int> signalNumbers;
+    /// Sections of others behind the figures: headings `#`, tables `| a | b |`, lists `- a`, and
+    /// paragraphs, as in Markdown.
+    QStringList sections;
+};
+
+/// A page of HTML that contains all it needs: figures, plots, what has happened, jitter, nodes and
+/// signals. It is light or dark as its reader wants it, and light on paper.
+/// \param damages  of the recording: chunks that were left out
+QByteArray reportOf(Recording &recording, const ReportSelection &selection, int *damages);
+
+/// A part of Markdown as HTML: see ReportSelection::sections.
+QByteArray htmlOfMarkdown(const QString &text);
+
+}  // namespace qplc

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "RecordingChoice.h"
+
+#include "SignalSelection.h"
+
+#include <QtCore/QDateTime>
+
+#include <cmath>
+
+namespace tools {
+
+namespace {
+
+using qplc::RecordedTime;
+
+constexpr double Second = 1e9;  // [ns]
+
+/// \return false, with the message out
+bool readTime(const CommandCall &call, const char *option, const qplc::Recording &recording, RecordedTime *time)
+{
+    const QString name = QString::fromLatin1(option);
+    if (!call.application.isSet(name))
+        return true;
+    const QString text = call.application.value(name);
+    bool isNumber = false;
+    const double seconds = text.toDouble(&isNumber);
+    if (isNumber && std::abs(seconds) < 1e9) {
+        *time = recording.begin() + RecordedTime(std::llround(seconds * Second));
+        return true;
+    }
+    QDateTime moment = QDateTime::fromString(text, Qt::ISODateWithMs);
+    if (moment.timeSpec() == Qt::LocalTime)
+        moment.setTimeSpec(Qt::UTC);
+    if (moment.isValid() && !isNumber) {
+        *time = RecordedTime(moment.toMSecsSinceEpoch()) * 1'000'000;
+        return true;
+    }
+    call.application.usageError(QStringLiteral("--%1: '%2' is not a time; use seconds since the begin of the "
+                                               "recording, or a moment as 2026-11-20T14:03:12 (UTC)")
+                                    .arg(name, text));
+    return false;
+}
+
+}  // namespace
+
+bool openRecording(const CommandCall &call, qplc::Recording *recording)
+{
+    QString error;
+    if (!recording->open({call.arguments.value(0)}, &error)) {
+        call.application.usageError(error);
+        return false;
+    }
+    const QStringList notes = recording->notes();
+    for (const QString &note : notes)
+        QPlcCoreApplication::printError(note);
+    return true;
+}
+
+bool readTimes(const CommandCall &call, const qplc::Recording &recording, RecordedTime *begin, RecordedTime *end)
+{
+    *begin = recording.begin();
+    *end = recording.end();
+    if (!readTime(call, "from", recording, begin) || !readTime(call, "to", recording, end))
+        return false;
+    if (*begin <= *end && *begin <= recording.end() && *end >= recording.begin())
+        return true;
+    call.application.usageError(QStringLiteral("the recording has no cycle of these times: it takes %1 s")
+                                    .arg(double(recording.end() - recording.begin()) / Second));
+    return false;
+}
+
+bool readSignals(const CommandCall &call, const qplc::Recording &recording, std::vector<int> *numbers)
+{
+    const QStringList wanted
+        = call.application.value(QStringLiteral("signals")).split(QLatin1Char(','), Qt::SkipEmptyParts);
+    QStringList names;
+    if (!selectSignalsOrAll(call.application, recording.table(), wanted, &names))
+        return false;
+    for (const QString &name : qAsConst(names))
+        numbers->push_back(recording.indexOf(name));
+    return true;
+}
+
+int exitCodeOf(int damages)
+{
+    if (damages == 0)
+        return QPlcCoreApplication::Success;
+    QPlcCoreApplication::printError(
+        QStringLiteral("%1 places of the recording are damaged: their cycles were left out").arg(damages));
+    return QPlcCoreApplication::Failure;
+}
+
+}  // namespace tools

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// report: a recording as a page for people.
+#include "RecordingChoice.h"
+#include "TerminalText.h"
+#include "recording/OutputFile.h"
+#include "recording/RecordingReport.h"
+
+#include <QtCore/QFile>
+#include <QtCore/QJsonObject>
+
+#include <cstdio>
+
+namespace tools {
+
+namespace {
+
+constexpr qint64 LargestSection = 1 << 20;  // [byte]
+
+/// The files of --section, with commas between them; -: the standard input. \return false, with the
+/// message out
+bool readSections(const CommandCall &call, QStringList *sections)
+{
+    const QStringList names
+        = call.application.value(QStringLiteral("section")).split(QLatin1Char(','), Qt::SkipEmptyParts);
+    for (const QString &name : names) {
+        const bool isInput = name == QLatin1String("-");
+        QFile file(name);
+        if (!(isInput ? file.open(stdin, QIODevice::ReadOnly) : file.open(QIODevice::ReadOnly))) {
+            call.application.usageError(
+                QStringLiteral("--section: cannot open '%1': %2").arg(name, file.errorString()));
+            return false;
+        }
+        const QByteArray text = file.read(LargestSection + 1);
+        if (text.size() > LargestSection) {
+            call.application.usageError(QStringLiteral("--section: '%1' is longer than 1 MiB").arg(name));
+            return false;
+        }
+        *sections << QString::fromUtf8(text);
+    }
+    return true;
+}
+
+}  // namespace
+
+int writeReport(const CommandCall &call)
+{
+    const QString name = call.application.value(QStringLiteral("output"));
+    if (name.isEmpty())
+        return call.application.usageError(QStringLiteral("no file to write to; use --output FILE"));
+    qplc::Recording recording;
+    qplc::ReportSelection selection;
+    if (!openRecording(call, &recording) || !readTimes(call, recording, &selection.begin, &selection.end)
+        || !readSections(call, &selection.sections))
+        return call.application.exitCode();
+    selection.begin = std::max(selection.begin, recording.begin());
+    selection.end = std::min(selection.end, recording.end());
+    if (call.application.isSet(QStringLiteral("signals")) && !readSignals(call, recording, &selection.signalNumbers))
+        return call.application.exitCode();
+    const bool replaces = call.application.isSet(QStringLiteral("force"));
+    qplc::OutputFile file(name, replaces ? qplc::OutputFile::Replace : qplc::OutputFile::Refuse);
+    QString error;
+    if (!file.open(&error))
+        return call.application.usageError(error);
+    int damages = 0;
+    const QByteArray page = qplc::reportOf(recording, selection, &damages);
+    if (!file.write(page, &error) || !file.commit(&error)) {
+        QPlcCoreApplication::printError(error);
+        return QPlcCoreApplication::Failure;
+    }
+    if (call.isJson())
+        printJson(QJsonDocument(QJsonObject{{QStringLiteral("file"), name},
+                                            {QStringLiteral("bytes"), page.size()},
+                                            {QStringLiteral("damages"), damages}}));
+    else
+        printLine(QStringLiteral("%1: a report of %2 kB").arg(printable(name)).arg((page.size() + 999) / 1000));
+    return exitCodeOf(damages);
+}
+
+}  // namespace tools

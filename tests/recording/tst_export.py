@@ -1,0 +1,243 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Exports a recording with qtplc and reads the tables with other programs: CSV with Python, Parquet
+as its format says, MATLAB with h5py, where that is installed.
+
+usage: tst_export.py QTPLC MAKE_RECORDING
+"""
+import csv
+import math
+import os
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+QTPLC, MAKE_RECORDING = sys.argv[1:3]
+CYCLES = 800
+MAT = """
+import sys, h5py, numpy
+with h5py.File(sys.argv[1], "r") as file:
+    for name in sorted(file):
+        if name != "quality":
+            texts = {k: v.decode() if isinstance(v, bytes) else v for k, v in file[name].attrs.items()}
+            attributes = " ".join(f"{k}={texts[k]}" for k in sorted(texts))
+            print(name, file[name].dtype, file[name].shape, attributes)
+    print("class", file["quality"].attrs["MATLAB_class"].decode(), sorted(file["quality"]))
+    number = numpy.arange(file["cycle"].shape[1])
+    assert (file["cycle"][0] == number).all() and (file["position_x_2"][0] == number).all()
+    assert abs(file["position_x"][0] - numpy.sin(0.1 * number)).max() < 1e-14
+    assert abs(file["time"][0] - 0.01 * number).max() < 1e-12
+    texts = ["".join(map(chr, column)).rstrip() for column in file["phase"][()].T]
+    assert texts == ["a" * (n % 7) for n in number]
+    assert (file["quality/position_x"][0] == 0).all() and file["force"].shape == (3, len(number))
+"""
+
+
+def run(*arguments, code=0):
+    done = subprocess.run([QTPLC, "export", *map(str, arguments)], capture_output=True, text=True, timeout=60)
+    assert done.returncode == code, f"{arguments}: {done.returncode}\n{done.stdout}{done.stderr}"
+    return done.stdout + done.stderr
+
+
+class Thrift:
+    """Reads the compact protocol: structs as dictionaries by the number of the field."""
+
+    def __init__(self, data, at=0):
+        self.data, self.at = data, at
+
+    def varint(self):
+        value = shift = 0
+        while True:
+            byte = self.data[self.at]
+            self.at += 1
+            value |= (byte & 0x7F) << shift
+            shift += 7
+            if byte < 0x80:
+                return value
+
+    def integer(self):
+        value = self.varint()
+        return value >> 1 ^ -(value & 1)
+
+    def bytes(self):
+        size = self.varint()
+        self.at += size
+        return self.data[self.at - size : self.at]
+
+    def value(self, kind):
+        if kind in (1, 2):
+            return kind == 1
+        if kind in (5, 6):
+            return self.integer()
+        if kind == 8:
+            return self.bytes()
+        if kind == 12:
+            return self.struct()
+        assert kind == 9, f"type {kind}"
+        head = self.data[self.at]
+        self.at += 1
+        count = head >> 4 if head >> 4 < 15 else self.varint()
+        return [self.value(head & 15) for _ in range(count)]
+
+    def struct(self):
+        fields, number = {}, 0
+        while self.data[self.at]:
+            head = self.data[self.at]
+            self.at += 1
+            number += head >> 4
+            fields[number] = self.value(head & 15)
+        self.at += 1
+        return fields
+
+
+def parquet(data):
+    """Columns by name, each a list, and the schema."""
+    assert data[:4] == data[-4:] == b"PAR1"
+    (size,) = struct.unpack("<I", data[-8:-4])
+    meta = Thrift(data[-8 - size : -8]).struct()
+    schema = {element[4].decode(): element for element in meta[2][1:]}
+    columns = {name: [] for name in schema}
+    for group in meta[4]:
+        for chunk in group[1]:
+            about = chunk[3]
+            assert about[4] == 6 and about[2] == [0]
+            reader = Thrift(data, about[9])
+            page = reader.struct()
+            packed = data[reader.at : reader.at + page[3]]
+            assert about[7] == reader.at - about[9] + page[3]
+            plain = subprocess.run(["zstd", "-dc"], input=packed, stdout=subprocess.PIPE, check=True).stdout
+            assert len(plain) == page[2] and page[5][1] == about[5] == group[3]
+            columns[about[3][0].decode()] += values(plain, about[1], about[5])
+    assert all(len(column) == meta[3] for column in columns.values())
+    return columns, schema
+
+
+def values(plain, kind, count):
+    if kind == 6:
+        found, at = [], 0
+        for _ in range(count):
+            (size,) = struct.unpack_from("<I", plain, at)
+            found.append(plain[at + 4 : at + 4 + size].decode())
+            at += 4 + size
+        return found
+    return list(struct.unpack(f"<{count}{'?iq?fd'[kind]}", plain))
+
+
+class Exports(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.scratch = tempfile.TemporaryDirectory()
+        cls.folder = Path(cls.scratch.name)
+        cls.file = cls.folder / "flight.mcap"
+        subprocess.run([MAKE_RECORDING, str(cls.file)], check=True, stdout=subprocess.DEVNULL)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.scratch.cleanup()
+
+    def output(self, name):
+        path = self.folder / name
+        path.unlink(missing_ok=True)
+        return path
+
+    def rows(self, *arguments):
+        output = self.output("table.csv")
+        run(self.file, "-o", output, *arguments)
+        with open(output, newline="") as file:
+            return list(csv.reader(file))
+
+    def test_csv_has_each_cycle_with_its_qualities(self):
+        rows = self.rows()
+        self.assertEqual(
+            rows[0],
+            "time [s],cycle,time,time.quality,position.x [m],position.x.quality,force[0] [N],force[1] [N],force[2] [N],"
+            "force.quality,position_x,position_x.quality,phase,phase.quality,on,on.quality".split(","),
+        )
+        self.assertEqual(len(rows), CYCLES + 1)
+        for number, row in enumerate(rows[1:]):
+            self.assertEqual(float(row[4]), math.sin(0.1 * number) if number else 0.0)
+            self.assertEqual([row[1], row[5], row[10], row[12]], [str(number), "0", str(number), "a" * (number % 7)])
+            self.assertAlmostEqual(float(row[0]), 0.01 * number)
+
+    def test_a_selection_has_its_signals_times_and_cycles_only(self):
+        rows = self.rows("--signals", "pos*", "--from", "1", "--to", "2", "--every", "20", "--values-only")
+        self.assertEqual(rows[0], ["time [s]", "cycle", "position.x [m]", "position_x"])
+        self.assertEqual([row[1] for row in rows[1:]], ["100", "120", "140", "160", "180", "200"])
+        self.assertEqual([row[0] for row in rows[1:3]], ["0", "0.2"])
+
+    def test_parquet_has_the_values_of_the_csv(self):
+        output = self.output("table.parquet")
+        self.assertIn("800 rows", run(self.file, "-o", output))
+        columns, schema = parquet(output.read_bytes())
+        self.assertEqual(columns["cycle"], list(range(CYCLES)))
+        self.assertEqual(columns["position_x"], list(range(CYCLES)))
+        self.assertEqual(schema["position_x"][6], 16)
+        self.assertEqual(columns["position.x"][1:], [math.sin(0.1 * n) for n in range(1, CYCLES)])
+        self.assertEqual(columns["phase"], ["a" * (n % 7) for n in range(CYCLES)])
+        self.assertEqual(columns["time.quality"], [0] * CYCLES)
+        self.assertEqual(schema["time"][1], 5, "seconds, and not the signal of the same name")
+
+    def test_matlab_has_the_values_of_the_csv(self):
+        if "mat" not in run(self.file, "-o", self.output("table.txt"), code=2):
+            self.skipTest("this qtplc was built without HDF5")
+        output = self.output("table.mat")
+        run(self.file, "-o", output)
+        head = output.read_bytes()[:128]
+        self.assertTrue(head.startswith(b"MATLAB 7.3 MAT-file"))
+        self.assertEqual(head[124:], b"\0\2IM")
+        if subprocess.run(["/usr/bin/python3", "-c", "import h5py"], capture_output=True).returncode:
+            self.skipTest("h5py is missing (Debian: python3-h5py)")
+        read = subprocess.run(["/usr/bin/python3", "-c", MAT, output], capture_output=True, text=True)
+        self.assertEqual(read.returncode, 0, read.stderr)
+        self.assertIn("position_x float64 (1, 800) MATLAB_class=double description=of the kite", read.stdout)
+        self.assertIn("phase uint16 (12, 800) MATLAB_class=char MATLAB_int_decode=2", read.stdout)
+        self.assertIn("class struct ['force', 'on', 'phase', 'position_x', 'position_x_2', 's_time']", read.stdout)
+
+    def test_a_file_that_is_there_is_replaced_by_force_only(self):
+        output = self.output("there.csv")
+        output.write_text("mine")
+        self.assertIn("is there already", run(self.file, "-o", output, code=2))
+        self.assertEqual(output.read_text(), "mine")
+        run(self.file, "-o", output, "--force")
+        self.assertGreater(output.stat().st_size, 1000)
+        self.assertEqual(output.stat().st_mode & 0o777, 0o666 & ~os.umask(os.umask(0o22)))
+
+    def test_a_full_disk_is_an_error_and_leaves_no_file(self):
+        for name in ("full.csv", "full.parquet", "full.mat"):
+            output = self.output(name)
+            command = f"ulimit -f 8; exec '{QTPLC}' export '{self.file}' -o '{output}'"
+            done = subprocess.run(["bash", "-c", f"trap '' XFSZ; {command}"], capture_output=True, text=True)
+            if "without HDF5" in done.stderr:
+                continue
+            self.assertEqual(done.returncode, 1, done.stderr)
+            self.assertIn("cannot write", done.stderr)
+            self.assertFalse(output.exists())
+        self.assertEqual(list(self.folder.glob(".qtplc*")), [])
+
+    def test_what_is_not_there_is_said(self):
+        output = self.output("no.csv")
+        self.assertIn("did you mean", run(self.file, "-o", output, "--signals", "positon.x", code=2))
+        self.assertIn("no signal matches", run(self.file, "-o", output, "--signals", "wing*", code=2))
+        self.assertIn("is not a time", run(self.file, "-o", output, "--from", "noon", code=2))
+        self.assertIn("no cycle of these times", run(self.file, "-o", output, "--from", "100", code=2))
+        self.assertIn("is not a format", run(self.file, "-o", self.output("no.xls"), code=2))
+        self.assertIn("cannot open", run(self.folder / "nothing.mcap", "-o", output, code=2))
+        self.assertIn("use --output", run(self.file, code=2))
+        self.assertFalse(output.exists())
+
+    def test_a_damaged_recording_gives_the_rest_and_an_error(self):
+        data = bytearray(self.file.read_bytes())
+        at = data.index(b"zstd") + 60
+        data[at] ^= 1
+        damaged = self.folder / "damaged.dat"
+        damaged.write_bytes(data)
+        output = self.output("rest.csv")
+        self.assertIn("1 places of the recording are damaged", run(damaged, "-o", output, code=1))
+        self.assertEqual(len(output.read_text().splitlines()), CYCLES - 200 + 1)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)
