@@ -3,6 +3,7 @@
 #include "recording/Recording.h"
 #include "recording/Recovery.h"
 
+#include <QtCore/QDateTime>
 #include <QtTest/QtTest>
 
 using namespace qplc;
@@ -90,6 +91,7 @@ private Q_SLOTS:
     void cyclesOfTwoFilesAreReadOnce();
     void twoSimulationsAreRefused();
     void whatIsNoRecordingIsRefused();
+    void timesOfAPhaseInRealTimeAreThoseOfTheClock();
     void aDamagedChunkIsLeftOutAndCounted();
     void theOverviewHasTheExtremesOfTheRows();
     void aDetailIsReadFromTheRows();
@@ -223,6 +225,26 @@ void tst_Recording::whatIsNoRecordingIsRefused()
     write(folder.filePath("text.mcap"), "not a recording");
     QVERIFY(!recording.open({folder.path()}, &error));
     QVERIFY2(error.contains("not a recording"), qPrintable(error));
+}
+
+/// The recorder is there before the phase begins.
+void tst_Recording::timesOfAPhaseInRealTimeAreThoseOfTheClock()
+{
+    RecordedFlight flight;
+    flight.phase.clock = QPlcClock::realTime();
+    flight.phase.cycleLimit = 3;
+    const QDateTime before = QDateTime::currentDateTimeUtc();
+    QVERIFY(flight.begin() && flight.start());
+    QTRY_COMPARE(flight.cycle.statistics().cycles, quint64(3));
+    flight.cycle.stop();
+    flight.recorder.proceed(&flight.error);
+    QVERIFY(flight.recorder.finish(&flight.error));
+    Recording recording = opened({flight.file});
+    QVERIFY(recording.isTimed());
+    QVERIFY(recording.begin() / 1'000'000 >= before.toMSecsSinceEpoch());
+    RecordedRows rows(recording, {}, recording.begin(), recording.end());
+    while (rows.next())
+        QCOMPARE(rows.time() - recording.begin(), RecordedTime(rows.cycle().number) * Period);
 }
 
 void tst_Recording::aDamagedChunkIsLeftOutAndCounted()
