@@ -32,6 +32,7 @@ PLACES = {
     "gui/store": (2, 7.7, "past of values"),
     "tools": (6.0, 0, "qtplc"),
     "recording": (7.1, 0, "files of cycles"),
+    "replay": (6.0, 1.4, "nodes again"),
     "hardware": (8.2, 0, "drivers, wires"),
     "models": (9.4, 0, "FMUs"),
     "export": (9.4, 1.4, "FMU, DISCON"),

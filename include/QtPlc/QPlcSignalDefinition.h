@@ -58,6 +58,7 @@ struct QTPLC_EXPORT QPlcSignalDefinition
     /// Largest change of each element per second [unit of the signal/s] when a person or a program
     /// sets the signal from outside, while cycles run. 0: no limit. Real types only.
     double slope = 0.0;
+    bool isVolatile = false;  ///< it measures the wall clock: two equal runs give other values
 
     /// Returns the safe value: `safe` if it is set, else 0, else the limit that is closest to 0.
     /// \pre type is valid

@@ -42,6 +42,8 @@ class TableReader;
 /// - `nan`: `allowed` means that NaN ("no measurement") is taken like a number.
 /// - `slope`: `5 per second` means that a value which a person or a program sets moves each element
 ///   by at most 5 per second, while cycles run. Real types only.
+/// - `volatile`: `yes` means that the signal measures the wall clock, as a workload does: two equal
+///   runs give other values, and a replay does not compare them.
 ///
 /// Comments begin with `;` or `#` at the start of a line, or with ` ;` behind a value. Commas
 /// separate the values of an array ("0, 0, 1"); one number stands for all elements. The file is

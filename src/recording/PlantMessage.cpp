@@ -98,7 +98,8 @@ QByteArray PlantMessage::schema() const
           "uint64 number    # of the cycle, from 0 in each phase\n"
           "int64 lateness   # [ns] of its begin\n"
           "uint64 skipped   # cycles that were left out right before it\n"
-          "uint32 flags     # 1 safe stop, 2 caught up, 4 nodes or leases have changed, 8 timed, 16 answers missing\n";
+          "uint32 flags     # 1 safe stop, 2 caught up, 4 nodes or leases have changed, 8 timed, 16 answers missing,\n"
+          "                 # 32 signals were set\n";
 }
 
 void PlantMessage::encode(const Cycle &cycle, const char *image, QByteArray *message) const

@@ -3,6 +3,7 @@
 
 #include <QtCore/QFile>
 
+#include <algorithm>
 #include <cstring>
 
 namespace qplc {
@@ -10,7 +11,6 @@ namespace qplc {
 namespace {
 
 constexpr std::size_t FullChunk = 256 * 1024;  // [byte] of messages
-constexpr int NodeSize = 30;                   // [byte] of qtplc/Node
 
 const char nodesSchema[]
     = "# What the master has exchanged with each node in a cycle. A cycle without such a message has\n"
@@ -20,8 +20,8 @@ const char nodesSchema[]
       "MSG: qtplc/Node\n"
       "uint16 id\n"
       "uint16 flags    # 1 asked, 2 answered, 4 stored, 8 late, 16 faulted, 32 safe, 64 lost, 128 raw, 256 local,\n"
-      "                # 512 listens\n"
-      "uint16 reserved\n"
+      "                # 512 listens, 1024 raw inputs, 2048 two-phase and not shown\n"
+      "uint32 history  # which requests before that one it has computed: bit i is that of i + 1 cycles before\n"
       "uint64 age      # [cycles] of the newest request that it has answered; 2^64 - 1: none yet\n"
       "int64 arrival   # of that answer, on the clock of the master [ns]; 0: not timed\n"
       "uint64 info     # of that answer: what the node says of its own time [ns]\n";
@@ -29,6 +29,17 @@ const char nodesSchema[]
 const char rawSchema[] = "# The outputs of a node as it has answered them, where the signals do not show all of them.\n"
                          "uint16 id\n"
                          "uint8[] outputs\n";
+
+const char rawInputsSchema[] = "# The inputs that a node was sent, where the signals do not show all of them.\n"
+                               "uint16 id\n"
+                               "uint8[] inputs\n";
+
+const char joinSchema[] = "# A node takes part from this cycle on. Before, it has sent its initial outputs, and was\n"
+                          "# given its initial inputs.\n"
+                          "uint16 id\n"
+                          "uint64 first\n"
+                          "uint8[] outputs\n"
+                          "uint8[] inputs\n";
 
 QByteArray hex(std::uint64_t digest)
 {
@@ -103,10 +114,15 @@ bool PlantRecorder::begin(std::unique_ptr<mcap::FileSink> sink, QString *error)
     m_before = m_writer->addChannel("/plant_before", "ros1", PlantMessage::schemaName(), ros, m_message->schema());
     m_nodes = m_writer->addChannel("/nodes", "ros1", "qtplc/Nodes", ros, nodesSchema);
     m_raw = m_writer->addChannel("/raw_outputs", "ros1", "qtplc/RawOutputs", ros, rawSchema);
+    m_rawInputs = m_writer->addChannel("/raw_inputs", "ros1", "qtplc/RawInputs", ros, rawInputsSchema);
+    m_joins = m_writer->addChannel("/joins", "ros1", "qtplc/Join", ros, joinSchema);
+    m_rosters = m_writer->addChannel("/rosters", "json");
     m_gaps = m_writer->addChannel("/gaps", "json");
     m_digests = m_writer->addChannel("/digest", "json");
     if (m_next > 0)
         addDigest(",\"continues\":true");
+    if (!m_roster.isEmpty())
+        addText(m_rosters, m_rosterNumber, m_roster);
     return true;
 }
 
@@ -156,6 +172,10 @@ void PlantRecorder::add()
         const auto end = recordIn<RecordedEnd>(m_reader, &isWhole);
         if (isWhole)
             addEnd(end);
+    } else if (m_reader.kind() == RecordKind::Roster) {
+        isWhole = addRoster();
+    } else if (m_reader.kind() == RecordKind::Join) {
+        isWhole = addJoin();
     }
     m_isDamaged = m_isDamaged || !isWhole;
 }
@@ -174,7 +194,7 @@ void PlantRecorder::addCycle()
     const std::uint64_t next = cycle.number - cycle.skipped;
     if (next > m_next)  // they had been replaced before anybody recorded
         addGap({m_next, next - 1, next - m_next, 0, 0});
-    m_time = std::uint64_t(m_startTime) + cycle.number * std::uint64_t(m_description.period);
+    m_time = timeOf(cycle.number);
     const auto published = cycle.wallTime != 0 ? std::uint64_t(cycle.wallTime) : m_time;
     const auto sequence = std::uint32_t(cycle.number);
     const PlantMessage::Cycle head{cycle.number, cycle.lateness, cycle.skipped, cycle.flags};
@@ -211,42 +231,90 @@ void PlantRecorder::watch(const CycleView &view)
 
 void PlantRecorder::addNodes(const CycleView &view)
 {
-    QByteArray body(4 + NodeSize * int(view.cycle.nodes), Qt::Uninitialized);
+    QByteArray body(4 + NodeMessageSize * int(view.cycle.nodes), Qt::Uninitialized);
     char *to = body.data();
     storeLittle(view.cycle.nodes, to);
     to += 4;
-    for (std::uint32_t i = 0; i < view.cycle.nodes; ++i, to += NodeSize) {
+    for (std::uint32_t i = 0; i < view.cycle.nodes; ++i, to += NodeMessageSize) {
         const RecordedNode node = view.node(i);
         const std::uint64_t age = node.cycle == RecordedNode::NoCycle ? node.cycle : view.cycle.number - node.cycle;
         storeLittle(node.id, to);
         storeLittle(node.flags, to + 2);
-        storeLittle(std::uint16_t(0), to + 4);
-        storeLittle(age, to + 6);
-        storeLittle(node.arrival, to + 14);
-        storeLittle(std::uint64_t(node.info), to + 22);
+        storeLittle(node.history, to + 4);
+        storeLittle(age, to + 8);
+        storeLittle(node.arrival, to + 16);
+        storeLittle(std::uint64_t(node.info), to + 24);
     }
     if (body == m_exchange)
         return;
     m_exchange = body;
-    m_writer->addMessage(m_nodes, std::uint32_t(view.cycle.number), m_time, m_time, body.constData(),
-                         std::size_t(body.size()));
+    addText(m_nodes, std::uint32_t(view.cycle.number), body);
 }
 
 void PlantRecorder::addRaw(const CycleView &view)
 {
     const char *at = view.raw;
     std::uint32_t left = view.cycle.rawSize;
-    for (std::uint32_t i = 0; i < view.cycle.nodes; ++i) {
-        const RecordedNode node = view.node(i);
-        const std::uint32_t padded = paddedRecordSize(node.rawSize);
-        if (node.rawSize == 0 || padded > left || node.rawSize > padded)
-            continue;
-        const QByteArray body = mcap::Fields().number(node.id).text(QByteArray(at, int(node.rawSize))).bytes();
-        m_writer->addMessage(m_raw, std::uint32_t(view.cycle.number), m_time, m_time, body.constData(),
-                             std::size_t(body.size()));
+    const auto add = [&](std::uint16_t channel, std::uint16_t id, std::uint32_t size) {
+        const std::uint32_t padded = paddedRecordSize(size);
+        if (size == 0 || padded > left || size > padded)
+            return;
+        const QByteArray body = mcap::Fields().number(id).text(QByteArray(at, int(size))).bytes();
+        addText(channel, std::uint32_t(view.cycle.number), body);
         at += padded;
         left -= padded;
+    };
+    for (std::uint32_t i = 0; i < view.cycle.nodes; ++i) {
+        const RecordedNode node = view.node(i);
+        add(m_raw, node.id, node.rawSize);
+        add(m_rawInputs, node.id, node.inputsSize);
     }
+}
+
+/// The same one comes again and again, and is written once into each file.
+bool PlantRecorder::addRoster()
+{
+    RecordedRoster roster;
+    if (m_reader.size() < sizeof roster)
+        return false;
+    std::memcpy(&roster, m_reader.body(), sizeof roster);
+    if (roster.textSize > m_reader.size() - sizeof roster)
+        return false;
+    if (roster.number == m_rosterNumber)
+        return true;
+    const QByteArray text(m_reader.body() + sizeof roster, int(roster.textSize));
+    m_rosterNumber = roster.number;
+    m_time = std::max(m_time, timeOf(roster.first));
+    m_roster = "{\"number\":" + QByteArray::number(roster.number) + ",\"first\":"
+        + QByteArray::number(qulonglong(roster.first)) + (text.isEmpty() ? "" : ",\"roster\":") + text + '}';
+    addText(m_rosters, roster.number, m_roster);
+    return true;
+}
+
+bool PlantRecorder::addJoin()
+{
+    RecordedJoin join;
+    if (m_reader.size() < sizeof join)
+        return false;
+    std::memcpy(&join, m_reader.body(), sizeof join);
+    const std::uint64_t outputs = (std::uint64_t(join.outputsSize) + 7) & ~std::uint64_t(7);
+    if (sizeof join + outputs + join.inputsSize > m_reader.size())
+        return false;
+    m_time = std::max(m_time, timeOf(join.first));
+    const char *bytes = m_reader.body() + sizeof join;
+    addText(m_joins, std::uint32_t(join.first),
+            mcap::Fields()
+                .number(join.id)
+                .number(join.first)
+                .text(QByteArray(bytes, int(join.outputsSize)))
+                .text(QByteArray(bytes + outputs, int(join.inputsSize)))
+                .bytes());
+    return true;
+}
+
+void PlantRecorder::addText(std::uint16_t channel, std::uint32_t sequence, const QByteArray &body)
+{
+    m_writer->addMessage(channel, sequence, m_time, m_time, body.constData(), std::size_t(body.size()));
 }
 
 /// \a gap with a digest of 0: what was computed in it is not known.
@@ -257,8 +325,8 @@ void PlantRecorder::addGap(const RecordedGap &gap)
     const QByteArray text = "{\"first\":" + QByteArray::number(qulonglong(gap.first)) + ",\"last\":"
         + QByteArray::number(qulonglong(gap.last)) + ",\"cycles\":" + QByteArray::number(qulonglong(gap.cycles))
         + ",\"skipped\":" + QByteArray::number(qulonglong(gap.skipped)) + ",\"digest\":\"" + hex(gap.digest) + "\"}";
-    m_time = std::uint64_t(m_startTime) + gap.last * std::uint64_t(m_description.period);
-    m_writer->addMessage(m_gaps, std::uint32_t(gap.last), m_time, m_time, text.constData(), std::size_t(text.size()));
+    m_time = timeOf(gap.last);
+    addText(m_gaps, std::uint32_t(gap.last), text);
     m_next = gap.last + 1;
     m_digest = gap.digest;
     m_hasDigest = true;  // it is in the gap
@@ -277,7 +345,7 @@ void PlantRecorder::addDigest(const QByteArray &more)
 {
     const QByteArray text
         = "{\"next\":" + QByteArray::number(qulonglong(m_next)) + ",\"digest\":\"" + hex(m_digest) + '"' + more + '}';
-    m_writer->addMessage(m_digests, std::uint32_t(m_next), m_time, m_time, text.constData(), std::size_t(text.size()));
+    addText(m_digests, std::uint32_t(m_next), text);
     m_hasDigest = true;
 }
 

@@ -80,6 +80,13 @@ private:
     void addCycle();
     void addNodes(const CycleView &view);
     void addRaw(const CycleView &view);
+    std::uint64_t timeOf(std::uint64_t cycle) const
+    {
+        return std::uint64_t(m_startTime) + cycle * std::uint64_t(m_description.period);
+    }
+    bool addRoster();
+    bool addJoin();
+    void addText(std::uint16_t channel, std::uint32_t sequence, const QByteArray &body);
     void addGap(const RecordedGap &gap);
     void addEnd(const RecordedEnd &end);
     void addDigest(const QByteArray &more);
@@ -96,10 +103,15 @@ private:
     std::uint16_t m_before = 0;
     std::uint16_t m_nodes = 0;
     std::uint16_t m_raw = 0;
+    std::uint16_t m_rawInputs = 0;
+    std::uint16_t m_joins = 0;
+    std::uint16_t m_rosters = 0;
     std::uint16_t m_gaps = 0;
     std::uint16_t m_digests = 0;
     QByteArray m_body;
-    QByteArray m_exchange;       // of the newest message of /nodes
+    QByteArray m_exchange;  // of the newest message of /nodes
+    QByteArray m_roster;    // newest message of /rosters
+    std::uint32_t m_rosterNumber = 0;
     std::uint64_t m_next = 0;    // cycle that comes next
     std::uint64_t m_digest = 0;  // after the newest cycle
     std::uint64_t m_cycles = 0;

@@ -262,9 +262,10 @@ double slopeFromText(const QString &text)
 const QStringList &signalKeyNames()
 {
     static const QStringList names
-        = {QStringLiteral("type"),   QStringLiteral("unit"),    QStringLiteral("description"), QStringLiteral("min"),
-           QStringLiteral("max"),    QStringLiteral("initial"), QStringLiteral("safe"),        QStringLiteral("hold"),
-           QStringLiteral("values"), QStringLiteral("writer"),  QStringLiteral("nan"),         QStringLiteral("slope")};
+        = {QStringLiteral("type"),    QStringLiteral("unit"),    QStringLiteral("description"), QStringLiteral("min"),
+           QStringLiteral("max"),     QStringLiteral("initial"), QStringLiteral("safe"),        QStringLiteral("hold"),
+           QStringLiteral("values"),  QStringLiteral("writer"),  QStringLiteral("nan"),         QStringLiteral("slope"),
+           QStringLiteral("volatile")};
     return names;
 }
 
@@ -329,6 +330,8 @@ QString iniSection(const QPlcSignalDefinition &signal)
         lines.append(iniLine(SignalKey::Nan, nanAllowedText()));
     if (signal.slope > 0.0)
         lines.append(iniLine(SignalKey::Slope, slopeText(signal.slope)));
+    if (signal.isVolatile)
+        lines.append(iniLine(SignalKey::Volatile, volatileText()));
     return lines.join(QLatin1Char('\n')) + QLatin1Char('\n');
 }
 

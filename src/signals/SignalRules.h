@@ -21,6 +21,7 @@ enum class SignalKey : quint8 {
     Writer,
     Nan,
     Slope,
+    Volatile,
     Name
 };
 constexpr int signalKeyCount = int(SignalKey::Name);
@@ -40,6 +41,12 @@ QString writersText(const QStringList &writers);
 inline QString nanAllowedText()
 {
     return QStringLiteral("allowed");
+}
+
+/// What stands behind `volatile =` where a signal measures the wall clock.
+inline QString volatileText()
+{
+    return QStringLiteral("yes");
 }
 
 /// "5 per second"

@@ -161,6 +161,7 @@ void TableReader::readValues()
     readWriters();
     readNan();
     readSlope();
+    readVolatile();
 }
 
 void TableReader::readNames()
@@ -211,6 +212,20 @@ void TableReader::readSlope()
     m_errors.add(source.line, source.valueColumn,
                  QStringLiteral("%1 is not a slope; write a positive number, as in 'slope = 5 per second'")
                      .arg(quoted(source.value)));
+}
+
+void TableReader::readVolatile()
+{
+    Entry &source = entry(SignalKey::Volatile);
+    if (source.line == 0 || source.isWrong)
+        return;
+    m_signal.isVolatile = source.value == volatileText();
+    if (m_signal.isVolatile)
+        return;
+    source.isWrong = true;
+    m_errors.add(source.line, source.valueColumn,
+                 QStringLiteral("'volatile' cannot be %1; write 'volatile = %2', or remove the line")
+                     .arg(quoted(source.value), volatileText()));
 }
 
 // Leaves `value` as it is when there is no such key or its text is no such value.

@@ -64,6 +64,7 @@ private:
     void readWriters();
     void readNan();
     void readSlope();
+    void readVolatile();
     void complain(const Complaint &complaint);
     Entry &entry(SignalKey key) { return m_entries[std::size_t(key)]; }
 

@@ -393,6 +393,26 @@ const QVector<Command> &commands()
          1,
          1,
          &writeReport},
+        {"replay",
+         "FILE",
+         "Lets a node compute again what a recording says.",
+         "Needs no master. It starts the program of the node, gives it the inputs of the\n"
+         "recording cycle by cycle, and with --compare compares its outputs with those of\n"
+         "the recording, bit by bit, but for signals that are volatile in the table. The\n"
+         "exit code is 1 when they differ, and 2 when the node cannot be replayed.\n"
+         "With --from, the node computes from its first cycle on, for its state, and\n"
+         "outputs are compared from that time on.",
+         {{"node", "COMMAND", "Program of the node with its arguments, without --master."},
+          {"name", "NODE", "Node in the recording, default the name under which the program registers."},
+          {"compare", "", "Compares outputs, and prints the first difference."},
+          {"from", "SECONDS", "Time in the flight from which outputs are compared, default 0."},
+          {"speed", "SPEED", "lockstep (default: as fast as the node answers), or a factor: 1 is real time."}},
+         {QStringLiteral("qtplc replay flight.mcap --node awe_autopilot --compare"),
+          QStringLiteral("qtplc replay flight.mcap --node 'gdb --args my_node --gain 3' --speed 1")},
+         Command::NoArguments,
+         1,
+         1,
+         &replayRecording},
         {"doctor",
          "",
          "Examines this computer: is it fit for real time?",

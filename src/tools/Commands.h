@@ -114,6 +114,7 @@ int verifyFile(const CommandCall &call);
 int recoverFile(const CommandCall &call);
 int exportRecording(const CommandCall &call);
 int writeReport(const CommandCall &call);
+int replayRecording(const CommandCall &call);
 int showHelp(const CommandCall &call);
 int completeWord(const CommandCall &call);
 

@@ -101,6 +101,9 @@ int listSignals(const CommandCall &call)
         if (!names.isEmpty())
             object.insert(QStringLiteral("names"), names);
         object.insert(QStringLiteral("quality"), qualityOf(row));
+        const QPlcSignalIndex index = table.indexOf(row.name);
+        if (index != QPlcInvalidSignalIndex && table.at(index).isVolatile)
+            object.insert(QStringLiteral("volatile"), true);
         array.append(object);
     }
     printJson(QJsonDocument(array));

@@ -32,6 +32,19 @@ ARROWS = {
     "hardware": {"signals", "realtime", "node", "node/session", "hardware"},
     "models": {"signals", "realtime", "node", "models"},
     "recording": BELOW_NODE | {"node", "node/cycle", "recording"},
+    # A replay is a master of its own.
+    "replay": BELOW_NODE
+    | {
+        "node",
+        "node/state",
+        "node/security",
+        "node/cycle",
+        "node/statistics",
+        "node/session",
+        "node/api",
+        "recording",
+        "replay",
+    },
     "gui": {"signals", "node", "gui"},
     "gui/store": {"signals", "gui/store"},
     "gui/plant": {
@@ -74,7 +87,17 @@ ARROWS = {
     "export": {"signals", "node", "export"},
     "test_support": BELOW_NODE | {"node", "test_support"},
     "tools": BELOW_NODE
-    | {"node", "node/state", "node/security", "node/cycle", "node/statistics", "node/session", "recording", "tools"},
+    | {
+        "node",
+        "node/state",
+        "node/security",
+        "node/cycle",
+        "node/statistics",
+        "node/session",
+        "recording",
+        "replay",
+        "tools",
+    },
 }
 # Room with a library of its own: folder of its list of headers, and its umbrella header. All others
 # belong to QtPlc::Core.
@@ -146,12 +169,13 @@ BY_NAME = re.compile(
     r"|\b(?:QPlc)?Message(?:\s+\w+)?\s*[({]\s*(?:QPlc)?Message::\w+\s*,"
     r"|\{\{QStringLiteral\(\"(?:error|text|name)\"\)"
 )
-# JSON that is no message: settings and layouts of windows, configurations of devices, what
-# transports add to a registration. The tool writes documents for --json, and reads none. All other
-# rooms know no JSON.
+# JSON that is no message: settings and layouts of windows, configurations of devices, channels of
+# recordings, what transports add to a registration. The tool writes documents for --json, and reads
+# none. All other rooms know no JSON.
 HAS_JSON = {
     "transport",
     "hardware",
+    "recording",
     "test_support",
     "gui3d",
     "gui",
@@ -218,6 +242,7 @@ HOSTED = (
     "hardware",
     "models",
     "recording",
+    "replay",
     "tools",
 )
 # A window shows the time of the person before it, and measures its own drawing.
@@ -242,6 +267,7 @@ OF_MACHINE = (
         "a thread",
         "realtime/RealTimeSetup.cpp realtime/StackPrefault.cpp realtime/WakeUpProbe.cpp transport/LoopbackProbe.cpp",
     ),
+    ("runs the program of a node that is replayed", "a process", "replay/NodeProgram.cpp replay/NodeProgram.h"),
     ("measures the machine", "a socket", "transport/LoopbackProbe.cpp"),
     (
         "is the network of the machine, to which hosts have others",

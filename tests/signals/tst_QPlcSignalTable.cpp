@@ -76,6 +76,7 @@ void compareTables(const QPlcSignalTable &a, const QPlcSignalTable &b)
         QCOMPARE(x.writers, y.writers);
         QCOMPARE(x.nanAllowed, y.nanAllowed);
         QCOMPARE(x.slope, y.slope);
+        QCOMPARE(x.isVolatile, y.isVolatile);
     }
     QCOMPARE(a.hash(), b.hash());
 }
@@ -101,10 +102,10 @@ void tst_QPlcSignalTable::tableOfTheThesisIsRead()
 
 void tst_QPlcSignalTable::everyKeyIsRead()
 {
-    const QPlcSignalTable table
-        = read("[wind.speed_2]\nhold = 5 ; cycles\nslope = 2.5 per second\nwriter = Mast\nnan = allowed\nsafe = "
-               "1\ninitial = 0, 1, 2\nmax = 10\nmin = -1e1\n"
-               "description = at the \"mast\"\nunit = m/s\ntype = Real64Triple\n");
+    const QPlcSignalTable table = read("[wind.speed_2]\nhold = 5 ; cycles\nslope = 2.5 per second\nvolatile = "
+                                       "yes\nwriter = Mast\nnan = allowed\nsafe = "
+                                       "1\ninitial = 0, 1, 2\nmax = 10\nmin = -1e1\n"
+                                       "description = at the \"mast\"\nunit = m/s\ntype = Real64Triple\n");
     QCOMPARE(table.size(), 1);
     const QPlcSignalDefinition &signal = table.at(0);
     QCOMPARE(signal.name, QStringLiteral("wind.speed_2"));
@@ -118,6 +119,7 @@ void tst_QPlcSignalTable::everyKeyIsRead()
     QCOMPARE(signal.writers, QStringList{"Mast"});
     QVERIFY(signal.nanAllowed);
     QCOMPARE(signal.slope, 2.5);
+    QVERIFY(signal.isVolatile);
 }
 
 void tst_QPlcSignalTable::initialValueIsZeroByDefault()
@@ -187,7 +189,7 @@ void tst_QPlcSignalTable::iniIsReadBackAsAnEqualTable()
         "[d]\ntype = DateTime\ninitial = 2026-01-31T12:00:00.000000001Z\n"
         "[e]\ntype = Real[3]\nunit = \"; m\"\ndescription = \"a\\nb\"\ninitial = nan, inf, 1\nhold = 7\nnan = allowed\n"
         "[f]\ntype = UInt64[2]\nmax = 18446744073709551615\ninitial = 18446744073709551615\n"
-        "[g]\ntype = Real\nwriter = \"A ; 1 > B\"\nhold = 0\nslope = 0.1 per second\n");
+        "[g]\ntype = Real\nwriter = \"A ; 1 > B\"\nhold = 0\nslope = 0.1 per second\nvolatile = yes\n");
     QCOMPARE(table.size(), 7);
     compareTables(read(table.toIni()), table);
     QCOMPARE(QPlcSignalTable().toIni(), QByteArray());

@@ -102,6 +102,8 @@ void tst_SignalTableErrors::badTextIsRefusedWithPlaceAndRemedy_data()
     row("slope of zero", real + "slope = 0 per second\n", "t.ini:3:9: '0 per second' is not a slope");
     row("negative slope", real + "slope = -1 per second\n", "t.ini:3:9: '-1 per second' is not a slope");
     row("endless slope", real + "slope = inf per second\n", "t.ini:3:9: 'inf per second' is not a slope");
+    row("volatile that is not yes", real + "volatile = no\n",
+        "t.ini:3:12: 'volatile' cannot be 'no'; write 'volatile = yes', or remove the line");
     row("slope of an integer", "[a]\ntype = Int\nslope = 5 per second\n",
         "t.ini:3:9: Int32 cannot change gradually; remove 'slope ='");
     row("open quotation", real + "unit = \"m\n", "t.ini:3:8: the quotation is not closed");

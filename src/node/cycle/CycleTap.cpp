@@ -17,12 +17,26 @@ const char *rawOutputs(const NodeSlot &slot)
     return slot.local ? slot.local->outputs() : slot.decoder.payload();
 }
 
-/// Whether the image does not show all that the node has answered. The answer of a two-phase node
-/// is for the next cycle.
+/// Whether the image does not show what was stored.
+bool isHidden(const NodeSlot &slot) noexcept
+{
+    return slot.exchange.isStored
+        && (slot.exchange.isChanged || slot.paste != &slot.outputs || !slot.paste->contested.empty());
+}
+
+/// The answer of a two-phase node is for the next cycle, and another one may have come since.
 bool hasRawOutputs(const NodeSlot &slot) noexcept
 {
-    return slot.exchange.isStored && !slot.twoPhase
-        && (slot.exchange.isRefused || slot.paste != &slot.outputs || !slot.paste->contested.empty());
+    return !slot.twoPhase && isHidden(slot);
+}
+
+/// Whether the node has got other inputs of the same cycle than those at its end: their writer has
+/// answered too late for it.
+bool hasRawInputs(const NodeSlot &slot, const ProcessImage &image) noexcept
+{
+    const auto differs
+        = [&](const CopyRun &run) { return std::memcmp(image.data() + run.from, slot.inputs + run.to, run.size) != 0; };
+    return slot.due && std::any_of(slot.sameCycleRuns.begin(), slot.sameCycleRuns.end(), differs);
 }
 
 char *append(char *to, const void *bytes, std::uint32_t size) noexcept
@@ -48,11 +62,66 @@ void CycleTap::start(std::shared_ptr<RecordRing> ring, bool waits, std::int64_t 
     m_waits = waits;
     m_givenUpAt = ~std::uint64_t(0);
     m_hasBefore = false;
+    m_rosterText = nullptr;
+    m_roster = {};
+    m_hasNewRoster = false;
     m_gap = {};
     m_end = {};
     m_missing.set(0);
     if (m_ring)
         m_ring->memory().header()->startTime = startTime;
+}
+
+void CycleTap::setRoster(const QByteArray *text, std::uint64_t first) noexcept
+{
+    if (!m_ring)
+        return;
+    m_rosterText = text;
+    const auto length = std::uint32_t(text ? text->size() : 0);
+    m_roster = {first, m_roster.number + 1, length <= m_ring->memory().capacity() / 16 ? length : 0};
+    m_hasNewRoster = true;
+}
+
+/// A recorder that comes later finds one, whatever has been replaced.
+bool CycleTap::wantsRoster() const noexcept
+{
+    const std::uint64_t head = m_ring->memory().header()->head.load(std::memory_order_relaxed);
+    return m_hasNewRoster || (m_roster.number > 0 && head - m_rosterPlace > m_ring->memory().capacity() / 8);
+}
+
+std::uint32_t CycleTap::rosterSize() const noexcept
+{
+    return std::uint32_t(sizeof(RecordHead) + sizeof m_roster) + paddedRecordSize(m_roster.textSize);
+}
+
+void CycleTap::writeRoster() noexcept
+{
+    const std::uint32_t size = rosterSize();
+    char *to = append(m_ring->begin(size), &m_roster, sizeof m_roster);
+    if (m_roster.textSize > 0)
+        append(to, m_rosterText->constData(), m_roster.textSize);
+    m_ring->commit(RecordKind::Roster, size);
+    m_rosterPlace = m_ring->memory().header()->head.load(std::memory_order_relaxed);
+    m_hasNewRoster = false;
+}
+
+/// A recorder that leaves no room for it gets a recording from which this node cannot be replayed.
+void CycleTap::join(const NodeSlot &slot, std::uint64_t first) noexcept
+{
+    if (!m_ring)
+        return;
+    const bool hasOutputs = slot.local || !slot.initialOutputs.empty();
+    RecordedJoin join{first, hasOutputs ? slot.outputLayout.size() : 0, std::uint32_t(slot.initialInputs.size()),
+                      slot.id};
+    const std::uint32_t size = std::uint32_t(sizeof(RecordHead) + sizeof join) + paddedRecordSize(join.outputsSize)
+        + paddedRecordSize(join.inputsSize);
+    if (size + GapSize + EndSize > m_ring->memory().capacity() || !m_ring->hasRoomFor(size + GapSize + EndSize))
+        return;
+    char *to = append(m_ring->begin(size), &join, sizeof join);
+    if (hasOutputs)
+        to = append(to, slot.local ? slot.local->outputs() : slot.initialOutputs.data(), join.outputsSize);
+    append(to, slot.initialInputs.data(), join.inputsSize);
+    m_ring->commit(RecordKind::Join, size);
 }
 
 void CycleTap::keepBefore() noexcept
@@ -82,15 +151,21 @@ void CycleTap::record(const Cycle &cycle, const Roster &roster, const std::atomi
     record.imageSize = m_image.totalSize();
     record.beforeSize = m_hasBefore ? record.imageSize : 0;
     m_hasBefore = false;
-    for (const std::shared_ptr<NodeSlot> &slot : roster.nodes)
+    record.roster = m_roster.number;
+    for (const std::shared_ptr<NodeSlot> &slot : roster.nodes) {
         record.rawSize += hasRawOutputs(*slot) ? paddedRecordSize(slot->outputLayout.size()) : 0;
+        record.rawSize += hasRawInputs(*slot, m_image) ? paddedRecordSize(slot->inputLayout.size()) : 0;
+    }
     const std::uint32_t image = paddedRecordSize(record.imageSize);
     const std::uint32_t size = std::uint32_t(sizeof(RecordHead) + sizeof record + record.nodes * sizeof(RecordedNode))
         + image + (record.beforeSize > 0 ? image : 0) + record.rawSize;
-    if (!makeRoom(size, stop, guard)) {
+    const bool hasRoster = wantsRoster();
+    if (!makeRoom(size + (hasRoster ? rosterSize() : 0), stop, guard)) {
         noteGap(cycle);
         return;
     }
+    if (hasRoster)
+        writeRoster();
     char *to = append(m_ring->begin(size), &record, sizeof record);
     to = writeNodes(roster, to);
     to = append(to, m_image.data(), record.imageSize);
@@ -154,6 +229,7 @@ char *CycleTap::writeNodes(const Roster &roster, char *to) const noexcept
 {
     for (const std::shared_ptr<NodeSlot> &slot : roster.nodes) {
         const bool hasRaw = hasRawOutputs(*slot);
+        const bool hasInputs = hasRawInputs(*slot, m_image);
         const auto flag = [](bool isSet, RecordedNode::Flag value) { return isSet ? std::uint16_t(value) : 0; };
         RecordedNode record{slot->exchange.cycle, slot->exchange.arrival, slot->exchange.info, slot->id};
         record.flags = std::uint16_t(
@@ -162,8 +238,11 @@ char *CycleTap::writeNodes(const Roster &roster, char *to) const noexcept
             | flag(slot->late, RecordedNode::Late) | flag(slot->faulted, RecordedNode::Faulted)
             | flag(slot->isSafe.load(std::memory_order_relaxed), RecordedNode::IsSafe)
             | flag(slot->lost.load(std::memory_order_relaxed), RecordedNode::Lost) | flag(hasRaw, RecordedNode::HasRaw)
-            | flag(slot->local != nullptr, RecordedNode::IsLocal) | flag(slot->listener, RecordedNode::Listens));
+            | flag(slot->local != nullptr, RecordedNode::IsLocal) | flag(slot->listener, RecordedNode::Listens)
+            | flag(hasInputs, RecordedNode::HasInputs) | flag(slot->twoPhase && isHidden(*slot), RecordedNode::Hidden));
         record.rawSize = hasRaw ? slot->outputLayout.size() : 0;
+        record.history = slot->exchange.history;
+        record.inputsSize = hasInputs ? slot->inputLayout.size() : 0;
         to = append(to, &record, sizeof record);
     }
     return to;
@@ -174,6 +253,8 @@ char *CycleTap::writeRaw(const Roster &roster, char *to) const noexcept
     for (const std::shared_ptr<NodeSlot> &slot : roster.nodes) {
         if (hasRawOutputs(*slot))
             to = append(to, rawOutputs(*slot), slot->outputLayout.size());
+        if (hasRawInputs(*slot, m_image))
+            to = append(to, slot->inputs, slot->inputLayout.size());
     }
     return to;
 }

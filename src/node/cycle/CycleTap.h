@@ -45,8 +45,15 @@ public:
     void start(std::shared_ptr<RecordRing> ring, bool waits, std::int64_t startTime);
     /// The image as inputs of the cycle at hand are cut from it, goes into its record.
     void keepBefore() noexcept;
+    /// Whether the last cycle has no record: then the next one needs the image before.
+    bool hasGap() const noexcept { return m_gap.cycles > 0; }
     void record(const Cycle &cycle, const Roster &roster, const std::atomic<bool> &stop,
                 const SafetyGuard &guard) noexcept;
+    /// The nodes of the cycles from now on.
+    /// \param text  RosterContent::toText(); lasts until the next call or the end of the phase
+    void setRoster(const QByteArray *text, std::uint64_t first) noexcept;
+    /// A node takes part from the cycle \a first on; its initial values are there.
+    void join(const NodeSlot &slot, std::uint64_t first) noexcept;
     /// After the last cycle of a phase.
     void end() noexcept;
     /// Cycles of this phase that have no record. \threadsafe yes
@@ -58,6 +65,9 @@ private:
     bool makeRoom(std::uint32_t size, const std::atomic<bool> &stop, const SafetyGuard &guard) noexcept;
     void noteGap(const Cycle &cycle) noexcept;
     bool writeGap() noexcept;
+    bool wantsRoster() const noexcept;
+    std::uint32_t rosterSize() const noexcept;
+    void writeRoster() noexcept;
     char *writeNodes(const Roster &roster, char *to) const noexcept;
     char *writeRaw(const Roster &roster, char *to) const noexcept;
 
@@ -68,6 +78,10 @@ private:
     std::uint64_t m_givenUpAt = ~std::uint64_t(0);  // how far the recorder had got that was not waited for any more
     std::vector<char> m_before;
     bool m_hasBefore = false;
+    const QByteArray *m_rosterText = nullptr;
+    RecordedRoster m_roster;
+    bool m_hasNewRoster = false;      // it is not in the ring
+    std::uint64_t m_rosterPlace = 0;  // behind the newest one in the ring
     RecordedGap m_gap;
     RecordedEnd m_end;
     Counter m_missing;

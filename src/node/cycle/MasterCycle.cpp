@@ -63,6 +63,9 @@ bool MasterCycle::start(const Phase &phase)
     startGuard();
     m_exchange.start(*m_clock, phase.period, phase.clock, m_cycleZero, phase.realTimeOptions.spin);
     m_tap.start(phase.ring, !isTimed, m_wallStart);
+    m_tap.setRoster(&m_roster->text, 0);
+    for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes)
+        m_tap.join(*slot, 0);
     m_hasNewNodes = true;
     m_snapshot.publish(m_image.data(), 0);
     if (phase.clock.isExternal()) {
@@ -156,6 +159,7 @@ void MasterCycle::setRoster(const Roster &roster)
     freeRetired();
     auto copy = std::make_unique<Roster>(roster);
     copy->arrange(m_image);
+    copy->text = copy->describe().toText();
     if (!isRunning()) {
         delete m_pendingRoster.exchange(nullptr);
         adopt(copy.release(), -1);
@@ -284,6 +288,21 @@ void MasterCycle::end() noexcept
 
 MasterCycle::Step MasterCycle::step() noexcept
 {
+    return enterStep();
+}
+
+MasterCycle::Step MasterCycle::step(std::uint64_t number,
+                                    const std::function<void(ProcessImage &image)> &setInputs) noexcept
+{
+    m_givenNumber = number;
+    m_setInputs = &setInputs;
+    const Step result = enterStep();
+    m_setInputs = nullptr;
+    return result;
+}
+
+MasterCycle::Step MasterCycle::enterStep() noexcept
+{
     const StepGate::Answer answer = m_gate.enter();
     if (answer == StepGate::Busy)
         return Step::Busy;
@@ -300,7 +319,10 @@ MasterCycle::Step MasterCycle::step() noexcept
 
 MasterCycle::Step MasterCycle::runStep() noexcept
 {
-    runCycle(m_clock->next([] { return false; }));
+    CycleClock::Tick tick = m_clock->next([] { return false; });
+    if (m_setInputs)
+        tick.cycle = m_givenNumber;
+    runCycle(tick);
     const bool isLast = isBeyondLimit(m_number + 1);
     const bool hasFailed = m_exchange.hasFailed();
     m_hasEnded = isLast || hasFailed;  // the thread of the master hears of a failure a little later
@@ -338,6 +360,7 @@ void MasterCycle::runCycle(const CycleClock::Tick &tick) noexcept
     m_number = tick.cycle;
     m_statistics.begin(tick, m_clock->period());
     m_guard.begin(tick, m_clock->period(), m_phase.clock.isTimed() ? m_time.slept() : 0);
+    m_hasSetValues = m_slopes.isMoving();
     takeCommands();
     endTerms(tick);
     if (m_guard.isTripped())
@@ -346,10 +369,13 @@ void MasterCycle::runCycle(const CycleClock::Tick &tick) noexcept
     writeOwnSignals(tick);
     if (m_guard.isTripped())
         m_roster->safeImage.applyTo(m_image.data());
-    if (m_hasNewNodes)
+    m_exchange.begin(*m_roster, {m_number, tick.lateness, tick.deadline});
+    if (m_setInputs)
+        (*m_setInputs)(m_image);
+    if (m_hasNewNodes || m_hasSetValues || tick.skipped > 0 || m_guard.isTripped() || m_tap.hasGap())
         m_tap.keepBefore();
     m_statistics.stageEnded(CycleStage::Commands, now());
-    m_exchange.run(*m_roster, {m_number, tick.lateness, tick.deadline});
+    m_exchange.run();
     finish(tick);
 }
 
@@ -381,7 +407,7 @@ void MasterCycle::carryOut(const SetCommand &command) noexcept
     // It may have got a writer, which has joined since.
     const bool isOfWriter = m_slopes.isLimited(command.signal) && m_roster->isWritten(command.signal);
     if (command.isEndOfWay || isOfWriter)
-        m_slopes.leave(command.signal);
+        m_slopes.leave(command.signal);  // one that was on its way has set m_hasSetValues
     else
         put(command.signal, command.bytes.data(), command.quality);
 }
@@ -412,6 +438,7 @@ void MasterCycle::put(QPlcSignalIndex signal, const char *bytes, QPlcQuality qua
     else
         std::memcpy(m_image.data() + m_image.offset(signal), bytes, std::size_t(table().at(signal).type.size()));
     m_signalGuard.set(signal, quality);
+    m_hasSetValues = true;
 }
 
 /// \param last  the newest cycle that has ended
@@ -441,6 +468,7 @@ void MasterCycle::adopt(Roster *roster, std::int64_t last) noexcept
             m_signalGuard.keep(SignalGuard::Place(signal));
     }
     m_hasNewNodes = true;
+    m_tap.setRoster(&roster->text, m_number);
     Roster *retired = m_roster.release();
     m_roster.reset(roster);
     m_nextTerm = 0;
@@ -470,6 +498,7 @@ void MasterCycle::join(NodeSlot &slot, std::int64_t last) noexcept
     slot.expectFrom(m_cycleZero + m_number);
     slot.nextTurn = 0;
     slot.behind = false;
+    m_tap.join(slot, m_number);
     if (slot.peer)
         m_hub.attach(slot.peer.get());
 }
@@ -489,7 +518,7 @@ void MasterCycle::valueRefused(std::uint16_t writer, SignalGuard::Place place, c
                                bool isFirst) noexcept
 {
     for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes)
-        slot->exchange.isRefused = slot->exchange.isRefused || slot->id == writer;
+        slot->exchange.isChanged = slot->exchange.isChanged || slot->id == writer;
     if (isFirst)
         m_reports.post({CycleEvent::ValueRefused, writer, std::uint16_t(place), m_number, 0, fault});
 }
@@ -528,7 +557,8 @@ void MasterCycle::record(const CycleClock::Tick &tick) noexcept
     CycleTap::Cycle cycle{m_number, tick.skipped, isTimed ? tick.lateness : 0};
     cycle.flags = flag(m_guard.isTripped(), RecordedCycle::Safe) | flag(tick.caughtUp, RecordedCycle::CaughtUp)
         | flag(std::exchange(m_hasNewNodes, false), RecordedCycle::NewNodes) | flag(isTimed, RecordedCycle::Timed)
-        | flag(m_roster->anyRemote && !m_exchange.isComplete(), RecordedCycle::Incomplete);
+        | flag(m_roster->anyRemote && !m_exchange.isComplete(), RecordedCycle::Incomplete)
+        | flag(m_hasSetValues, RecordedCycle::SetValues);
     cycle.digest = m_digest.load(std::memory_order_relaxed);
     cycle.wallTime = isTimed ? wallClockNow() : 0;
     m_tap.record(cycle, *m_roster, m_stop, m_guard);

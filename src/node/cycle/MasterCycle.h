@@ -20,6 +20,7 @@
 #include "transport/CyclicHub.h"
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -88,6 +89,11 @@ public:
     /// One cycle, on the calling thread. \pre the clock is External, or it is Stopped
     /// \threadsafe yes
     Step step() noexcept;
+    /// As step(), but the cycle has a number and inputs that somebody else knows: those of a
+    /// recording.
+    /// \param number  larger than that of the cycle before
+    /// \param setInputs  is called with the image from which inputs are about to be cut
+    Step step(std::uint64_t number, const std::function<void(ProcessImage &image)> &setInputs) noexcept;
     /// Waits until the cycle in progress has ended. The hub then holds the nodes of the last
     /// roster.
     void stop();
@@ -157,6 +163,7 @@ private:
     };
 
     void run() noexcept;
+    Step enterStep() noexcept;
     Step runStep() noexcept;
     void runSafely() noexcept;
     void end() noexcept;
@@ -214,11 +221,14 @@ private:
     std::optional<CycleClock> m_clock;
     std::unique_ptr<Roster> m_roster;
     std::uint64_t m_cycleZero = 0;
-    std::uint64_t m_number = 0;    // of the cycle in progress, from 0
-    std::int64_t m_wallStart = 0;  // [ns since 1970]
-    std::int64_t m_nextTerm = 0;   // [ns] no term of the roster is over before
-    bool m_hasNewNodes = false;    // since the last cycle, or their signals have been taken over
-    bool m_hasEnded = false;       // External: the limit is reached, or a node has failed
+    std::uint64_t m_number = 0;       // of the cycle in progress, from 0
+    std::int64_t m_wallStart = 0;     // [ns since 1970]
+    std::int64_t m_nextTerm = 0;      // [ns] no term of the roster is over before
+    bool m_hasNewNodes = false;       // since the last cycle, or their signals have been taken over
+    bool m_hasSetValues = false;      // since the last cycle, or signals have moved on their slopes
+    bool m_hasEnded = false;          // External: the limit is reached, or a node has failed
+    std::uint64_t m_givenNumber = 0;  // of the step at hand, if m_setInputs is there
+    const std::function<void(ProcessImage &image)> *m_setInputs = nullptr;
 
     // both
     std::atomic<std::uint64_t> m_cycle{0};

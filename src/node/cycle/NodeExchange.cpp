@@ -39,8 +39,7 @@ void NodeExchange::start(CycleClock &grid, std::chrono::nanoseconds period, QPlc
     m_hasFailed = false;
 }
 
-/// Everything that nodes and master exchange in a cycle stands here, in order.
-void NodeExchange::run(const Roster &roster, const Cycle &cycle) noexcept
+void NodeExchange::begin(const Roster &roster, const Cycle &cycle) noexcept
 {
     const bool hasSkipped = cycle.number > m_cycle.number + 1;
     m_roster = &roster;
@@ -50,6 +49,12 @@ void NodeExchange::run(const Roster &roster, const Cycle &cycle) noexcept
     m_isSafe = m_guard.isTripped();
     if (hasSkipped && !m_isSafe)
         m_signalGuard.settle(guardCycle() - 1);  // what has no new value is older by the cycles that were left out, too
+}
+
+/// Everything that nodes and master exchange in a cycle stands here, in order.
+void NodeExchange::run() noexcept
+{
+    const Roster &roster = *m_roster;
     cutInputs();
     m_signalGuard.ageAbandoned(guardCycle());
     pasteKnownOutputs();
@@ -77,7 +82,7 @@ void NodeExchange::cutInputs() noexcept
 {
     for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
         slot->asked = slot->awaited = slot->answered = slot->late = false;
-        slot->exchange.isStored = slot->exchange.isRefused = false;
+        slot->exchange.isStored = slot->exchange.isChanged = false;
         slot->due = slot->takesTurn(m_cycle.number);
         if (!slot->due)
             continue;
@@ -228,7 +233,7 @@ void NodeExchange::stepLocalNodes(const Stage &stage) noexcept
             slot.local->makeSafe(QPlcSlaveNode::MasterStopsSafely);
         slot.computed = slot.local->step(QPlcCycle(m_cycle.number, m_period, missed), slot.inputs);
         slot.answered = true;
-        slot.exchange.cycle = m_cycle.number;
+        slot.exchange.note(m_cycle.number, 0);
         slot.exchange.arrival = m_clock.isTimed() ? slot.local->endOfStep() : 0;
         setFaulted(slot, !slot.computed);
         if (slot.local->wantsSafeStop())
@@ -477,7 +482,7 @@ void NodeExchange::handleAnswer(NodeSlot &slot, const char *frame, std::size_t s
         m_guard.askedBy(slot, m_cycle.number);
     const std::int64_t arrival = now();
     slot.statistics.answered(slot.decoder.cycle() - m_cycleZero, arrival, slot.decoder.header().info);
-    slot.exchange.cycle = slot.decoder.cycle() - m_cycleZero;
+    slot.exchange.note(slot.decoder.cycle() - m_cycleZero, slot.decoder.header().before);
     slot.exchange.arrival = arrival;
     slot.exchange.info = m_clock.isTimed() ? slot.decoder.header().info : 0;
     if (current)
@@ -527,6 +532,7 @@ void NodeExchange::store(NodeSlot &slot, const char *outputs, std::int64_t cycle
 {
     const std::int64_t written = slot.listener ? guardCycle() : cycle;
     slot.exchange.isStored = true;
+    slot.exchange.isChanged = written != guardCycle() || slot.outputs.hasDoubt(outputs);
     m_signalGuard.store(*slot.paste, slot.written, outputs, written, guardCycle());
     m_signalGuard.claim(*slot.paste, slot.written, slot.claims, outputs, written);
 }

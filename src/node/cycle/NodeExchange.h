@@ -42,8 +42,10 @@ public:
     /// \param spin  [ns] to look for answers again and again before a sleep
     void start(CycleClock &grid, std::chrono::nanoseconds period, QPlcClock clock, std::uint64_t cycleZero,
                std::int64_t spin);
-    /// One cycle with all nodes of \a roster.
-    void run(const Roster &roster, const Cycle &cycle) noexcept;
+    /// A cycle with all nodes of \a roster begins: the image is then as inputs are cut from it.
+    void begin(const Roster &roster, const Cycle &cycle) noexcept;
+    /// The cycle that has begun.
+    void run() noexcept;
     /// Whether all nodes but listeners have answered in the last cycle.
     bool isComplete() const noexcept;
     /// Whether the code of a node has failed in this phase without which it cannot go on: of any

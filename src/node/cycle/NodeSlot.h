@@ -36,8 +36,22 @@ struct NodeSlot
         std::uint64_t cycle = RecordedNode::NoCycle;  // newest request that it has answered
         std::int64_t arrival = 0;                     // of that answer [ns]
         std::uint32_t info = 0;                       // of that answer
+        std::uint32_t history = 0;                    // see RecordedNode
         bool isStored = false;                        // an answer, in this cycle
-        bool isRefused = false;                       // a value of it
+        bool isChanged = false;                       // the image may not have its values as they came
+
+        /// An answer to the request of \a answered. \param before  [cycles] back to the one that
+        ///     the node has computed before; 0: it does not say
+        void note(std::uint64_t answered, std::uint64_t before) noexcept
+        {
+            const std::uint64_t step = cycle == RecordedNode::NoCycle || answered <= cycle ? 0 : answered - cycle;
+            history = step >= 32 ? 0 : history << step;
+            for (const std::uint64_t known : {step, before}) {
+                if (known >= 1 && known <= 32)
+                    history |= std::uint32_t(1) << (known - 1);
+            }
+            cycle = answered;
+        }
     };
 
     // ---- constant after registration ----
@@ -61,6 +75,7 @@ struct NodeSlot
     std::vector<CopyRun> sameCycleRuns;  // image -> same-cycle inputs, again when their writers have answered
     SignalGuard::Frame outputs;          // outputs -> image
     std::vector<char> initialOutputs;    // pasted into the image when a node joins while others run
+    std::vector<char> initialInputs;     // that it was given before its first cycle
 
     // ---- cycle thread ----
     const SignalGuard::Frame *paste = nullptr;  // outputs, or those of them that the roster does not hold

@@ -13,14 +13,17 @@ namespace qplc {
 /// not empty, the image before and the raw outputs, each padded to 8 bytes.
 ///
 /// The inputs that a node gets in cycle k are a function of the records k-1 and k. If the record k
-/// has an image before, it shows what inputs of cycle k were cut from. Otherwise, signals that the
-/// master writes (set values, leases, slopes, its own signals) have in the record k the value that
-/// inputs of cycle k have seen; signals that a node writes have it in the record k-1. Inputs that
-/// are read in the same cycle come from the record k, or from raw outputs of their writer.
+/// has an image before, it shows what inputs of cycle k were cut from: values were set, nodes or
+/// leases have changed, cycles were skipped or have no record, or the master stops safely.
+/// Otherwise the own signals of the master (RingDescription) are as in the record k, and all others
+/// as in the record k-1. Inputs of the same cycle are as in the record k, unless the record has raw
+/// inputs of the node: then these are what was sent.
 enum class RecordKind : std::uint16_t {
-    Cycle = 1,  ///< RecordedCycle and what follows it
-    Gap = 2,    ///< RecordedGap: cycles without a record
-    End = 3     ///< RecordedEnd: the phase is over, and nothing follows
+    Cycle = 1,   ///< RecordedCycle and what follows it
+    Gap = 2,     ///< RecordedGap: cycles without a record
+    End = 3,     ///< RecordedEnd: the phase is over, and nothing follows
+    Roster = 4,  ///< RecordedRoster and its text: the nodes of the cycles from `first` on
+    Join = 5     ///< RecordedJoin, initial outputs and inputs: a node takes part from `first` on
 };
 
 struct RecordHead
@@ -34,11 +37,12 @@ struct RecordHead
 struct RecordedCycle
 {
     enum Flag : std::uint32_t {
-        Safe = 1,        ///< the master has stopped safely: values of nodes were not taken
-        CaughtUp = 2,    ///< its period was over before it began
-        NewNodes = 4,    ///< nodes have joined or left, or leases have changed, before this cycle
-        Timed = 8,       ///< the times of this record are real
-        Incomplete = 16  ///< a node that was asked, and is no listener, has not answered
+        Safe = 1,         ///< the master has stopped safely: values of nodes were not taken
+        CaughtUp = 2,     ///< its period was over before it began
+        NewNodes = 4,     ///< nodes have joined or left, or leases have changed, before this cycle
+        Timed = 8,        ///< the times of this record are real
+        Incomplete = 16,  ///< a node that was asked, and is no listener, has not answered
+        SetValues = 32    ///< signals were set, or have moved on their slopes, before this cycle
     };
 
     std::uint64_t number = 0;      ///< of the cycle, from 0 in each phase
@@ -50,24 +54,26 @@ struct RecordedCycle
     std::uint32_t nodes = 0;       ///< RecordedNodes
     std::uint32_t imageSize = 0;   ///< [byte]
     std::uint32_t beforeSize = 0;  ///< [byte] of the image before; 0 or imageSize
-    std::uint32_t rawSize = 0;     ///< [byte] of all raw outputs, with their padding
-    std::uint32_t reserved = 0;
+    std::uint32_t rawSize = 0;     ///< [byte] of all raw outputs and inputs, with their padding
+    std::uint32_t roster = 0;      ///< number of the RecordedRoster; 0: there is none
 };
 
 /// What the master has exchanged with a node in a cycle.
 struct RecordedNode
 {
     enum Flag : std::uint16_t {
-        Asked = 1,      ///< a request was sent, or the local node was called
-        Answered = 2,   ///< the answer to this cycle has come
-        Stored = 4,     ///< an answer was stored in this cycle; `cycle` says to which request
-        Late = 8,       ///< counted as late
-        Faulted = 16,   ///< its code has failed
-        IsSafe = 32,    ///< it is in its safe state
-        Lost = 64,      ///< its connection is lost
-        HasRaw = 128,   ///< its outputs are among the raw ones: the image does not show all of them
-        IsLocal = 256,  ///< of the process of the master
-        Listens = 512   ///< nobody waits for it
+        Asked = 1,         ///< a request was sent, or the local node was called
+        Answered = 2,      ///< the answer to this cycle has come
+        Stored = 4,        ///< an answer was stored in this cycle; `cycle` says to which request
+        Late = 8,          ///< counted as late
+        Faulted = 16,      ///< its code has failed
+        IsSafe = 32,       ///< it is in its safe state
+        Lost = 64,         ///< its connection is lost
+        HasRaw = 128,      ///< its outputs are among the raw ones: the image does not show all of them
+        IsLocal = 256,     ///< of the process of the master
+        Listens = 512,     ///< nobody waits for it
+        HasInputs = 1024,  ///< its inputs are among the raw ones: the images do not show all of them
+        Hidden = 2048      ///< two-phase: neither the image nor raw outputs show what was stored
     };
 
     std::uint64_t cycle = 0;   ///< newest request that it has answered; NoCycle: none yet
@@ -76,6 +82,10 @@ struct RecordedNode
     std::uint16_t id = 0;
     std::uint16_t flags = 0;    ///< of Flag
     std::uint32_t rawSize = 0;  ///< [byte] of its raw outputs, without their padding
+    /// Which requests before `cycle` it has computed, as far as its answers say: bit i stands for
+    /// the request of cycle - 1 - i.
+    std::uint32_t history = 0;
+    std::uint32_t inputsSize = 0;  ///< [byte] of its raw inputs, without their padding
     std::uint32_t reserved = 0;
 
     static constexpr std::uint64_t NoCycle = ~std::uint64_t(0);
@@ -99,8 +109,29 @@ struct RecordedEnd
     std::uint64_t missing = 0;  ///< cycles without a record, of all gaps
 };
 
-static_assert(sizeof(RecordHead) == 16 && sizeof(RecordedCycle) == 64 && sizeof(RecordedNode) == 32
-              && sizeof(RecordedGap) == 40 && sizeof(RecordedEnd) == 32);
+/// The nodes of the cycles from `first` on. It comes before the first of these cycles, and again
+/// from time to time: the first one may have been replaced.
+struct RecordedRoster
+{
+    std::uint64_t first = 0;
+    std::uint32_t number = 0;    ///< from 1 in each phase
+    std::uint32_t textSize = 0;  ///< [byte] of the JSON that follows: RosterContent::toText(). 0: it is too long
+};
+
+/// A node takes part in the cycles from `first` on. What it was given before that follows: first
+/// the initial outputs that it has sent, then its initial inputs, each padded.
+struct RecordedJoin
+{
+    std::uint64_t first = 0;
+    std::uint32_t outputsSize = 0;  ///< [byte]
+    std::uint32_t inputsSize = 0;   ///< [byte]
+    std::uint16_t id = 0;           ///< of the node
+    std::uint16_t reserved[3] = {};
+};
+
+static_assert(sizeof(RecordHead) == 16 && sizeof(RecordedCycle) == 64 && sizeof(RecordedNode) == 40
+              && sizeof(RecordedGap) == 40 && sizeof(RecordedEnd) == 32 && sizeof(RecordedRoster) == 16
+              && sizeof(RecordedJoin) == 24);
 
 /// \a size, rounded up to a multiple of 8.
 constexpr std::uint32_t paddedRecordSize(std::uint32_t size)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "RingDescription.h"
 
+#include "RosterText.h"
+
 #include <QtCore/QMap>
 
 namespace qplc {
@@ -30,6 +32,7 @@ QByteArray RingDescription::toText() const
     add("period_ns", QByteArray::number(period));
     add("clock", textOf(clock));
     add("scale", QByteArray::number(scale, 'g', 17));
+    add("own_signals", rangesText(ownSignals));
     return text + '\n' + table;
 }
 
@@ -53,6 +56,7 @@ bool RingDescription::fromText(const QByteArray &text, RingDescription *descript
     description->period = values.value("period_ns").toLongLong();
     description->clock = QString::fromUtf8(values.value("clock"));
     description->scale = values.value("scale").toDouble();
+    description->ownSignals = signalsIn(values.value("own_signals"));
     description->table = text.mid(end + 2);
     return values.value("format") == format && description->period > 0;
 }

@@ -1,22 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "QPlcGlobal.h"
+
 #include <QtCore/QByteArray>
 #include <QtCore/QString>
+#include <QtCore/QVector>
 
 namespace qplc {
 
 /// What a ring says of the phase whose cycles it shows; the same text describes a recording.
 struct RingDescription
 {
-    QString plant;        // name of the master, or of its program
-    QString version;      // of QtPLC
-    quint64 session = 0;  // of the master
-    quint64 phase = 0;    // of this session, from 1
-    qint64 period = 0;    // between two cycles, as nodes see it [ns]
-    QString clock;        // "real-time", "scaled", "lockstep" or "external"
-    double scale = 1.0;   // simulated seconds per second; 0: not timed
-    QByteArray table;     // signal table, INI
+    QString plant;                        // name of the master, or of its program
+    QString version;                      // of QtPLC
+    quint64 session = 0;                  // of the master
+    quint64 phase = 0;                    // of this session, from 1
+    qint64 period = 0;                    // between two cycles, as nodes see it [ns]
+    QString clock;                        // "real-time", "scaled", "lockstep" or "external"
+    double scale = 1.0;                   // simulated seconds per second; 0: not timed
+    QVector<QPlcSignalIndex> ownSignals;  // that the master writes in each cycle
+    QByteArray table;                     // signal table, INI
 
     /// "key: value" lines, an empty line, and the table.
     QByteArray toText() const;

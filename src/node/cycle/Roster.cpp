@@ -61,6 +61,43 @@ void Roster::arrange(const ProcessImage &image)
     safeImage = SafeImage(image, safe);
 }
 
+RosterContent Roster::describe() const
+{
+    RosterContent content;
+    const auto signalsOf = [](const PayloadLayout &layout) {
+        QVector<QPlcSignalIndex> indices;
+        for (const PayloadLayout::Field &field : layout.fields())
+            indices.append(field.signal);
+        return indices;
+    };
+    for (std::size_t stage = 0; stage < stages.size(); ++stage) {
+        for (const Turn &turn : stages[stage]) {
+            const NodeSlot &slot = *turn.slot;
+            RosterNode node;
+            node.name = slot.name;
+            node.id = slot.id;
+            node.inputs = signalsOf(slot.inputLayout);
+            node.outputs = signalsOf(slot.outputLayout);
+            for (const bool isSame : slot.sameCycle)
+                node.sameCycle.append(isSame);
+            node.hasInputQualities = slot.inputLayout.hasQualities();
+            node.hasOutputQualities = slot.outputLayout.hasQualities();
+            node.isTwoPhase = slot.twoPhase;
+            node.isListener = slot.listener;
+            node.isLocal = slot.local != nullptr;
+            node.hasDevices = slot.hardware;
+            node.interval = quint64(slot.interval.cycles());
+            node.stage = int(stage);
+            content.nodes.append(node);
+        }
+    }
+    for (std::size_t signal = 0; signal < held.size(); ++signal) {
+        if (held[signal])
+            content.held.append(QPlcSignalIndex(signal));
+    }
+    return content;
+}
+
 bool Roster::isNeutral(QPlcSignalIndex signal) const noexcept
 {
     const auto found

@@ -4,6 +4,7 @@
 #include "LeaseTerm.h"
 #include "NodeSlot.h"
 #include "QPlcSchedule.h"
+#include "RosterText.h"
 #include "SafeValues.h"
 #include "Schedule.h"
 
@@ -51,9 +52,12 @@ struct Roster
     std::vector<SignalGuard::Frame> pasted{};      // of each node, without what is held; empty: nothing is
     std::vector<SignalGuard::Contest> contests{};  // signals that several nodes may write, but for what is held
     bool anyRemote = false;
+    QByteArray text{};  // describe(), for recordings
 
     /// Puts the nodes into stages. \pre they have no algebraic loop: NodeRegistry admits none
     void arrange(const ProcessImage &image);
+    /// What recordings say of it. \pre it is arranged
+    RosterContent describe() const;
     bool isWritten(QPlcSignalIndex signal) const noexcept { return signal < written.size() && written[signal]; }
     /// Whether \a signal is held, and its holder lost.
     bool isNeutral(QPlcSignalIndex signal) const noexcept;

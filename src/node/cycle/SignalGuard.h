@@ -6,6 +6,7 @@
 #include "signals/PayloadRules.h"
 #include "signals/ProcessImage.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -71,6 +72,12 @@ public:
         ValueFault fault(const Field &field, const char *payload) const noexcept
         {
             return quality(field, payload).isUsable() ? rules.fault(field.number, payload) : ValueFault();
+        }
+        /// Whether the writer calls a value anything but Good.
+        bool hasDoubt(const char *payload) const noexcept
+        {
+            return std::any_of(payload + qualities, payload + qualities + qualityCount,
+                               [](char quality) { return quality != 0; });
         }
         /// Whether every value is good and allowed.
         bool isGood(const char *payload) const noexcept

@@ -55,9 +55,12 @@ void InitialValues::allTaken()
     m_cycle.initialOutputsTaken(roster);
 }
 
-QByteArray InitialValues::inputsOf(const NodeSlot &slot) const
+QByteArray InitialValues::inputsFor(NodeSlot &slot) const
 {
-    return m_cycle.gather(slot.inputRuns, slot.inputLayout.size());
+    const bool isRecorded = !m_recorded.isEmpty() && std::uint32_t(m_recorded.size()) == slot.inputLayout.size();
+    const QByteArray inputs = isRecorded ? m_recorded : m_cycle.gather(slot.inputRuns, slot.inputLayout.size());
+    slot.initialInputs.assign(inputs.begin(), inputs.end());
+    return inputs;
 }
 
 }  // namespace qplc

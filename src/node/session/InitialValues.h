@@ -26,8 +26,11 @@ public:
     void store(NodeSlot &slot, const QByteArray &outputs);
     /// The outputs of all nodes have been taken. \pre no cycle runs
     void allTaken();
-    /// The inputs of a node, with the newest values; also while cycles run.
-    QByteArray inputsOf(const NodeSlot &slot) const;
+    /// The inputs of a node that is about to get them, with the newest values; also while cycles
+    /// run.
+    QByteArray inputsFor(NodeSlot &slot) const;
+    /// Instead of the newest values, nodes get those of a recording; empty: the newest ones.
+    void setRecordedInputs(const QByteArray &inputs) { m_recorded = inputs; }
     /// Number on the wire of cycle 0 of the phase at hand.
     std::uint64_t cycleZero() const { return m_cycle.cycleZero(); }
 
@@ -36,6 +39,7 @@ private:
     const NodeRegistry &m_registry;
     const Leases &m_leases;
     StatisticSignals &m_statistics;
+    QByteArray m_recorded;
 };
 
 }  // namespace qplc

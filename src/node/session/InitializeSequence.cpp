@@ -82,7 +82,7 @@ void InitializeSequence::distributeInputs()
     for (const auto &listener : m_nodes.listeners())
         m_join.goOn(*listener);
     for (const auto &node : nodes) {
-        const std::optional<NodeSession::Answer> answer = node->giveInputs(m_values.inputsOf(*node->slot()));
+        const std::optional<NodeSession::Answer> answer = node->giveInputs(m_values.inputsFor(*node->slot()));
         if (!m_step.isStill(step) || (answer && !accept(*node, *answer)))
             return;
     }

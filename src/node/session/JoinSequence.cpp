@@ -70,7 +70,7 @@ void JoinSequence::goOn(NodeSession &node)
     if (node.stage() == NodeSession::OutputsGiven && m_step.kind() != SequenceStep::CollectOutputs) {
         node.setStage(NodeSession::Initializing);
         waitForAnswer();
-        node.giveInputs(m_values.inputsOf(*node.slot()));
+        node.giveInputs(m_values.inputsFor(*node.slot()));
     } else if (node.stage() == NodeSession::Initialized && mayStart) {
         node.setStage(NodeSession::Starting);
         waitForAnswer();

@@ -24,6 +24,7 @@ struct PhaseSettings
     std::optional<std::chrono::nanoseconds> longestWait;  // else as the profile says
     std::optional<std::chrono::nanoseconds> gapLimit;     // likewise
     int overrunLimit = 0;
+    bool hasRing = true;  // cycles can be recorded
 };
 
 }  // namespace qplc

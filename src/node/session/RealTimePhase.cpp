@@ -43,11 +43,17 @@ MasterCycle::Phase RealTimePhase::settingsOfCycles() const
 /// After renewRoster(): the nodes of the phase make the size of a record.
 std::shared_ptr<RecordRing> RealTimePhase::makeRing()
 {
+    if (!m_settings.hasRing)
+        return nullptr;
     static const char *const names[] = {"real-time", "scaled", "lockstep", "external"};
     RingDescription description;
     description.period = m_settings.interval.count();
     description.clock = QString::fromLatin1(names[m_settings.clock.kind()]);
     description.scale = m_settings.clock.scale();
+    for (const OwnSignals::Role role : {OwnSignals::Time, OwnSignals::Jitter, OwnSignals::Workload}) {
+        if (m_ownSignals.index(role) != QPlcInvalidSignalIndex)
+            description.ownSignals.append(m_ownSignals.index(role));
+    }
     description.table = m_cycle.table().toIni();
     return m_ring.make(description, CycleTap::usualSize(m_cycle.image(), m_registry.nodes().size()));
 }

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "recording/RecordedCycles.h"
+
+#include <optional>
+
+namespace qplc {
+
+/// What a recording says of a node from its registration to its end: what it was, with what it
+/// began, and which cycles it has computed.
+struct NodePassage
+{
+    RosterNode node;
+    std::optional<RecordedStart> start;  // none: it has begun before the recording
+    std::uint64_t first = 0;             // cycle
+    std::vector<bool> computed;          // from the cycle `first` on
+    std::uint64_t lostAtFirst = 0;       // requests before the first one that it has computed
+    /// From here on the inputs of some cycle are missing, or the master stops safely.
+    std::optional<std::uint64_t> end;
+    QString endReason;
+
+    bool hasComputed(std::uint64_t cycle) const
+    {
+        return cycle >= first && cycle - first < computed.size() && computed[std::size_t(cycle - first)];
+    }
+    /// Number of cycles that it has computed, until `end`.
+    std::uint64_t count() const;
+};
+
+/// Reads the passages of the node \a name: each registration makes one, in their order.
+/// \return false when the recording cannot be read, or does not know such a node
+bool readPassages(const QString &file, const QString &name, std::vector<NodePassage> *passages, QString *error);
+
+/// What the recording says of its phase. \return false when it cannot be read
+bool readDescription(const QString &file, RingDescription *description, QPlcSignalTable *table, QString *error);
+
+}  // namespace qplc
