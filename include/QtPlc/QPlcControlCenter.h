@@ -81,6 +81,7 @@ public:
     /// Nothing in it can be commanded.
     ///
     /// \code
+    /// QPlcControlCenter controlCenter;
     /// QString error;
     /// if (controlCenter.openRecording({"flight.mcap"}, &error).isEmpty())
     ///     qWarning("%s", qPrintable(error));
