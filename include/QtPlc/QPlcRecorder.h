@@ -44,7 +44,8 @@ public:
         Off,        ///< it has not been started
         Waiting,    ///< no phase is running
         Recording,  ///< cycles go into a file
-        Retrying    ///< the file cannot be written; the recorder tries again each second
+        Retrying,   ///< the file cannot be written; the recorder tries again each second
+        Paused      ///< `qtplc record stop FOLDER` wants that nothing is recorded
     };
     Q_ENUM(State)
     /// Why a function has failed.

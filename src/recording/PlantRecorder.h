@@ -67,6 +67,7 @@ public:
     void detach() { m_reader.detach(); }
     /// Deletes the ring, whose records are all in the file.
     void removeRing() { m_reader.memory().remove(); }
+    QByteArray ringFile() { return m_reader.memory().file(); }
     /// What has begun since the last call, of Trigger.
     std::uint8_t takeTriggers() { return std::exchange(m_triggers, std::uint8_t(0)); }
 

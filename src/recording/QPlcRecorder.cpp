@@ -204,7 +204,7 @@ QPlcRecorder::Status QPlcRecorder::status() const
     if (!d->thread)
         return status;
     const RecorderLoop::Status now = d->thread->status();
-    status.state = now.hasFailed ? Retrying : now.phases > 0 ? Recording : Waiting;
+    status.state = now.isStopped ? Paused : now.hasFailed ? Retrying : now.phases > 0 ? Recording : Waiting;
     status.file = now.file;
     status.cycles = now.cycles;
     status.missing = now.missing;

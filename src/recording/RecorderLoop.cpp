@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "RecorderLoop.h"
 
+#include "RecorderControl.h"
 #include "RingFiles.h"
 
 #include <QtCore/QFile>
@@ -19,6 +20,7 @@ constexpr std::int64_t LookForRecords = 5 * Millisecond;         // between two 
 constexpr std::int64_t LookForRings = 200 * Millisecond;         //
 constexpr std::int64_t SaveAfter = NanosecondsPerSecond;         // a loss of power costs no more
 constexpr std::int64_t TryAgainAfter = NanosecondsPerSecond;     // when the file could not be written
+constexpr std::int64_t TellAfter = NanosecondsPerSecond;         // other programs, what goes on
 constexpr std::int64_t MeasureAfter = 2 * NanosecondsPerSecond;  //
 constexpr std::int64_t CleanAfter = 60'000;                      // [ms]
 constexpr std::int64_t Never = std::numeric_limits<std::int64_t>::min() / 2;
@@ -47,6 +49,8 @@ RecorderLoop::RecorderLoop(const Settings &settings, Disk &disk)
     , m_disk(disk)
     , m_folder(disk)
     , m_looked(Never)
+    , m_controlled(Never)
+    , m_told(Never)
     , m_measured(Never)
 {
 }
@@ -70,6 +74,11 @@ bool RecorderLoop::open(QString *error)
 
 void RecorderLoop::add(std::unique_ptr<PlantRecorder> recorder)
 {
+    if (m_status.isStopped) {
+        m_left.append(recorder->ringFile());
+        recorder->detach();
+        return;
+    }
     auto recording = std::make_unique<Recording>();
     if (m_settings.file.isEmpty())
         recorder->goOnFrom(m_folder.position(recorder->description()));
@@ -92,6 +101,60 @@ void RecorderLoop::look()
         else
             recorder->detach();
     }
+}
+
+/// What people want of the recorder of a folder.
+void RecorderLoop::control(std::int64_t now, std::int64_t wallClock)
+{
+    const bool isStopped = RecorderControl::isStopped(m_folder.path());
+    if (isStopped != m_status.isStopped)
+        setStopped(isStopped, wallClock);
+    if (RecorderControl::takeMark(m_folder.path()))
+        mark(now);
+    if (now - m_told >= TellAfter) {
+        m_told = now;
+        tell(now);
+    }
+}
+
+/// Rings that are left show the last seconds, and are recorded from there on after a start.
+void RecorderLoop::setStopped(bool isStopped, std::int64_t wallClock)
+{
+    m_status.isStopped = isStopped;
+    if (isStopped) {
+        for (const std::unique_ptr<Recording> &recording : m_recordings)
+            m_left.append(recording->recorder->ringFile());
+        if (!end(wallClock, &m_error))
+            m_status.error = m_error;
+        m_status.hasFailed = false;
+        return;
+    }
+    const QVector<QByteArray> left = std::exchange(m_left, {});
+    for (const QByteArray &ring : left) {
+        auto recorder = std::make_unique<PlantRecorder>();
+        QString error;  // the phase may be over, and the ring deleted
+        if (recorder->attach(ring, &error))
+            add(std::move(recorder));
+    }
+}
+
+void RecorderLoop::tell(std::int64_t now)
+{
+    measure(now);
+    const char *state = m_status.isStopped ? "stopped"
+        : m_status.hasFailed               ? "retrying"
+        : m_status.phases > 0              ? "recording"
+                                           : "waiting";
+    RecorderControl::tell(m_folder.lockDescriptor(),
+                          {{"state", state},
+                           {"phases", QByteArray::number(m_status.phases)},
+                           {"file", m_status.file.toUtf8()},
+                           {"cycles", QByteArray::number(m_status.cycles)},
+                           {"missing", QByteArray::number(m_status.missing)},
+                           {"bytes", QByteArray::number(m_status.bytes)},
+                           {"bytes_per_second", QByteArray::number(m_status.bytesPerSecond, 'f', 0)},
+                           {"free_bytes", QByteArray::number(m_status.freeBytes)},
+                           {"error", m_status.error.toUtf8()}});
 }
 
 QString RecorderLoop::nextFile()
@@ -247,7 +310,11 @@ void RecorderLoop::measure(std::int64_t now)
 
 std::int64_t RecorderLoop::proceed(std::int64_t now, std::int64_t wallClock)
 {
-    if (m_settings.looksForRings && now - m_looked >= LookForRings) {
+    if (m_settings.file.isEmpty() && now - m_controlled >= LookForRings) {
+        m_controlled = now;
+        control(now, wallClock);
+    }
+    if (m_settings.looksForRings && !m_status.isStopped && now - m_looked >= LookForRings) {
         m_looked = now;
         look();
     }

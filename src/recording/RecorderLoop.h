@@ -47,6 +47,7 @@ public:
     struct Status
     {
         int phases = 0;             // that are being recorded
+        bool isStopped = false;     // somebody wants that nothing is recorded
         bool hasFailed = false;     // files cannot be written at the moment
         QString error;              // the newest one
         QString file;               // the newest one
@@ -79,6 +80,9 @@ private:
     struct Recording;
 
     void look();
+    void control(std::int64_t now, std::int64_t wallClock);
+    void setStopped(bool isStopped, std::int64_t wallClock);
+    void tell(std::int64_t now);
     bool openFile(Recording *recording, std::int64_t now, std::int64_t wallClock);
     void step(Recording *recording, std::int64_t now, std::int64_t wallClock);
     bool save(Recording *recording, std::int64_t now);
@@ -97,12 +101,15 @@ private:
     std::function<void(const FileNews &)> m_tell;
     Status m_status;
     QString m_error;
-    int m_files = 0;               // that --record FILE has made
-    std::int64_t m_looked = 0;     // [ns]
-    std::int64_t m_cleaned = 0;    // [ms]
-    std::int64_t m_measured = 0;   // [ns]
-    std::uint64_t m_finished = 0;  // [byte] of files that are finished
-    std::uint64_t m_before = 0;    // [byte] at m_measured
+    int m_files = 0;                // that --record FILE has made
+    QVector<QByteArray> m_left;     // rings that are not recorded since the stop
+    std::int64_t m_looked = 0;      // [ns]
+    std::int64_t m_controlled = 0;  // [ns]
+    std::int64_t m_told = 0;        // [ns]
+    std::int64_t m_cleaned = 0;     // [ms]
+    std::int64_t m_measured = 0;    // [ns]
+    std::uint64_t m_finished = 0;   // [byte] of files that are finished
+    std::uint64_t m_before = 0;     // [byte] at m_measured
 };
 
 }  // namespace qplc

@@ -115,8 +115,8 @@ void RecorderThread::publish()
         const std::lock_guard<std::mutex> lock(m_mutex);
         const RecorderLoop::Status former = std::exchange(m_status, m_loop.status());
         m_status.phases += int(m_new.size());
-        isNews
-            = !m_news.empty() || (former.phases > 0) != (m_status.phases > 0) || former.hasFailed != m_status.hasFailed;
+        isNews = !m_news.empty() || (former.phases > 0) != (m_status.phases > 0)
+            || former.hasFailed != m_status.hasFailed || former.isStopped != m_status.isStopped;
         m_isPublished.notify_all();
     }
     if (isNews && m_changed)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "RecordingFolder.h"
 
+#include "RecorderControl.h"
 #include "Recovery.h"
 #include "Verification.h"
 
@@ -22,7 +23,6 @@ const QString timeFormat = QStringLiteral("yyyyMMdd'T'HHmmss.zzz'Z'");
 const QString part = QStringLiteral(".part");
 const QString suffix = QStringLiteral(".mcap");
 const QString markedSuffix = QStringLiteral("_marked.mcap");
-const QString lockName = QStringLiteral(".qtplc-recorder");
 
 const QRegularExpression &pattern()
 {
@@ -70,7 +70,7 @@ bool RecordingFolder::open(const QString &path, QString *error)
         *error = QStringLiteral("cannot make the folder '%1'").arg(m_path);
         return false;
     }
-    const QString lock = QDir(m_path).filePath(lockName);
+    const QString lock = RecorderControl::lockFile(m_path);
     m_lock = Descriptor(::open(QFile::encodeName(lock).constData(), O_RDWR | O_CREAT | O_CLOEXEC, 0644));
     if (!m_lock.isOpen()) {
         *error = QStringLiteral("cannot write into the folder '%1': %2").arg(m_path, qt_error_string(errno));

@@ -61,6 +61,8 @@ public:
 
     /// The files of recordings in a folder, the oldest first.
     static QVector<File> files(const QString &folder);
+    /// Of the file that RecorderControl::tell() writes.
+    int lockDescriptor() const { return m_lock.number(); }
     std::uint64_t freeBytes() const { return m_disk.freeBytes(m_path); }
 
 private:

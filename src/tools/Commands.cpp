@@ -304,7 +304,7 @@ const QVector<Command> &commands()
          2,
          &checkManifest},
         {"record",
-         "FILE | FOLDER/",
+         "FILE | FOLDER/ | start|stop|mark|status|list FOLDER",
          "Records every cycle of plants on this computer.",
          "Reads the ring of a master, which runs on this computer and belongs to the same\n"
          "user, and writes FILE, which must not exist. It begins with the cycles that are\n"
@@ -312,7 +312,10 @@ const QVector<Command> &commands()
          "keeps what is not in FILE: record into another file then, and run qtplc recover.\n"
          "With a FOLDER, it records all plants, one after the other and at once, until\n"
          "Ctrl-C. It makes a file for each phase and segment, and deletes the oldest ones.\n"
-         "If it was killed, the next one in the same FOLDER finishes the files and goes on.",
+         "If it was killed, the next one in the same FOLDER finishes the files and goes on.\n"
+         "The recorder of a FOLDER, also one within a master, can be asked: stop ends its\n"
+         "files until start, mark keeps the cycles from 30 s before to 10 s after, status\n"
+         "prints what it does, and list the files.",
          {{"ring", "RING", "The ring of the master, default the only one."},
           {"plant", "NAME", "With a FOLDER: records the plant NAME alone."},
           {"segment-hours", "H", "With a FOLDER: a file is not longer, default 1."},
@@ -321,10 +324,12 @@ const QVector<Command> &commands()
           {"keep-gib", "GIB", "With a FOLDER: keeps no more of them."},
           {"free-gib", "GIB", "With a FOLDER: keeps so much of the disk free, default 1."}},
          {QStringLiteral("qtplc record flight.mcap"),
-          QStringLiteral("qtplc record /var/lib/qtplc/ --keep-days 10 --keep-gib 50")},
+          QStringLiteral("qtplc record /var/lib/qtplc/ --keep-days 10 --keep-gib 50"),
+          QStringLiteral("qtplc record mark /var/lib/qtplc"),
+          QStringLiteral("qtplc record list /var/lib/qtplc --json")},
          Command::NoArguments,
          1,
-         1,
+         2,
          &recordPlant},
         {"verify",
          "FILE",

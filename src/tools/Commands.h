@@ -110,6 +110,7 @@ int examineComputer(const CommandCall &call);
 int writeManifest(const CommandCall &call);
 int checkManifest(const CommandCall &call);
 int recordPlant(const CommandCall &call);
+int controlRecorder(const CommandCall &call);
 int verifyFile(const CommandCall &call);
 int recoverFile(const CommandCall &call);
 int exportRecording(const CommandCall &call);

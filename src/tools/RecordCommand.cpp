@@ -76,6 +76,8 @@ void tellFiles(QPlcRecorder *recorder)
 
 int recordPlant(const CommandCall &call)
 {
+    if (call.arguments.size() == 2)
+        return controlRecorder(call);
     QPlcRecorder recorder;
     recorder.setTarget(call.arguments.value(0));
     if (!readLimits(call, &recorder))

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "RecordedFlight.h"
+#include "recording/RecorderControl.h"
 #include "recording/RecorderLoop.h"
 #include "recording/Verification.h"
 
@@ -177,6 +178,10 @@ private Q_SLOTS:
     void aStalledDiskCostsGapsThatAreExact();
     void twoRecordersOfOneFolderAreRefused();
     void aClockThatIsSetBackKeepsTheOrderOfFiles();
+    void aMarkIsAskedForFromOutside();
+    void aStopEndsTheFileAndAStartGoesOn();
+    void aStopHoldsForTheNextRecorder();
+    void theStatusSaysWhatIsRecorded();
 };
 
 void tst_RecorderLoop::namesOfFilesSayTimePlantAndPhase()
@@ -489,6 +494,81 @@ void tst_RecorderLoop::aClockThatIsSetBackKeepsTheOrderOfFiles()
     flight.endPhase();
     QVERIFY(flight.files().size() >= 3);
     requireWhole(flight.files(), 3499, flight.digest());
+}
+
+void tst_RecorderLoop::aMarkIsAskedForFromOutside()
+{
+    Recorded flight;
+    QVERIFY(flight.open() && flight.attach() && flight.start());
+    flight.fly(100);
+    QVERIFY(flight.files().constFirst().endsWith("_phase1.mcap.part"));
+    QVERIFY2(RecorderControl::askForMark(flight.settings.folder, &flight.error), qPrintable(flight.error));
+    QVERIFY(!RecorderControl::isMarkTaken(flight.settings.folder));
+    flight.fly(100);
+    QVERIFY(RecorderControl::isMarkTaken(flight.settings.folder));
+    QVERIFY(flight.files().constFirst().endsWith("_phase1_marked.mcap.part"));
+    QVERIFY(!RecorderControl::askForMark("/no-such-folder", &flight.error));
+}
+
+void tst_RecorderLoop::aStopEndsTheFileAndAStartGoesOn()
+{
+    Recorded flight;
+    QVERIFY(flight.open() && flight.attach() && flight.start());
+    flight.fly(300);
+    QVERIFY(RecorderControl::setStopped(flight.settings.folder, true, &flight.error));
+    flight.fly(200);
+    QVERIFY(!flight.ring->isRead());  // it shows the last seconds
+    QCOMPARE(flight.files().size(), 1);
+    QVERIFY(flight.files().constFirst().endsWith(".mcap"));
+    QCOMPARE(RecorderControl::status(flight.settings.folder).value("state"), QByteArray("stopped"));
+    QVERIFY(RecorderControl::setStopped(flight.settings.folder, false, &flight.error));
+    flight.fly(100);
+    QVERIFY(flight.ring->isRead());
+    QCOMPARE(RecorderControl::status(flight.settings.folder).value("state"), QByteArray("recording"));
+    flight.endPhase();
+    QCOMPARE(flight.files().size(), 2);
+    requireWhole(flight.files(), 599, flight.digest());  // the ring still had what was between
+}
+
+void tst_RecorderLoop::aStopHoldsForTheNextRecorder()
+{
+    Recorded flight;
+    QVERIFY(flight.open());
+    QVERIFY(RecorderControl::setStopped(flight.settings.folder, true, &flight.error));
+    flight.kill();
+    QVERIFY(flight.open());
+    flight.proceed(1.0);
+    QVERIFY(flight.attach() && flight.start());
+    flight.fly(100);
+    QVERIFY(flight.files().isEmpty());
+    QVERIFY(!flight.ring->isRead());
+    QVERIFY(RecorderControl::setStopped(flight.settings.folder, false, &flight.error));
+    flight.fly(100);
+    flight.endPhase();
+    requireWhole(flight.files(), 199, flight.digest());
+}
+
+void tst_RecorderLoop::theStatusSaysWhatIsRecorded()
+{
+    Recorded flight;
+    QVERIFY(!RecorderControl::hasRecorder(flight.settings.folder));
+    QVERIFY(flight.open());
+    QVERIFY(RecorderControl::hasRecorder(flight.settings.folder));
+    flight.proceed(1.0);
+    QCOMPARE(RecorderControl::status(flight.settings.folder).value("state"), QByteArray("waiting"));
+    QVERIFY(flight.attach() && flight.start());
+    flight.fly(500);
+    flight.disk.left = 0;
+    flight.fly(300);
+    const RecorderControl::Status status = RecorderControl::status(flight.settings.folder);
+    QCOMPARE(status.value("state"), QByteArray("retrying"));
+    QCOMPARE(status.value("error"), QByteArray("the disk is full"));
+    QCOMPARE(status.value("phases"), QByteArray("1"));
+    QVERIFY(status.value("cycles").toInt() >= 500);
+    QVERIFY(status.value("bytes").toInt() > 10'000);
+    QCOMPARE(status.value("file"), flight.files().constFirst().toUtf8());
+    flight.kill();
+    QVERIFY(!RecorderControl::hasRecorder(flight.settings.folder));
 }
 
 QTEST_GUILESS_MAIN(tst_RecorderLoop)

@@ -23,6 +23,7 @@ private Q_SLOTS:
     void aCycleTakesFewBytes();
     void aFileThatIsThereIsNotReplaced();
     void aRecorderThatIsKilledLosesNoCycle();
+    void theRecorderOfAFolderIsAsked();
 
 private:
     static QString program(const char *name) { return QStringLiteral(AWE_PROGRAMS "/%1").arg(QLatin1String(name)); }
@@ -125,6 +126,43 @@ void tst_RecordedFlight::aRecorderThatIsKilledLosesNoCycle()
     QVERIFY(before <= begin["lastCycle"].toDouble());
     QVERIFY(end["lastCycle"].toDouble() > begin["lastCycle"].toDouble());
     QVERIFY(!end["problems"].toArray().contains("the end of the phase is not in the file"));
+}
+
+void tst_RecordedFlight::theRecorderOfAFolderIsAsked()
+{
+    const QString folder = file("asked");
+    const auto ask
+        = [&](const QStringList &arguments) { return runProgram(program("qtplc"), QStringList("record") + arguments); };
+    QVERIFY(ask({"status", folder}).errors.contains("there is no folder"));
+    Program recorder(program("qtplc"), {"record", folder + '/'});
+    QVERIFY(recorder.waitForOutput("recording into"));
+    QVERIFY(ask({"mark", folder}).errors.contains("nothing to mark"));
+    Program flight(program("awe_sil"), {"--scale=3", "--duration=100000"});
+    QVERIFY(recorder.waitForOutput("recording plant"));
+    const auto state = [&] {
+        const QByteArray text = ask({"status", folder, "--json"}).output.toUtf8();
+        return QJsonDocument::fromJson(text).object().value("state").toString();
+    };
+    QTRY_COMPARE_WITH_TIMEOUT(state(), QString("recording"), Program::patience);
+    QCOMPARE(ask({"mark", folder}).exitCode, 0);
+    QVERIFY(ask({"list", folder}).output.contains("marked, not finished"));
+    QCOMPARE(ask({"stop", folder}).exitCode, 0);
+    QCOMPARE(state(), QString("stopped"));
+    QVERIFY(!ask({"list", folder}).output.contains("not finished"));
+    QCOMPARE(ask({"start", folder}).exitCode, 0);
+    QCOMPARE(ask({"later", folder}).exitCode, 2);
+    flight.sendSignal(SIGTERM);
+    QCOMPARE(flight.waitForEnd(), 0);
+    recorder.sendSignal(SIGTERM);
+    QCOMPARE(recorder.waitForEnd(), 0);
+    QVERIFY(ask({"mark", folder}).errors.contains("no recorder records into"));
+    int exitCode = -1;
+    const QJsonArray files = QJsonDocument::fromJson(ask({"list", folder, "--json"}).output.toUtf8()).array();
+    QCOMPARE(files.size(), 2);
+    const QJsonObject first = verified(files[0].toObject()["file"].toString(), &exitCode);
+    const QJsonObject second = verified(files[1].toObject()["file"].toString(), &exitCode);
+    QCOMPARE(exitCode, 0);
+    QCOMPARE(second["from"], first["next"]);
 }
 
 QTEST_GUILESS_MAIN(tst_RecordedFlight)
