@@ -20,8 +20,8 @@ private Q_SLOTS:
     void theRingOfTheLastPhaseIsDeleted();
     void aRingThatIsRecordedStays();
     void aMasterWithoutANameHasNone();
-    void ringsOfMastersThatHaveEndedAreDeleted();
-    void theNewestThatWereRecordedStay();
+    void ringsOfMastersThatWereKilledStay();
+    void onlyTheNewestFourStay();
     void withoutMemoryThereIsNoneAndTheJournalSaysWhy();
     void anotherDescriptionIsRefused();
 
@@ -128,7 +128,7 @@ void tst_PhaseRing::aMasterWithoutANameHasNone()
     QCOMPARE(files(), QStringList());
 }
 
-void tst_PhaseRing::ringsOfMastersThatHaveEndedAreDeleted()
+void tst_PhaseRing::ringsOfMastersThatWereKilledStay()
 {
     addDead("dead", false);
     RecordRing alive;
@@ -138,13 +138,13 @@ void tst_PhaseRing::ringsOfMastersThatHaveEndedAreDeleted()
     PhaseRing rings(m_journal);
     rings.setPlant("kite", 1);
     QVERIFY(rings.make(description(), 100));
-    QCOMPARE(files(), QStringList({prefix() + "alive", prefix() + "kite-1-1", prefix() + "link"}));
+    QCOMPARE(files(), QStringList({prefix() + "alive", prefix() + "dead", prefix() + "kite-1-1", prefix() + "link"}));
 }
 
-void tst_PhaseRing::theNewestThatWereRecordedStay()
+void tst_PhaseRing::onlyTheNewestFourStay()
 {
     for (const char *name : {"a", "b", "c", "d", "e", "f"})
-        addDead(name, true);
+        addDead(name, name[0] > 'c');
     PhaseRing::removeDead();
     QCOMPARE(files().size(), 4);
     PhaseRing::removeDead();

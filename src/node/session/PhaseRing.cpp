@@ -15,7 +15,7 @@ namespace qplc {
 namespace {
 
 constexpr double SecondsToKeep = 60.0;
-constexpr int MostRecordedOnes = 4;  // of masters that have ended: a recorder will drain them
+constexpr int MostDeadOnes = 4;  // of masters that were killed: a recorder will drain them
 
 QString prefix()
 {
@@ -99,7 +99,7 @@ void PhaseRing::removeDead()
     for (const QString &name : names) {
         const QString file = folder.filePath(name);
         const RingMemory::Use use = RingMemory::useOf(QFile::encodeName(file));
-        if (use == RingMemory::Dead || (use == RingMemory::DeadAndRecorded && ++kept > MostRecordedOnes))
+        if ((use == RingMemory::Dead || use == RingMemory::DeadAndRecorded) && ++kept > MostDeadOnes)
             QFile::remove(file);
     }
 }

@@ -28,7 +28,7 @@ public:
     /// As make() has made it. Empty: there is none.
     QString file() const;
 
-    /// Deletes rings whose master has ended, but the newest of those that somebody has recorded.
+    /// Deletes rings whose master was killed, but the newest four: they show what happened before.
     static void removeDead();
 
 private:
