@@ -232,10 +232,9 @@ void tst_Recording::timesOfAPhaseInRealTimeAreThoseOfTheClock()
 {
     RecordedFlight flight;
     flight.phase.clock = QPlcClock::realTime();
-    flight.phase.cycleLimit = 3;
     const QDateTime before = QDateTime::currentDateTimeUtc();
     QVERIFY(flight.begin() && flight.start());
-    QTRY_COMPARE(flight.cycle.statistics().cycles, quint64(3));
+    QTRY_VERIFY(flight.cycle.statistics().cycles >= 3);
     flight.cycle.stop();
     flight.recorder.proceed(&flight.error);
     QVERIFY(flight.recorder.finish(&flight.error));
@@ -243,8 +242,10 @@ void tst_Recording::timesOfAPhaseInRealTimeAreThoseOfTheClock()
     QVERIFY(recording.isTimed());
     QVERIFY(recording.begin() / 1'000'000 >= before.toMSecsSinceEpoch());
     RecordedRows rows(recording, {}, recording.begin(), recording.end());
+    QVERIFY(rows.next());
+    const RecordedTime start = rows.time() - RecordedTime(rows.cycle().number) * Period;
     while (rows.next())
-        QCOMPARE(rows.time() - recording.begin(), RecordedTime(rows.cycle().number) * Period);
+        QCOMPARE(rows.time() - start, RecordedTime(rows.cycle().number) * Period);
 }
 
 void tst_Recording::aDamagedChunkIsLeftOutAndCounted()
