@@ -161,6 +161,7 @@ PlantRecorder::Progress PlantRecorder::proceed(QString *error)
 
 void PlantRecorder::add()
 {
+    m_startTime = m_reader.memory().header()->startTime;  // a recorder may come before the phase begins
     bool isWhole = true;
     if (m_reader.kind() == RecordKind::Cycle) {
         addCycle();
@@ -190,7 +191,6 @@ void PlantRecorder::addCycle()
     const RecordedCycle &cycle = view.cycle;
     if (cycle.number < m_next)  // another file has it
         return;
-    m_startTime = m_reader.memory().header()->startTime;  // a recorder may come before the phase begins
     const std::uint64_t next = cycle.number - cycle.skipped;
     if (next > m_next)  // they had been replaced before anybody recorded
         addGap({m_next, next - 1, next - m_next, 0, 0});
