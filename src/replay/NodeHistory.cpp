@@ -127,10 +127,10 @@ private:
 class DescriptionReader final : public RecordedCycles::Reader
 {
 public:
-    bool begin(const RingDescription &description, const QPlcSignalTable &table) override
+    bool begin(const RingDescription &ofFile, const QPlcSignalTable &tableOfFile) override
     {
-        this->description = description;
-        this->table = table;
+        description = ofFile;
+        table = tableOfFile;
         return false;
     }
     bool cycle(const RecordedRow &) override { return false; }
