@@ -304,7 +304,7 @@ const QVector<Command> &commands()
          2,
          &checkManifest},
         {"record",
-         "FILE | FOLDER/ | start|stop|mark|status|list FOLDER",
+         "FILE | FOLDER/ | VERB FOLDER",
          "Records every cycle of plants on this computer.",
          "Reads the ring of a master, which runs on this computer and belongs to the same\n"
          "user, and writes FILE, which must not exist. It begins with the cycles that are\n"
@@ -312,8 +312,8 @@ const QVector<Command> &commands()
          "keeps what is not in FILE: record into another file then, and run qtplc recover.\n"
          "With a FOLDER, it records all plants, one after the other and at once, until\n"
          "Ctrl-C. It makes a file for each phase and segment, and deletes the oldest ones.\n"
-         "If it was killed, the next one in the same FOLDER finishes the files and goes on.\n"
-         "The recorder of a FOLDER, also one within a master, can be asked: stop ends its\n"
+         "If it was killed, the next one in the same FOLDER finishes the files, and goes\n"
+         "on. VERB is for the recorder of a FOLDER, also one within a master: stop ends its\n"
          "files until start, mark keeps the cycles from 30 s before to 10 s after, status\n"
          "prints what it does, and list the files.",
          {{"ring", "RING", "The ring of the master, default the only one."},
@@ -373,7 +373,7 @@ const QVector<Command> &commands()
           {"values-only", "", "No qualities."},
           force},
          {QStringLiteral("qtplc export flight.mcap -o flight.csv"),
-          QStringLiteral("qtplc export flight.mcap -o power.mat --signals 'power,tether*' --from 10 --to 60"),
+          QStringLiteral("qtplc export flight.mcap -o power.mat --signals 'power,tether*' --to 60"),
           QStringLiteral("qtplc export recordings/ -o day.parquet --from 2026-11-20T08:00:00 --every 10")},
          Command::NoArguments,
          1,
@@ -383,7 +383,7 @@ const QVector<Command> &commands()
          "FILE|FOLDER",
          "Writes a page about a recording that people can read.",
          "One file of HTML that needs no other: figures, plots, events, jitter, nodes and\n"
-         "signals. --section adds text behind the figures: headings (#), tables (| a | b |),\n"
+         "signals. --section adds text behind the figures: headings (#), tables with |,\n"
          "lists (-) and paragraphs, as in Markdown; - reads it from the standard input.\n"
          "TIME is in seconds since the begin, or a moment as 2026-11-20T14:03:12 (UTC).",
          {output,
@@ -393,7 +393,7 @@ const QVector<Command> &commands()
           {"section", "FILES", "Files with text, with commas between them."},
           force},
          {QStringLiteral("qtplc report flight.mcap -o report.html"),
-          QStringLiteral("qtplc report flight.mcap -o report.html --signals 'power,tether*' --section power.md")},
+          QStringLiteral("qtplc report flight.mcap -o report.html --section power.md")},
          Command::NoArguments,
          1,
          1,
@@ -408,10 +408,10 @@ const QVector<Command> &commands()
          "With --from, the node computes from its first cycle on, for its state, and\n"
          "outputs are compared from that time on.",
          {{"node", "COMMAND", "Program of the node with its arguments, without --master."},
-          {"name", "NODE", "Node in the recording, default the name under which the program registers."},
+          {"name", "NODE", "Node of the recording, default the one that registers."},
           {"compare", "", "Compares outputs, and prints the first difference."},
-          {"from", "SECONDS", "Time in the flight from which outputs are compared, default 0."},
-          {"speed", "SPEED", "lockstep (default: as fast as the node answers), or a factor: 1 is real time."}},
+          {"from", "SECONDS", "Time of the flight to compare from, default 0."},
+          {"speed", "SPEED", "lockstep (default), or a factor: 1 is real time."}},
          {QStringLiteral("qtplc replay flight.mcap --node awe_autopilot --compare"),
           QStringLiteral("qtplc replay flight.mcap --node 'gdb --args my_node --gain 3' --speed 1")},
          Command::NoArguments,
