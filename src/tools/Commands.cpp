@@ -313,7 +313,7 @@ const QVector<Command> &commands()
          "With a FOLDER, it records all plants, one after the other and at once, until\n"
          "Ctrl-C. It makes a file for each phase and segment, and deletes the oldest ones.\n"
          "If it was killed, the next one in the same FOLDER finishes the files, and goes\n"
-         "on. VERB is for the recorder of a FOLDER, also one within a master: stop ends its\n"
+         "on. VERB asks the recorder of a FOLDER, also one in a master: stop ends its\n"
          "files until start, mark keeps the cycles from 30 s before to 10 s after, status\n"
          "prints what it does, and list the files.",
          {{"ring", "RING", "The ring of the master, default the only one."},
