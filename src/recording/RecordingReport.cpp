@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "RecordingReport.h"
 
+#include "RecordedRoster.h"
 #include "ReportDrawing.h"
 #include "node/cycle/RecordLayout.h"
 #include "protocol/LittleEndian.h"
@@ -20,7 +21,6 @@ constexpr int Intervals = 700;  // of a plot
 constexpr int UsualPlots = 12;  // where nobody has chosen
 constexpr int MostCurves = 6;   // of a plot: elements of an array
 constexpr int MostHappenings = 200;
-constexpr int NodeSize = 30;  // [byte] of qtplc/Node
 
 const char style[]
     = ":root{--back:#fff;--text:#1b1f24;--soft:#5c6670;--line:#d8dee4;--tile:#f4f6f8;--bad:#b42318;"
@@ -122,6 +122,7 @@ public:
         const auto count = std::size_t(std::clamp<RecordedTime>(cyclesOfAll, 1, Intervals));
         for (Trace &trace : traces)
             trace.intervals.resize(count);
+        m_signalCount = recording.table().size();
         RecordedRows rows(recording, numbers, selection.begin, selection.end);
         rows.setOther([this](const QByteArray &topic, const mcap::Message &message) { takeOther(topic, message); });
         while (rows.next()) {
@@ -139,6 +140,7 @@ public:
     bool isTimed = false;
     LatenessHistogram lateness;
     QMap<std::uint16_t, NodeFigures> nodes;
+    QMap<std::uint16_t, QString> nodeNames;
     std::vector<std::pair<RecordedTime, QString>> happenings;
     std::uint64_t furtherHappenings = 0;
     int damages = 0;
@@ -208,6 +210,12 @@ private:
         const QByteArray text = QByteArray::fromRawData(message.bytes, int(message.size));
         if (topic == "/nodes") {
             m_exchange = QByteArray(message.bytes, int(message.size));
+        } else if (topic == "/rosters") {
+            RosterContent roster;
+            if (readRoster(text, m_signalCount, &roster)) {
+                for (const RosterNode &node : qAsConst(roster.nodes))
+                    nodeNames.insert(node.id, node.name);
+            }
         } else if (topic == "/gaps") {
             const quint64 cyclesOfGap = numberIn(text, "cycles");
             missing += cyclesOfGap;
@@ -232,9 +240,9 @@ private:
     /// A message of /nodes comes behind the cycle that it belongs to.
     void countNodes()
     {
-        const int count = m_exchange.size() < 4 ? 0 : (m_exchange.size() - 4) / NodeSize;
+        const int count = m_exchange.size() < 4 ? 0 : (m_exchange.size() - 4) / NodeMessageSize;
         for (int i = 0; i < count; ++i) {
-            const char *node = m_exchange.constData() + 4 + i * NodeSize;
+            const char *node = m_exchange.constData() + 4 + i * NodeMessageSize;
             NodeFigures &figures = nodes[loadLittle<std::uint16_t>(node)];
             const auto flags = loadLittle<std::uint16_t>(node + 2);
             figures.asked += flags & RecordedNode::Asked ? 1 : 0;
@@ -249,6 +257,7 @@ private:
     RecordedTime m_begin;
     double m_span;                       // [ns]
     std::vector<std::size_t> m_columns;  // of the traces
+    int m_signalCount = 0;
     QByteArray m_exchange;
     bool m_isSafe = false;
 };
@@ -397,9 +406,9 @@ private:
                      QStringLiteral("lost")},
                     {1, 2, 3, 4, 5, 6});
         for (auto it = m_survey.nodes.begin(); it != m_survey.nodes.end(); ++it)
-            table.add({QString::number(it.key()), QString::number(it->asked), QString::number(it->answered),
-                       QString::number(it->late), QString::number(it->faulted), QString::number(it->safe),
-                       QString::number(it->lost)});
+            table.add({m_survey.nodeNames.value(it.key(), QString::number(it.key())), QString::number(it->asked),
+                       QString::number(it->answered), QString::number(it->late), QString::number(it->faulted),
+                       QString::number(it->safe), QString::number(it->lost)});
         return table.isEmpty() ? QByteArray() : "<h2>Nodes</h2>\n<p>In cycles of the recording.</p>\n" + table.html();
     }
     QByteArray signalTable() const

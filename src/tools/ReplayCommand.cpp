@@ -100,7 +100,7 @@ int replayRecording(const CommandCall &call)
         return call.application.usageError(result.error);
     if (call.isJson())
         printJson(jsonOf(result));
-    else
+    else if (!result.node.isEmpty())
         print(result, compares);
     if (result.kind == ReplayResult::Failed)
         QPlcCoreApplication::printError(result.error);

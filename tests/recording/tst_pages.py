@@ -50,6 +50,8 @@ def main():
                 html = (Path(folder) / "power.html").read_text()
                 for wanted in ("mean mechanical power", "<h2>Power</h2>", "prefers-color-scheme", "bodyPosition_earth"):
                     assert wanted in html, f"the report has no '{wanted}'"
+                nodes = html[html.index("<h2>Nodes</h2>") : html.index("<h2>All signals</h2>")]
+                assert re.findall(r"<tr><td>(\w+)</td>", nodes) == ["Autopilot", "Model"], nodes
                 assert "http" not in html and "<script" not in html and " src=" not in html
     print("all pages were typed")
 
