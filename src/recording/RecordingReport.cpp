@@ -129,6 +129,7 @@ public:
             takeCycle(rows);
             takeValues(rows);
         }
+        countNodes();  // of the last cycle
         damages = rows.damages();
     }
 

@@ -51,7 +51,8 @@ def main():
                 for wanted in ("mean mechanical power", "<h2>Power</h2>", "prefers-color-scheme", "bodyPosition_earth"):
                     assert wanted in html, f"the report has no '{wanted}'"
                 nodes = html[html.index("<h2>Nodes</h2>") : html.index("<h2>All signals</h2>")]
-                assert re.findall(r"<tr><td>(\w+)</td>", nodes) == ["Autopilot", "Model"], nodes
+                asked = re.findall(r'<tr><td>(\w+)</td><td class="n">(\d+)</td>', nodes)
+                assert asked == [(name, "2000") for name in ("FlightObserver", "Model", "Autopilot")], nodes
                 assert "http" not in html and "<script" not in html and " src=" not in html
     print("all pages were typed")
 
