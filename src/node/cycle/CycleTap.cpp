@@ -41,7 +41,8 @@ bool hasRawInputs(const NodeSlot &slot, const ProcessImage &image) noexcept
 
 char *append(char *to, const void *bytes, std::uint32_t size) noexcept
 {
-    std::memcpy(to, bytes, size);
+    if (size > 0)  // of nothing, the place may be null
+        std::memcpy(to, bytes, size);
     const std::uint32_t padded = paddedRecordSize(size);
     std::memset(to + size, 0, padded - size);
     return to + padded;
