@@ -56,9 +56,6 @@ private:
     bool m_hasTexts = false;
 };
 
-/// [byte] of a node in a message of the channel /nodes.
-constexpr int NodeMessageSize = 32;
-
 /// What a ROS message may call a field: \a name without other characters, unique among \a used.
 QByteArray rosFieldName(const QString &name, QSet<QByteArray> *used);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PlantRecorder.h"
 
+#include "RecordingMessages.h"
+
 #include <QtCore/QFile>
 
 #include <algorithm>
@@ -11,20 +13,6 @@ namespace qplc {
 namespace {
 
 constexpr std::size_t FullChunk = 256 * 1024;  // [byte] of messages
-
-const char nodesSchema[]
-    = "# What the master has exchanged with each node in a cycle. A cycle without such a message has\n"
-      "# that of the cycle before.\n"
-      "qtplc/Node[] nodes\n"
-      "================================================================================\n"
-      "MSG: qtplc/Node\n"
-      "uint16 id\n"
-      "uint16 flags    # 1 asked, 2 answered, 4 stored, 8 late, 16 faulted, 32 safe, 64 lost, 128 raw, 256 local,\n"
-      "                # 512 listens, 1024 raw inputs, 2048 two-phase and not shown\n"
-      "uint32 history  # which requests before that one it has computed: bit i is that of i + 1 cycles before\n"
-      "uint64 age      # [cycles] of the newest request that it has answered; 2^64 - 1: none yet\n"
-      "int64 arrival   # of that answer, on the clock of the master [ns]; 0: not timed\n"
-      "uint64 info     # of that answer: what the node says of its own time [ns]\n";
 
 const char rawSchema[] = "# The outputs of a node as it has answered them, where the signals do not show all of them.\n"
                          "uint16 id\n"
@@ -40,11 +28,6 @@ const char joinSchema[] = "# A node takes part from this cycle on. Before, it ha
                           "uint64 first\n"
                           "uint8[] outputs\n"
                           "uint8[] inputs\n";
-
-QByteArray hex(std::uint64_t digest)
-{
-    return QByteArray::number(qulonglong(digest), 16).rightJustified(16, '0');
-}
 
 template<typename Record>
 Record recordIn(const RingReader &reader, bool *isWhole)
@@ -112,7 +95,7 @@ bool PlantRecorder::begin(std::unique_ptr<mcap::FileSink> sink, QString *error)
     const QByteArray ros = "ros1msg";
     m_plant = m_writer->addChannel("/plant", "ros1", PlantMessage::schemaName(), ros, m_message->schema());
     m_before = m_writer->addChannel("/plant_before", "ros1", PlantMessage::schemaName(), ros, m_message->schema());
-    m_nodes = m_writer->addChannel("/nodes", "ros1", "qtplc/Nodes", ros, nodesSchema);
+    m_nodes = m_writer->addChannel("/nodes", "ros1", "qtplc/Nodes", ros, nodesSchema());
     m_raw = m_writer->addChannel("/raw_outputs", "ros1", "qtplc/RawOutputs", ros, rawSchema);
     m_rawInputs = m_writer->addChannel("/raw_inputs", "ros1", "qtplc/RawInputs", ros, rawInputsSchema);
     m_joins = m_writer->addChannel("/joins", "ros1", "qtplc/Join", ros, joinSchema);
@@ -231,20 +214,7 @@ void PlantRecorder::watch(const CycleView &view)
 
 void PlantRecorder::addNodes(const CycleView &view)
 {
-    QByteArray body(4 + NodeMessageSize * int(view.cycle.nodes), Qt::Uninitialized);
-    char *to = body.data();
-    storeLittle(view.cycle.nodes, to);
-    to += 4;
-    for (std::uint32_t i = 0; i < view.cycle.nodes; ++i, to += NodeMessageSize) {
-        const RecordedNode node = view.node(i);
-        const std::uint64_t age = node.cycle == RecordedNode::NoCycle ? node.cycle : view.cycle.number - node.cycle;
-        storeLittle(node.id, to);
-        storeLittle(node.flags, to + 2);
-        storeLittle(node.history, to + 4);
-        storeLittle(age, to + 8);
-        storeLittle(node.arrival, to + 16);
-        storeLittle(std::uint64_t(node.info), to + 24);
-    }
+    const QByteArray body = nodesMessage(view);
     if (body == m_exchange)
         return;
     m_exchange = body;
@@ -322,11 +292,8 @@ void PlantRecorder::addGap(const RecordedGap &gap)
 {
     if (gap.last < m_next)  // another file has it
         return;
-    const QByteArray text = "{\"first\":" + QByteArray::number(qulonglong(gap.first)) + ",\"last\":"
-        + QByteArray::number(qulonglong(gap.last)) + ",\"cycles\":" + QByteArray::number(qulonglong(gap.cycles))
-        + ",\"skipped\":" + QByteArray::number(qulonglong(gap.skipped)) + ",\"digest\":\"" + hex(gap.digest) + "\"}";
     m_time = timeOf(gap.last);
-    addText(m_gaps, std::uint32_t(gap.last), text);
+    addText(m_gaps, std::uint32_t(gap.last), gapMessage(gap));
     m_next = gap.last + 1;
     m_digest = gap.digest;
     m_hasDigest = true;  // it is in the gap
@@ -343,8 +310,8 @@ void PlantRecorder::addEnd(const RecordedEnd &end)
 
 void PlantRecorder::addDigest(const QByteArray &more)
 {
-    const QByteArray text
-        = "{\"next\":" + QByteArray::number(qulonglong(m_next)) + ",\"digest\":\"" + hex(m_digest) + '"' + more + '}';
+    const QByteArray text = "{\"next\":" + QByteArray::number(qulonglong(m_next)) + ",\"digest\":\""
+        + digestText(m_digest) + '"' + more + '}';
     addText(m_digests, std::uint32_t(m_next), text);
     m_hasDigest = true;
 }
@@ -370,7 +337,7 @@ void PlantRecorder::addOverview()
 
 bool PlantRecorder::finish(QString *error)
 {
-    const QMap<QByteArray, QByteArray> end{{"digest", hex(m_digest)},
+    const QMap<QByteArray, QByteArray> end{{"digest", digestText(m_digest)},
                                            {"cycles", QByteArray::number(qulonglong(m_cycles))},
                                            {"missing", QByteArray::number(qulonglong(m_missing))}};
     if (!save(false, error))

@@ -3,9 +3,8 @@
 
 #include "McapReader.h"
 #include "RecordedRoster.h"
+#include "RecordingMessages.h"
 
-#include <QtCore/QJsonDocument>
-#include <QtCore/QJsonObject>
 #include <QtCore/QMap>
 
 #include <algorithm>
@@ -66,7 +65,7 @@ private:
         const QByteArray topic = m_topics.value(message.channel);
         const QByteArray bytes = QByteArray::fromRawData(message.bytes, int(message.size));
         if (topic == "/nodes")
-            return takeNodes(bytes);
+            return readNodes(bytes, &m_exchange);
         if (topic == "/raw_outputs")
             return takeRaw(bytes, &m_row.rawOutputs);
         if (topic == "/raw_inputs")
@@ -103,25 +102,6 @@ private:
         m_hasRow = true;
         return true;
     }
-    bool takeNodes(const QByteArray &bytes)
-    {
-        const std::uint32_t count = bytes.size() >= 4 ? loadLittle<std::uint32_t>(bytes.constData()) : 0;
-        if (bytes.size() < 4 || std::uint64_t(bytes.size()) != 4 + std::uint64_t(count) * NodeMessageSize)
-            return false;
-        m_exchange.resize(count);
-        const char *from = bytes.constData() + 4;
-        for (RecordedNode &node : m_exchange) {
-            node = {};
-            node.id = loadLittle<std::uint16_t>(from);
-            node.flags = loadLittle<std::uint16_t>(from + 2);
-            node.history = loadLittle<std::uint32_t>(from + 4);
-            node.cycle = loadLittle<std::uint64_t>(from + 8);  // its age
-            node.arrival = loadLittle<std::int64_t>(from + 16);
-            node.info = std::uint32_t(loadLittle<std::uint64_t>(from + 24));
-            from += NodeMessageSize;
-        }
-        return true;
-    }
     static bool takeRaw(const QByteArray &bytes, std::vector<RecordedRow::Raw> *raw)
     {
         FieldReader fields(bytes.constData(), std::size_t(bytes.size()));
@@ -151,13 +131,12 @@ private:
     }
     bool takeGap(const QByteArray &bytes)
     {
-        const QJsonObject object = QJsonDocument::fromJson(bytes).object();
-        const auto number
-            = [&](const char *name) { return std::uint64_t(object.value(QLatin1String(name)).toDouble()); };
-        m_goesOn = m_goesOn && m_reader.gap(number("first"), number("last"));
-        m_next = number("last") + 1;
+        RecordedGap gap;
+        const bool isWhole = readGap(bytes, &gap);
+        m_goesOn = m_goesOn && m_reader.gap(gap.first, gap.last);
+        m_next = gap.last + 1;
         m_hasPrevious = false;
-        return object.contains("last");
+        return isWhole;
     }
     void flush()
     {
@@ -171,7 +150,7 @@ private:
         m_row.roster = m_hasRoster ? &m_roster : nullptr;
         m_row.nodes = m_exchange;
         for (RecordedNode &node : m_row.nodes)
-            node.cycle = node.cycle == RecordedNode::NoCycle ? node.cycle : number - node.cycle;
+            node.cycle = ageOf(node.cycle, number);  // the request, of its age
         m_goesOn = m_goesOn && m_reader.cycle(m_row);
         std::swap(m_image, m_previous);
         m_next = number + 1;

@@ -2,9 +2,8 @@
 #include "RecordingReport.h"
 
 #include "RecordedRoster.h"
+#include "RecordingMessages.h"
 #include "ReportDrawing.h"
-#include "node/cycle/RecordLayout.h"
-#include "protocol/LittleEndian.h"
 
 #include <QtCore/QDateTime>
 #include <QtCore/QFileInfo>
@@ -210,7 +209,7 @@ private:
     {
         const QByteArray text = QByteArray::fromRawData(message.bytes, int(message.size));
         if (topic == "/nodes") {
-            m_exchange = QByteArray(message.bytes, int(message.size));
+            readNodes(text, &m_exchange);
         } else if (topic == "/rosters") {
             RosterContent roster;
             if (readRoster(text, m_signalCount, &roster)) {
@@ -218,40 +217,26 @@ private:
                     nodeNames.insert(node.id, node.name);
             }
         } else if (topic == "/gaps") {
-            const quint64 cyclesOfGap = numberIn(text, "cycles");
-            missing += cyclesOfGap;
+            RecordedGap gap;
+            readGap(text, &gap);
+            missing += gap.cycles;
             happened(RecordedTime(message.time),
-                     QStringLiteral("%1 cycles are missing: %2 to %3")
-                         .arg(cyclesOfGap)
-                         .arg(numberIn(text, "first"))
-                         .arg(numberIn(text, "last")));
+                     QStringLiteral("%1 cycles are missing: %2 to %3").arg(gap.cycles).arg(gap.first).arg(gap.last));
         } else if (topic == "/events") {
             happened(RecordedTime(message.time), QString::fromUtf8(text));
         }
     }
-    static quint64 numberIn(const QByteArray &text, const QByteArray &key)
-    {
-        const int at = text.indexOf('"' + key + "\":");
-        int end = at + key.size() + 3;
-        const int begin = end;
-        while (at >= 0 && end < text.size() && text.at(end) >= '0' && text.at(end) <= '9')
-            ++end;
-        return at < 0 ? 0 : text.mid(begin, end - begin).toULongLong();
-    }
     /// A message of /nodes comes behind the cycle that it belongs to.
     void countNodes()
     {
-        const int count = m_exchange.size() < 4 ? 0 : (m_exchange.size() - 4) / NodeMessageSize;
-        for (int i = 0; i < count; ++i) {
-            const char *node = m_exchange.constData() + 4 + i * NodeMessageSize;
-            NodeFigures &figures = nodes[loadLittle<std::uint16_t>(node)];
-            const auto flags = loadLittle<std::uint16_t>(node + 2);
-            figures.asked += flags & RecordedNode::Asked ? 1 : 0;
-            figures.answered += flags & RecordedNode::Answered ? 1 : 0;
-            figures.late += flags & RecordedNode::Late ? 1 : 0;
-            figures.faulted += flags & RecordedNode::Faulted ? 1 : 0;
-            figures.safe += flags & RecordedNode::IsSafe ? 1 : 0;
-            figures.lost += flags & RecordedNode::Lost ? 1 : 0;
+        for (const RecordedNode &node : m_exchange) {
+            NodeFigures &figures = nodes[node.id];
+            figures.asked += node.flags & RecordedNode::Asked ? 1 : 0;
+            figures.answered += node.flags & RecordedNode::Answered ? 1 : 0;
+            figures.late += node.flags & RecordedNode::Late ? 1 : 0;
+            figures.faulted += node.flags & RecordedNode::Faulted ? 1 : 0;
+            figures.safe += node.flags & RecordedNode::IsSafe ? 1 : 0;
+            figures.lost += node.flags & RecordedNode::Lost ? 1 : 0;
         }
     }
 
@@ -259,7 +244,7 @@ private:
     double m_span;                       // [ns]
     std::vector<std::size_t> m_columns;  // of the traces
     int m_signalCount = 0;
-    QByteArray m_exchange;
+    std::vector<RecordedNode> m_exchange;  // of the newest cycle
     bool m_isSafe = false;
 };
 

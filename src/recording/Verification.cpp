@@ -3,6 +3,7 @@
 
 #include "McapReader.h"
 #include "PlantMessage.h"
+#include "RecordingMessages.h"
 
 #include <memory>
 #include <optional>
@@ -14,23 +15,6 @@ namespace {
 using namespace mcap;
 
 constexpr int MostProblems = 20;
-
-/// The number behind "key": in a text that a recorder has written.
-std::optional<quint64> numberIn(const QByteArray &text, const QByteArray &key, int base = 10)
-{
-    const int at = text.indexOf('"' + key + "\":");
-    if (at < 0)
-        return std::nullopt;
-    int begin = at + key.size() + 3;
-    if (begin < text.size() && text.at(begin) == '"')
-        ++begin;
-    int end = begin;
-    while (end < text.size() && QByteArray("0123456789abcdef").contains(text.at(end)))
-        ++end;
-    bool isNumber = false;
-    const quint64 number = text.mid(begin, end - begin).toULongLong(&isNumber, base);
-    return isNumber ? std::make_optional(number) : std::nullopt;
-}
 
 class Verifier final : public ScanHandler
 {
@@ -105,20 +89,18 @@ private:
     }
     void gap(const QByteArray &text)
     {
-        const quint64 first = numberIn(text, "first").value_or(0);
-        const quint64 last = numberIn(text, "last").value_or(0);
-        m_result.gaps.append({first, last});
-        const quint64 cycles = numberIn(text, "cycles").value_or(0);
-        const quint64 skipped = numberIn(text, "skipped").value_or(0);
-        if (m_next + skipped + cycles != last + 1)
+        RecordedGap gap;
+        readGap(text, &gap);
+        m_result.gaps.append({gap.first, gap.last});
+        if (m_next + gap.skipped + gap.cycles != gap.last + 1)
             problem(QStringLiteral("a gap ends with cycle %1, and does not begin behind cycle %2")
-                        .arg(last)
+                        .arg(gap.last)
                         .arg(qint64(m_next) - 1));
-        m_result.missing += cycles;
-        m_result.skipped += skipped;
-        m_result.digest = numberIn(text, "digest", 16).value_or(0);
+        m_result.missing += gap.cycles;
+        m_result.skipped += gap.skipped;
+        m_result.digest = gap.digest;
         m_isBroken = m_result.digest == 0;  // of what came before, nothing is known
-        m_next = last + 1;
+        m_next = gap.last + 1;
     }
     void digest(const QByteArray &text)
     {
@@ -130,9 +112,8 @@ private:
         m_result.hasEnd = m_result.hasEnd || text.contains("\"end\":true");
         if (!m_isBroken && (!wanted || *wanted != m_result.digest || next.value_or(~quint64(0)) != m_next))
             problem(QStringLiteral("the digest of the cycles before %1 is %2, and that of the flight %3")
-                        .arg(m_next)
-                        .arg(m_result.digest, 16, 16, QLatin1Char('0'))
-                        .arg(wanted.value_or(0), 16, 16, QLatin1Char('0')));
+                        .arg(QString::number(m_next), QString::fromLatin1(digestText(m_result.digest)),
+                             QString::fromLatin1(digestText(wanted.value_or(0)))));
         else if (!m_isBroken)
             m_result.checkedCycles = m_next;
         m_result.digest = wanted.value_or(0);  // what follows is judged by itself

@@ -2,6 +2,7 @@
 // verify, recover: recordings, as files.
 #include "Commands.h"
 #include "TerminalText.h"
+#include "recording/RecordingMessages.h"
 #include "recording/Recovery.h"
 #include "recording/Verification.h"
 
@@ -10,11 +11,6 @@
 namespace tools {
 
 namespace {
-
-QString hex(quint64 digest)
-{
-    return QStringLiteral("%1").arg(digest, 16, 16, QLatin1Char('0'));
-}
 
 QJsonDocument jsonOf(const qplc::VerifiedFile &file)
 {
@@ -33,7 +29,7 @@ QJsonDocument jsonOf(const qplc::VerifiedFile &file)
                                      {QStringLiteral("skipped"), double(file.skipped)},
                                      {QStringLiteral("missing"), double(file.missing)},
                                      {QStringLiteral("gaps"), gaps},
-                                     {QStringLiteral("digest"), hex(file.digest)},
+                                     {QStringLiteral("digest"), QString::fromLatin1(qplc::digestText(file.digest))},
                                      {QStringLiteral("problems"), QJsonArray::fromStringList(file.problems)}});
 }
 
@@ -51,7 +47,7 @@ void print(const QString &name, const qplc::VerifiedFile &file)
     for (const QString &problem : file.problems)
         printLine(QStringLiteral("problem: ") + printable(problem));
     printLine(QStringLiteral("digest %1, %2")
-                  .arg(hex(file.digest),
+                  .arg(QString::fromLatin1(qplc::digestText(file.digest)),
                        file.isComplete() ? QStringLiteral("as that of the flight: nothing is missing")
                                          : QStringLiteral("not the proof of a whole flight")));
 }
