@@ -155,7 +155,8 @@ void CycleTap::record(const Cycle &cycle, const Roster &roster, const std::atomi
     record.roster = m_roster.number;
     for (const std::shared_ptr<NodeSlot> &slot : roster.nodes) {
         record.rawSize += hasRawOutputs(*slot) ? paddedRecordSize(slot->outputLayout.size()) : 0;
-        record.rawSize += hasRawInputs(*slot, m_image) ? paddedRecordSize(slot->inputLayout.size()) : 0;
+        slot->exchange.hasRawInputs = hasRawInputs(*slot, m_image);
+        record.rawSize += slot->exchange.hasRawInputs ? paddedRecordSize(slot->inputLayout.size()) : 0;
     }
     const std::uint32_t image = paddedRecordSize(record.imageSize);
     const std::uint32_t size = std::uint32_t(sizeof(RecordHead) + sizeof record + record.nodes * sizeof(RecordedNode))
@@ -230,7 +231,7 @@ char *CycleTap::writeNodes(const Roster &roster, char *to) const noexcept
 {
     for (const std::shared_ptr<NodeSlot> &slot : roster.nodes) {
         const bool hasRaw = hasRawOutputs(*slot);
-        const bool hasInputs = hasRawInputs(*slot, m_image);
+        const bool hasInputs = slot->exchange.hasRawInputs;
         const auto flag = [](bool isSet, RecordedNode::Flag value) { return isSet ? std::uint16_t(value) : 0; };
         RecordedNode record{slot->exchange.cycle, slot->exchange.arrival, slot->exchange.info, slot->id};
         record.flags = std::uint16_t(
@@ -254,7 +255,7 @@ char *CycleTap::writeRaw(const Roster &roster, char *to) const noexcept
     for (const std::shared_ptr<NodeSlot> &slot : roster.nodes) {
         if (hasRawOutputs(*slot))
             to = append(to, rawOutputs(*slot), slot->outputLayout.size());
-        if (hasRawInputs(*slot, m_image))
+        if (slot->exchange.hasRawInputs)
             to = append(to, slot->inputs, slot->inputLayout.size());
     }
     return to;

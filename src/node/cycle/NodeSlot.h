@@ -39,6 +39,7 @@ struct NodeSlot
         std::uint32_t history = 0;                    // see RecordedNode
         bool isStored = false;                        // an answer, in this cycle
         bool isChanged = false;                       // the image may not have its values as they came
+        bool hasRawInputs = false;                    // the record of this cycle has them
 
         /// An answer to the request of \a answered. \param before  [cycles] back to the one that
         ///     the node has computed before; 0: it does not say
