@@ -18,7 +18,6 @@ bool NodePayloads::isPossible(const RosterNode &node)
 NodePayloads::NodePayloads(const ProcessImage &image, const RosterNode &node,
                            const QVector<QPlcSignalIndex> &ownSignals)
     : m_id(node.id)
-    , m_isTwoPhase(node.isTwoPhase)
     , m_inputs(image.table(), node.inputs,
                node.hasInputQualities ? PayloadLayout::WithQualities : PayloadLayout::WithoutQualities)
     , m_outputs(image.table(), node.outputs)

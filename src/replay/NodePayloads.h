@@ -24,7 +24,6 @@ public:
 
 private:
     std::uint16_t m_id;
-    bool m_isTwoPhase;
     PayloadLayout m_inputs;
     PayloadLayout m_outputs;
     std::vector<CopyRun> m_all;

@@ -281,21 +281,6 @@ private:
 
 }  // namespace
 
-QString ReplayResult::text() const
-{
-    if (kind != Done)
-        return error;
-    if (!first)
-        return compared > 0 ? QStringLiteral("%1 cycles of node '%2' are equal").arg(compared).arg(node)
-                            : QStringLiteral("no cycle of node '%1' was compared").arg(node);
-    const QString place = first->cycle == Initial
-        ? QStringLiteral("its initial value")
-        : QStringLiteral("cycle %1 (%2 s)").arg(first->cycle).arg(first->time);
-    return QStringLiteral("%1 values of node '%2' differ, first '%3' in %4: recorded %5, computed %6")
-        .arg(differences)
-        .arg(node, first->signal, place, first->recorded, first->computed);
-}
-
 ReplayResult replayNode(const ReplayRequest &request)
 {
     return Replay(request).run();

@@ -52,8 +52,6 @@ struct ReplayResult
     double simulated = 0.0;  // [s]
     double elapsed = 0.0;    // [s]
 
-    /// For people: what was compared, the first difference, or the error.
-    QString text() const;
     double speed() const { return elapsed > 0.0 ? simulated / elapsed : 0.0; }
 };
 
