@@ -59,12 +59,11 @@ struct PlantRecording::Section
         int element;
     };
 
-    Time begin;  // on the clock of the window
-    Time end;
+    Part part;
     PlantValues values;
     std::vector<char> payload;
     std::vector<char> qualities;
-    std::unique_ptr<RecordedRows> rows;  // null: an overview
+    std::unique_ptr<RecordedRows> rows;  // if it has cycles
     std::optional<quint64> lastCycle;
     Time lastTime = 0;
     int intervals = 0;              // of an overview
@@ -77,6 +76,7 @@ PlantRecording::PlantRecording(Plant *plant, std::unique_ptr<Recording> recordin
     , m_plant(plant)
     , m_recording(std::move(recording))
     , m_memory(memory)
+    , m_mostRows(memory / PlantValues::bytesOfRow(ChannelMap(m_recording->table()).channels()))
 {
     m_period = std::numeric_limits<Time>::max();
     for (const RecordedFile &file : m_recording->files())
@@ -92,14 +92,9 @@ PlantRecording::PlantRecording(Plant *plant, std::unique_ptr<Recording> recordin
 
 PlantRecording::~PlantRecording() = default;
 
-std::int64_t PlantRecording::rowsThatFit() const
+bool PlantRecording::fits(Time begin, Time end) const
 {
-    return m_memory / PlantValues::bytesOfRow(ChannelMap(m_recording->table()).channels());
-}
-
-bool PlantRecording::isWhole() const
-{
-    return (m_end - m_begin) / m_period < rowsThatFit();
+    return (end - begin) / m_period < m_mostRows;
 }
 
 double PlantRecording::progress() const
@@ -108,8 +103,8 @@ double PlantRecording::progress() const
         return 1.0;
     if (!m_section->rows)
         return double(m_section->columns.size()) / double(std::max<std::size_t>(m_section->channels.size(), 1));
-    const Time length = std::max<Time>(m_section->end - m_section->begin, 1);
-    return std::clamp(double(m_section->lastTime - m_section->begin) / double(length), 0.0, 1.0);
+    const Time length = std::max<Time>(m_section->part.end - m_section->part.begin, 1);
+    return std::clamp(double(m_section->lastTime - m_section->part.begin) / double(length), 0.0, 1.0);
 }
 
 QString PlantRecording::text() const
@@ -125,17 +120,14 @@ QString PlantRecording::text() const
 /// movement needs other ones.
 void PlantRecording::see(Time begin, Time end)
 {
-    if (isWhole() || !m_isRead)
+    if (fits(m_begin, m_end) || !m_isRead)
         return;
     const Time from = std::clamp(begin, m_begin, m_end);
     const Time to = std::clamp(end, from, m_end);
     const Time span = to - from;
-    const bool canHaveCycles = 3 * (span / m_period + 1) < rowsThatFit();
-    const Time storeBegin = m_section ? m_section->begin : m_storeBegin;
-    const Time storeEnd = m_section ? m_section->end : m_storeEnd;
-    const bool hasCycles = m_section ? m_section->rows != nullptr : m_hasCycles;
-    const bool isEnough = canHaveCycles == hasCycles && storeBegin <= from && storeEnd >= to;
-    if (isEnough)
+    const bool canHaveCycles = 3 * (span / m_period + 1) < m_mostRows;
+    const Part &part = m_section ? m_section->part : m_part;
+    if (canHaveCycles == part.hasCycles && part.begin <= from && part.end >= to)
         return;
     if (canHaveCycles)
         beginSection(std::max(from - span, m_begin), std::min(to + span, m_end));
@@ -147,27 +139,26 @@ void PlantRecording::beginSection(Time begin, Time end)
 {
     m_section = std::make_unique<Section>();
     Section &section = *m_section;
-    section.begin = begin;
-    section.end = end;
+    section.part = {begin, end, fits(begin, end)};
     section.lastTime = begin;
     const QPlcSignalTable &table = m_recording->table();
-    const bool isOverview = (end - begin) / m_period >= rowsThatFit();
-    section.intervals = int(std::clamp<std::int64_t>(rowsThatFit() / 2, 1, mostIntervals));
-    const Time rowPeriod = isOverview ? std::max<Time>((end - begin) / (2 * section.intervals), 1) : m_period;
+    section.intervals = int(std::clamp<std::int64_t>(m_mostRows / 2, 1, mostIntervals));
+    const Time rowPeriod
+        = section.part.hasCycles ? m_period : std::max<Time>((end - begin) / (2 * section.intervals), 1);
     section.values.setTable(table, rowPeriod, {end - begin + 4 * rowPeriod, m_memory});
     section.payload.assign(std::size_t(section.values.channels().payloadSize()), 0);
     section.qualities.assign(std::size_t(table.size()), 0);
-    if (isOverview) {
+    if (section.part.hasCycles) {
+        std::vector<int> columns;
+        for (QPlcSignalIndex signal = 0; signal < table.size(); ++signal)
+            columns.push_back(int(signal));
+        section.rows = std::make_unique<RecordedRows>(*m_recording, columns, begin - m_shift, end - m_shift);
+    } else {
         for (QPlcSignalIndex signal = 0; signal < table.size(); ++signal) {
             const bool hasChannels = section.values.channels().channel(signal) != ChannelMap::NoChannel;
             for (int element = 0; hasChannels && element < table.at(signal).type.count(); ++element)
                 section.channels.push_back({int(signal), element});
         }
-    } else {
-        std::vector<int> columns;
-        for (QPlcSignalIndex signal = 0; signal < table.size(); ++signal)
-            columns.push_back(int(signal));
-        section.rows = std::make_unique<RecordedRows>(*m_recording, columns, begin - m_shift, end - m_shift);
     }
     m_timer.start();
     Q_EMIT m_plant->stateChanged();
@@ -226,8 +217,8 @@ bool PlantRecording::readColumn()
     Section &section = *m_section;
     if (section.columns.size() < section.channels.size()) {
         const Section::Channel channel = section.channels[section.columns.size()];
-        section.columns.push_back(m_recording->overview(channel.signal, channel.element, section.begin - m_shift,
-                                                        section.end - m_shift + 1, section.intervals));
+        section.columns.push_back(m_recording->overview(channel.signal, channel.element, section.part.begin - m_shift,
+                                                        section.part.end - m_shift + 1, section.intervals));
         return true;
     }
     storeOverview();
@@ -239,7 +230,7 @@ void PlantRecording::storeOverview()
 {
     Section &section = *m_section;
     SignalStore *store = section.values.store();
-    const double width = double(section.end - section.begin) / section.intervals;
+    const double width = double(section.part.end - section.part.begin) / section.intervals;
     std::vector<float> row(section.columns.size());
     for (int half = 0; half < 2 * section.intervals; ++half) {
         for (std::size_t column = 0; column < section.columns.size(); ++column) {
@@ -247,7 +238,7 @@ void PlantRecording::storeOverview()
             const bool hasValue = (bucket.flags & overview::HasValue) != 0;
             row[column] = !hasValue ? std::nanf("") : float(half % 2 == 0 ? bucket.minimum : bucket.maximum);
         }
-        store->append(section.begin + Time(std::llround((half + 0.5) * 0.5 * width)), row.data());
+        store->append(section.part.begin + Time(std::llround((half + 0.5) * 0.5 * width)), row.data());
         for (std::size_t column = 0; column < section.columns.size(); ++column) {
             if (const SignalStore::Mark mark = markOf(section.columns[column][std::size_t(half / 2)].flags))
                 store->mark(int(column), mark);
@@ -258,9 +249,7 @@ void PlantRecording::storeOverview()
 void PlantRecording::finish()
 {
     m_timer.stop();
-    m_storeBegin = m_section->begin;
-    m_storeEnd = m_section->end;
-    m_hasCycles = m_section->rows != nullptr;
+    m_part = m_section->part;
     m_damages = m_section->rows ? m_section->rows->damages() : m_damages;
     PlantValues values = std::move(m_section->values);
     m_section.reset();

@@ -55,10 +55,16 @@ Q_SIGNALS:
     void read();
 
 private:
+    /// Of the recording, on the clock of the window.
+    struct Part
+    {
+        Time begin = 0;
+        Time end = 0;
+        bool hasCycles = false;  // all of them, and no overview
+    };
     struct Section;
 
-    bool isWhole() const;
-    std::int64_t rowsThatFit() const;
+    bool fits(Time begin, Time end) const;
     void beginSection(Time begin, Time end);
     void readSome();
     bool readRow();
@@ -71,15 +77,14 @@ private:
     std::unique_ptr<Recording> m_recording;
     std::unique_ptr<Section> m_section;  // that is being read; null: none
     QTimer m_timer;
-    std::int64_t m_memory;  // of the store [byte]
-    Time m_shift = 0;       // to the clock of the window
+    std::int64_t m_memory;    // of the store [byte]
+    std::int64_t m_mostRows;  // of the store
+    Time m_shift = 0;         // to the clock of the window
     Time m_begin = 0;
     Time m_end = 0;
     Time m_period = 1;
-    Time m_storeBegin = 0;  // of what the store has
-    Time m_storeEnd = 0;
-    bool m_hasCycles = false;  // the store has all cycles of its times, and no overview
-    bool m_isRead = false;     // the store has something
+    Part m_part;            // that the store has
+    bool m_isRead = false;  // the store has something
     int m_damages = 0;
 };
 

@@ -84,8 +84,7 @@ void PlaybackBar::follow()
 
 void PlaybackBar::followPosition()
 {
-    m_time->setText(
-        QDateTime::fromMSecsSinceEpoch(m_playback->position() / 1'000'000).toString(QStringLiteral("HH:mm:ss.zzz")));
+    m_time->setText(RecordingTimeline::clockText(m_playback->position()));
 }
 
 void PlaybackBar::stepSpeed(int by)

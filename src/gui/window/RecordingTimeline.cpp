@@ -31,11 +31,13 @@ RecordingTimeline::RecordingTimeline(Playback *playback, WindowContext *context,
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
     setAccessibleName(tr("Time of the recording"));
     const auto redraw = QOverload<>::of(&QWidget::update);
-    connect(playback, &Playback::changed, this, redraw);
+    connect(playback, &Playback::changed, this, &RecordingTimeline::findEvents);
     connect(playback, &Playback::positionChanged, this, redraw);
     connect(context, &WindowContext::themeChanged, this, redraw);
     connect(context->timeAxis(), &QPlcTimeAxis::viewChanged, this, redraw);
-    connect(context->events(), &QAbstractItemModel::rowsInserted, this, redraw);
+    connect(context->events(), &QAbstractItemModel::rowsInserted, this, &RecordingTimeline::findEvents);
+    connect(context->events(), &QAbstractItemModel::rowsRemoved, this, &RecordingTimeline::findEvents);
+    findEvents();
 }
 
 double RecordingTimeline::xOf(Time time) const
@@ -50,9 +52,10 @@ RecordingTimeline::Time RecordingTimeline::timeAt(double x) const
     return m_playback->begin() + Time(std::llround(share * double(m_playback->end() - m_playback->begin())));
 }
 
-std::vector<RecordingTimeline::Time> RecordingTimeline::events() const
+/// They change seldom, and the playhead often.
+void RecordingTimeline::findEvents()
 {
-    std::vector<Time> times;
+    m_events.clear();
     const Plant *plant = m_playback->plant();
     for (int row = 0; plant && row < m_context->events()->rowCount(); ++row) {
         const PlantEvent &event = m_context->events()->at(row);
@@ -60,13 +63,12 @@ std::vector<RecordingTimeline::Time> RecordingTimeline::events() const
         const bool isOfPlant
             = event.source == plant->name() || event.source.startsWith(plant->name() + QLatin1Char('/'));
         if (isOfPlant && time >= m_playback->begin() && time <= m_playback->end())
-            times.push_back(time);
+            m_events.push_back(time);
     }
-    std::sort(times.begin(), times.end());
-    return times;
+    update();
 }
 
-QString RecordingTimeline::textOf(Time time) const
+QString RecordingTimeline::clockText(Time time)
 {
     return QDateTime::fromMSecsSinceEpoch(time / 1'000'000).toString(QStringLiteral("HH:mm:ss.zzz"));
 }
@@ -75,7 +77,7 @@ bool RecordingTimeline::event(QEvent *event)
 {
     if (event->type() == QEvent::ToolTip) {
         const auto *help = static_cast<QHelpEvent *>(event);
-        QToolTip::showText(help->globalPos(), textOf(timeAt(help->x())), this);
+        QToolTip::showText(help->globalPos(), clockText(timeAt(help->x())), this);
         return true;
     }
     return QWidget::event(event);
@@ -98,7 +100,7 @@ void RecordingTimeline::paintEvent(QPaintEvent * /*event*/)
     const double seenTo = std::clamp(xOf(axis->end()), margin, width() - margin);
     fill(seenFrom, seenTo, lineHeight, theme.mutedText);
     painter.setPen(QPen(theme.warning, 1.5));
-    for (const Time time : events())
+    for (const Time time : m_events)
         painter.drawLine(QPointF(xOf(time), y - 10.0), QPointF(xOf(time), y - 4.0));
     if (m_playback->isLoop()) {
         const auto [first, last] = m_playback->loopRange();
@@ -117,7 +119,7 @@ void RecordingTimeline::seekTo(double x)
 {
     Time time = timeAt(x);
     double distance = catchEvent;
-    for (const Time event : events()) {
+    for (const Time event : m_events) {
         if (std::fabs(xOf(event) - x) < distance) {
             distance = std::fabs(xOf(event) - x);
             time = event;

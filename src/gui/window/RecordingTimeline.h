@@ -26,8 +26,8 @@ public:
     /// [px] from the left edge
     double xOf(Time time) const;
     Time timeAt(double x) const;
-    /// Times of the events of the recording that is played, oldest first.
-    std::vector<Time> events() const;
+    /// The time of the day, with milliseconds.
+    static QString clockText(Time time);
 
 protected:
     bool event(QEvent *event) override;
@@ -37,11 +37,12 @@ protected:
     void keyPressEvent(QKeyEvent *event) override;
 
 private:
+    void findEvents();
     void seekTo(double x);
-    QString textOf(Time time) const;
 
     Playback *m_playback;
     WindowContext *m_context;
+    std::vector<Time> m_events;  // of the recording that is played
 };
 
 }  // namespace qplc
