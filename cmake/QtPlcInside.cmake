@@ -12,6 +12,19 @@ define_property(TARGET PROPERTY QTPLC_INSIDE INITIALIZE_FROM_VARIABLE QTPLC_INSI
     BRIEF_DOCS "The program contains the libraries of QtPLC that it links"
     FULL_DOCS "It links each library of QtPLC as an archive of all its objects, and not as a shared library.")
 
+# qtplc_add_library(Name): the library QtPlcName, which is installed as QtPlc::Name.
+function(qtplc_add_library name)
+    add_library(QtPlc${name})
+    set_target_properties(QtPlc${name} PROPERTIES
+        EXPORT_NAME ${name}
+        VERSION ${PROJECT_VERSION}
+        SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
+        VERIFY_INTERFACE_HEADER_SETS ON
+        POSITION_INDEPENDENT_CODE ON # static ones, too: the same objects
+        DEFINE_SYMBOL ""
+    )
+endfunction()
+
 # qtplc_add_common(objects library): an object library, a part of \a library that others use, too.
 function(qtplc_add_common objects library)
     add_library(${objects} OBJECT)
