@@ -2,7 +2,7 @@
 /* An FMU of FMI 3.0 with all types, called rightly and wrongly. No Qt.
  * usage: misuse_fmi3 FOLDER   (of the unpacked FMU all_kinds_fmi3)
  */
-#include "fmu_host.h"
+#include "state_table.h"
 
 static Fmi3 fmi;
 static Description description;
@@ -80,25 +80,13 @@ static void order_and_steps(void)
     fmi.free_instance(component);
 }
 
-/* The states of the standard, and an instance in each of them. */
-enum { INSTANTIATED, INITIALIZING, STEPPING, TERMINATED, FAILED, STATES };
 static int (*set_int32)(Component, const uint32_t *, size_t, const int32_t *, size_t);
 
-static Component in_state(int state)
+static void let_fail(Component component)
 {
     const uint32_t mode = of("mode");
     const int32_t fails = 1;
-    Component component = make();
-    if (state >= INITIALIZING)
-        REQUIRE(fmi.enter(component, false, 0, 0, false, 0) == STATUS_OK);
-    if (state >= STEPPING)
-        REQUIRE(fmi.leave(component) == STATUS_OK);
-    if (state == TERMINATED)
-        REQUIRE(fmi.terminate(component) == STATUS_OK);
-    if (state == FAILED)
-        REQUIRE(set_int32(component, &mode, 1, &fails, 1) == STATUS_OK && step(component, 0, 0.01) == STATUS_ERROR);
-    last_message[0] = '\0';
-    return component;
+    REQUIRE(set_int32(component, &mode, 1, &fails, 1) == STATUS_OK);
 }
 
 static int call_enter(Component component)
@@ -134,37 +122,18 @@ static int call_set(Component component)
     return fmi.set_float64(component, &reference, 1, &value, 1);
 }
 
-/* Each function in each state does its work, or is an error with a sentence; the instance works afterwards. */
 static void state_table(void)
 {
-    static const struct
-    {
-        const char *name;
-        int (*call)(Component);
-        const char *allowed; /* in which of the states */
-    } functions[] = {{"fmi3EnterInitializationMode", call_enter, "+----"},
-                     {"fmi3ExitInitializationMode", call_leave, "-+---"},
-                     {"fmi3DoStep", call_step, "--+--"},
-                     {"fmi3Terminate", call_terminate, "--+-+"},
-                     {"fmi3Reset", call_reset, "+++++"},
-                     {"fmi3GetFloat64", call_get, "-++++"},
-                     {"fmi3SetFloat64", call_set, "+++--"}};
-    for (size_t i = 0; i < sizeof functions / sizeof *functions; ++i) {
-        for (int state = INSTANTIATED; state < STATES; ++state) {
-            Component component = in_state(state);
-            const int status = functions[i].call(component);
-            if (functions[i].allowed[state] == '+') {
-                REQUIRE(status == STATUS_OK);
-            } else {
-                REQUIRE(status == STATUS_ERROR && strstr(last_message, functions[i].name));
-                TOLD("is not allowed now, because it ");
-            }
-            REQUIRE(fmi.reset(component) == STATUS_OK && call_enter(component) == STATUS_OK);
-            REQUIRE(fmi.leave(component) == STATUS_OK && call_step(component) == STATUS_OK);
-            fmi.free_instance(component);
-        }
-        REQUIRE(functions[i].call(NULL) == STATUS_ERROR);
-    }
+    static const StateRow rows[] = {{"fmi3EnterInitializationMode", call_enter, "+----"},
+                                    {"fmi3ExitInitializationMode", call_leave, "-+---"},
+                                    {"fmi3DoStep", call_step, "--+--"},
+                                    {"fmi3Terminate", call_terminate, "--+-+"},
+                                    {"fmi3Reset", call_reset, "+++++"},
+                                    {"fmi3GetFloat64", call_get, "-++++"},
+                                    {"fmi3SetFloat64", call_set, "+++--"}};
+    const StateWays ways
+        = {make, call_enter, call_leave, call_step, call_terminate, call_reset, let_fail, fmi.free_instance};
+    check_states(&ways, rows, sizeof rows / sizeof *rows);
 }
 
 /* What a host should hear also without logging. */
