@@ -10,14 +10,15 @@
 
 namespace qplc {
 
-/// Messages of a recording beside those of /plant, written and read: docs/design/recording-format.md.
+/// Messages of a recording beside those of /plant, written and read:
+/// docs/design/recording-format.md.
 
 /// The description of a message of /nodes, as a file of ROS says it.
 QByteArray nodesSchema();
 /// The message of /nodes: what the master has exchanged with each node in the cycle of \a view.
 QByteArray nodesMessage(const CycleView &view);
-/// Reads a message of /nodes. RecordedNode::cycle is an age [cycles], as ageOf() says. \return false
-/// when it is not such a message
+/// Reads a message of /nodes. RecordedNode::cycle is an age [cycles], as ageOf() says.
+/// \return false when it is not such a message
 bool readNodes(const QByteArray &message, std::vector<RecordedNode> *nodes);
 /// The age in the cycle \a number of the request \a cycle, or the request of an age: both are the
 /// difference. NoCycle stays what it is.

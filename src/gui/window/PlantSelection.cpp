@@ -85,7 +85,7 @@ QVector<Plant *> PlantSelection::plantsToStop() const
     if (controlled.isEmpty() && plant() && !plant()->recording())
         controlled << plant();
     if (controlled.isEmpty()) {
-        // A recording cannot be meant.
+        // A recording is not a plant that anybody could stop.
         for (Plant *each : m_plants->all()) {
             if (!each->recording())
                 controlled << each;

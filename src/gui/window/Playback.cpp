@@ -160,7 +160,8 @@ void Playback::step(int cycles)
     seek(store->time(SignalStore::Row(wanted)));
 }
 
-/// \return the next cycle when there is none for long
+/// Skips a pause in the recording. \return the time of the next cycle if \a time is in a pause,
+/// otherwise \a time
 Playback::Time Playback::withoutPause(Time time) const
 {
     const SignalStore *store = plant()->store();

@@ -9,7 +9,7 @@ class QLabel;
 namespace qplc {
 
 /// The bar of a window in which a recording is open: play, step, speed, loop, and the line of its
-/// times. Hidden while there is none.
+/// times. It is hidden while no recording is open.
 class PlaybackBar : public QWidget
 {
     Q_OBJECT

@@ -55,7 +55,7 @@ struct RecordedCycle
     std::uint32_t imageSize = 0;   ///< [byte]
     std::uint32_t beforeSize = 0;  ///< [byte] of the image before; 0 or imageSize
     std::uint32_t rawSize = 0;     ///< [byte] of all raw outputs and inputs, with their padding
-    std::uint32_t roster = 0;      ///< number of the RecordedRoster; 0: there is none
+    std::uint32_t roster = 0;      ///< number of the RecordedRoster; 0: no roster
 };
 
 /// What the master has exchanged with a node in a cycle.
