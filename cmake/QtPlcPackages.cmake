@@ -92,8 +92,8 @@ FMUs and controller libraries of nodes. Python reads code that Simulink has expo
 qtplc_package(libqtplc-test-dev SECTION libdevel
     SUMMARY "distributed real-time controllers, for testing nodes"
     DESCRIPTION "What find_package(QtPlc COMPONENTS Test) finds: whole plants in one thread and in
-virtual time, for tests of nodes."
-    DEPENDS libqtplc-dev libboost-context-dev libsodium-dev RECOMMENDS qtplc-doc)
+virtual time, and nodes that compute recordings again, for tests of nodes."
+    DEPENDS libqtplc-dev libboost-context-dev libsodium-dev libzstd-dev RECOMMENDS qtplc-doc)
 qtplc_package(qtplc-tools SECTION utils
     SUMMARY "distributed real-time controllers, tools"
     DESCRIPTION "The command qtplc looks into a running QtPLC plant and steers it, and tells

@@ -14,6 +14,10 @@ bool NodeProgram::start(const QString &command, const QString &master, QString *
 {
     end();
     const QStringList program = QProcess::splitCommand(command);
+    if (program.isEmpty()) {
+        *error = QStringLiteral("no program is given");
+        return false;
+    }
     m_process = std::make_unique<QProcess>();
     m_process->setProcessChannelMode(QProcess::ForwardedErrorChannel);
     m_process->setStandardOutputFile(QProcess::nullDevice());

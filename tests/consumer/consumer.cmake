@@ -104,6 +104,7 @@ endif()
 if(EXISTS ${prefix}/include/QtPlc/QPlcSimulator.h)
     build_project(plant_test ${SOURCE}/docs/howto/code/plant_test)
     run(${WORK}/plant_test/tst_Winch)
+    run(${WORK}/plant_test/tst_WinchReplay)
 endif()
 
 # A test of a user's node, as in docs/howto/test-a-node.md.

@@ -205,7 +205,10 @@ def master_in_a_host(plant):
 
 
 def test_a_plant(_plant):
-    return {"build/tst_Winch -silent": Expectation(shows=r"Totals: 4 passed, 0 failed")}
+    return {
+        "build/tst_Winch -silent": Expectation(shows=r"Totals: 4 passed, 0 failed"),
+        "build/tst_WinchReplay -silent": Expectation(shows=r"Totals: 4 passed, 0 failed"),
+    }
 
 
 def run(*command):

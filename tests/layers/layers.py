@@ -85,7 +85,7 @@ ARROWS = {
     "gui3d": {"signals", "node", "gui", "gui/panel", "gui3d"},
     # Users compile it: public headers alone.
     "export": {"signals", "node", "export"},
-    "test_support": BELOW_NODE | {"node", "test_support"},
+    "test_support": BELOW_NODE | {"node", "replay", "test_support"},
     "tools": BELOW_NODE
     | {
         "node",
