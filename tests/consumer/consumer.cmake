@@ -107,6 +107,9 @@ if(EXISTS ${prefix}/include/QtPlc/QPlcSimulator.h)
     run(${WORK}/plant_test/tst_WinchReplay)
 endif()
 
+# A program that reads recordings, as in docs/howto/read-a-recording.md.
+build_project(recording ${SOURCE}/docs/howto/code/recording)
+
 # A test of a user's node, as in docs/howto/test-a-node.md.
 build_project(node_test ${SOURCE}/docs/howto/code/node_test)
 run(${WORK}/node_test/tst_Winch)

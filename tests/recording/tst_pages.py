@@ -22,6 +22,11 @@ FILES = {
 BEFORE = {"docs/recording.md": "awe_sil --duration 20 --record flight.mcap\n"}
 
 
+def number_of(text):
+    count, power = re.search(r"(\d+) cycles, largest power (\S+) W", text).groups()
+    return int(count), float(power)
+
+
 def main():
     programs, source = map(Path, sys.argv[1:3])
     example = source / "examples/airborne_wind_energy/report"
@@ -44,6 +49,12 @@ def main():
                     continue
                 assert run.returncode == 0, f"{page}: {block}\n{run.stdout}{run.stderr}"
             assert text in seen, f"{page}: no '{text}' in\n{seen}"
+            if page == "docs/howto/read-a-recording.md":
+                program = [programs / "howto_largest_power", Path(folder) / "flight.mcap"]
+                line = subprocess.run(program, capture_output=True, text=True, timeout=120, check=True).stdout
+                count, power = number_of(line)
+                cycles, written = number_of(seen)  # with the digits of the type of the signal
+                assert count == cycles and abs(power - written) < 1e-6 * power, f"{page}: C++ prints {line}"
             missing = [name for name in FILES[page] if not (Path(folder) / name).exists()]
             assert missing in ([], ["flight.mat"]), f"{page}: {missing}"
             if page in BEFORE:

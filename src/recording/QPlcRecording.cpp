@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "QPlcRecording.h"
+
+#include "QPlcRecordedRows.h"
+#include "QPlcRecordingPrivate.h"
+
+#include <algorithm>
+
+QPlcRecording::QPlcRecording()
+    : d(std::make_unique<Private>())
+{
+}
+
+QPlcRecording::~QPlcRecording() = default;
+QPlcRecording::QPlcRecording(QPlcRecording &&other) noexcept = default;
+QPlcRecording &QPlcRecording::operator=(QPlcRecording &&other) noexcept = default;
+
+bool QPlcRecording::open(const QString &path)
+{
+    return open(QStringList{path});
+}
+
+bool QPlcRecording::open(const QStringList &paths)
+{
+    *d = {};
+    d->isOpen = d->recording.open(paths, &d->error);
+    return d->isOpen;
+}
+
+QString QPlcRecording::errorString() const
+{
+    return d->error;
+}
+
+QStringList QPlcRecording::notes() const
+{
+    return d->recording.notes();
+}
+
+QString QPlcRecording::plant() const
+{
+    return d->isOpen ? d->recording.description().plant : QString();
+}
+
+std::chrono::nanoseconds QPlcRecording::period() const
+{
+    return std::chrono::nanoseconds(d->isOpen ? d->recording.description().period : 0);
+}
+
+QPlcSignalTable QPlcRecording::signalTable() const
+{
+    return d->isOpen ? d->recording.table() : QPlcSignalTable();
+}
+
+qint64 QPlcRecording::begin() const
+{
+    return d->isOpen ? d->recording.begin() : 0;
+}
+
+qint64 QPlcRecording::end() const
+{
+    return d->isOpen ? d->recording.end() : 0;
+}
+
+bool QPlcRecording::isTimed() const
+{
+    return d->isOpen && d->recording.isTimed();
+}
+
+QVector<QPlcRecording::File> QPlcRecording::files() const
+{
+    QVector<File> files;
+    if (!d->isOpen)
+        return files;
+    for (const qplc::RecordedFile &file : d->recording.files())
+        files.append({file.name, file.begin, file.end, file.description.session, file.description.phase,
+                      file.isFinished, file.name.contains(QLatin1String("_marked.mcap"))});
+    return files;
+}
+
+QPlcRecording::Columns QPlcRecording::columns(const QStringList &names, qint64 begin, qint64 end, int most)
+{
+    Columns result;
+    d->error.clear();
+    QPlcRecordedRows rows(*this, names, begin, end);
+    if (!rows.isValid()) {
+        d->error = rows.errorString();
+        return result;
+    }
+    for (const QString &name : names) {
+        const QPlcSignalType type = d->recording.table().at(d->recording.table().indexOf(name)).type;
+        if (type.isString()) {
+            d->error = QStringLiteral("signal '%1' is a text; read it with QPlcRecordedRows").arg(name);
+            return {};
+        }
+        Columns::Column column;
+        column.size = type.count();
+        result.columns.append(column);
+    }
+    while (result.times.size() < most && rows.next()) {
+        result.times.append(rows.time());
+        result.cycles.append(rows.cycle());
+        for (int i = 0; i < result.columns.size(); ++i) {
+            Columns::Column &column = result.columns[i];
+            for (int element = 0; element < column.size; ++element)
+                column.numbers.append(rows.number(i, element));
+            column.qualities.append(rows.quality(i).toByte());
+        }
+    }
+    d->damages += rows.damages();
+    return result;
+}
+
+QVector<QPlcRecording::Message> QPlcRecording::messages(const QString &channel, qint64 begin, qint64 end, int most)
+{
+    QVector<Message> result;
+    d->error.clear();
+    if (!d->isOpen) {
+        d->error = QStringLiteral("no recording is open");
+        return result;
+    }
+    const QByteArray wanted = channel.toUtf8();
+    qplc::RecordedRows rows(d->recording, {}, begin, end);
+    rows.setOther([&](const QByteArray &topic, const qplc::mcap::Message &message) {
+        if (topic == wanted && qint64(message.time) <= end && result.size() < most)
+            result.append({qint64(message.time), QByteArray(message.bytes, int(message.size))});
+    });
+    while (result.size() < most && rows.next())
+        continue;
+    d->damages += rows.damages();
+    return result;
+}
+
+QVector<QPlcRecording::Extremes> QPlcRecording::overview(const QString &name, int element, qint64 begin, qint64 end,
+                                                         int count)
+{
+    QVector<Extremes> result(std::max(count, 0));
+    const int signal = d->isOpen ? d->recording.indexOf(name) : -1;
+    if (signal < 0)
+        return result;
+    const QPlcSignalType type = d->recording.signalList()[std::size_t(signal)].definition.type;
+    if (type.isString() || element < 0 || element >= type.count())
+        return result;
+    const std::vector<qplc::overview::Bucket> buckets = d->recording.overview(signal, element, begin, end, count);
+    for (std::size_t i = 0; i < buckets.size(); ++i) {
+        const quint8 flags = buckets[i].flags;
+        const bool hasValue = (flags & qplc::overview::HasValue) != 0;
+        result[int(i)] = {hasValue ? buckets[i].minimum : 0.0, hasValue ? buckets[i].maximum : 0.0, hasValue,
+                          flags == qplc::overview::HasValue};
+    }
+    return result;
+}
+
+int QPlcRecording::damages() const
+{
+    return d->damages;
+}
