@@ -27,6 +27,12 @@ public:
     {
     }
 
+    /// Channels have numbers of their own in each file, and what nodes exchange is written anew.
+    void beginFile()
+    {
+        m_topics.clear();
+        m_exchange.clear();
+    }
     void attachment(const Attachment &attachment, const NamedEntry & /*entry*/) override
     {
         if (attachment.name != "recording.txt" || m_message)
@@ -57,6 +63,7 @@ public:
     }
     bool hasTable() const { return m_message != nullptr; }
     bool isDamaged() const { return m_isDamaged; }
+    bool goesOn() const { return m_goesOn; }
 
 private:
     /// \return false when the message is not whole
@@ -81,9 +88,23 @@ private:
             return takeJoin(bytes);
         if (topic == "/gaps")
             return takeGap(bytes);
+        if (topic == "/digest" && bytes.contains("\"continues\":true"))
+            takeBegin(numberIn(bytes, "next").value_or(0));
         if (topic == "/digest" && bytes.contains("\"end\":true"))
             m_goesOn = m_goesOn && m_reader.ended();
         return true;
+    }
+    /// A file begins with cycle \a next. What is missing between two files is a gap.
+    void takeBegin(std::uint64_t next)
+    {
+        if (m_hasCycle && next > m_next)
+            addGap(m_next, next - 1);
+    }
+    void addGap(std::uint64_t first, std::uint64_t last)
+    {
+        m_goesOn = m_goesOn && m_reader.gap(first, last);
+        m_next = last + 1;
+        m_hasPrevious = false;
     }
     std::optional<PlantMessage::Cycle> takeImage(const Message &message, ProcessImage *image)
     {
@@ -133,9 +154,8 @@ private:
     {
         RecordedGap gap;
         const bool isWhole = readGap(bytes, &gap);
-        m_goesOn = m_goesOn && m_reader.gap(gap.first, gap.last);
-        m_next = gap.last + 1;
-        m_hasPrevious = false;
+        if (!m_hasCycle || gap.last >= m_next)  // a file before has its cycles
+            addGap(m_hasCycle ? std::max(gap.first, m_next) : gap.first, gap.last);
         return isWhole;
     }
     void flush()
@@ -143,6 +163,8 @@ private:
         if (!m_hasRow)
             return;
         const std::uint64_t number = m_row.cycle.number;
+        if (m_hasCycle && number < m_next)  // a file before has it
+            return forget();
         m_hasPrevious = m_hasPrevious && number == m_next + m_row.cycle.skipped;
         m_row.image = m_image.get();
         m_row.before = m_hasBefore ? m_before.get() : nullptr;
@@ -154,7 +176,11 @@ private:
         m_goesOn = m_goesOn && m_reader.cycle(m_row);
         std::swap(m_image, m_previous);
         m_next = number + 1;
-        m_hasPrevious = true;
+        m_hasPrevious = m_hasCycle = true;
+        forget();
+    }
+    void forget()
+    {
         m_hasRow = m_hasBefore = false;
         m_row.rawOutputs.clear();
         m_row.rawInputs.clear();
@@ -170,6 +196,7 @@ private:
     std::vector<RecordedNode> m_exchange;  // newest one; `cycle` is an age
     RosterContent m_roster;
     std::uint64_t m_next = 0;  // cycle behind the newest one
+    bool m_hasCycle = false;   // any
     bool m_hasRoster = false;
     bool m_hasRow = false;
     bool m_hasBefore = false;
@@ -195,21 +222,27 @@ const QByteArray *RecordedRow::find(const std::vector<Raw> &raw, std::uint16_t i
     return found != raw.end() ? &found->bytes : nullptr;
 }
 
-bool RecordedCycles::read(const QString &file, Reader &reader, QString *error)
+bool RecordedCycles::read(const QStringList &files, Reader &reader, QString *error)
 {
-    mcap::Reader source;
-    if (!source.open(file, error))
-        return false;
     RowReader rows(reader);
-    source.scan(rows);
-    if (!rows.hasTable())
-        *error
-            = QStringLiteral("the file '%1' is no recording of a plant, or one of another version of QtPLC").arg(file);
-    else if (rows.isDamaged() || source.damages() > 0)
-        *error = QStringLiteral("the recording '%1' is damaged; 'qtplc verify' says what is missing").arg(file);
-    else
-        return true;
-    return false;
+    for (const QString &file : files) {
+        mcap::Reader source;
+        if (!source.open(file, error))
+            return false;
+        rows.beginFile();
+        source.scan(rows);
+        if (!rows.hasTable())
+            *error = QStringLiteral("the file '%1' is no recording of a plant, or one of another version of QtPLC")
+                         .arg(file);
+        else if (rows.isDamaged() || source.damages() > 0)
+            *error = QStringLiteral("the recording '%1' is damaged; 'qtplc verify' says what is missing").arg(file);
+        else if (rows.goesOn())
+            continue;
+        else
+            return true;
+        return false;
+    }
+    return true;
 }
 
 }  // namespace qplc

@@ -6,6 +6,8 @@
 #include "node/cycle/RingDescription.h"
 #include "node/cycle/RosterText.h"
 
+#include <QtCore/QStringList>
+
 #include <functional>
 #include <memory>
 #include <vector>
@@ -44,7 +46,7 @@ struct RecordedStart
     QByteArray inputs;   // initial ones, as it was given them
 };
 
-/// Reads a recording from its first cycle to its last.
+/// Reads a recording from its first cycle to its last: a file, or the files of a phase.
 class RecordedCycles
 {
 public:
@@ -64,8 +66,9 @@ public:
         virtual bool ended() { return true; }
     };
 
-    /// \return false when \a file cannot be read, is no recording, or is damaged
-    static bool read(const QString &file, Reader &reader, QString *error);
+    /// \param files  of one phase, in their order. Cycles that two of them have are read once
+    /// \return false when one of them cannot be read, is no recording, or is damaged
+    static bool read(const QStringList &files, Reader &reader, QString *error);
 };
 
 }  // namespace qplc

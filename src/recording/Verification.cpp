@@ -5,6 +5,7 @@
 #include "PlantMessage.h"
 #include "RecordingMessages.h"
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -125,6 +126,7 @@ private:
     void goOn(quint64 next, quint64 digest)
     {
         m_result.continues = true;
+        m_result.fromDigest = digest;
         m_result.from = m_result.checkedCycles = m_next = next;
         m_result.digest = digest;
     }
@@ -137,9 +139,8 @@ private:
     bool m_hasDigest = true;
 };
 
-}  // namespace
-
-bool verifyRecording(const QString &file, VerifiedFile *result, QString *error)
+/// \return false when the file cannot be read, or is no recording
+bool readFile(const QString &file, VerifiedFile *result, QString *error)
 {
     *result = {};
     Reader reader;
@@ -158,9 +159,93 @@ bool verifyRecording(const QString &file, VerifiedFile *result, QString *error)
         verifier.problem(QStringLiteral("the file is damaged at %1 places").arg(reader.damages()));
     if (!result->isFinished)
         verifier.problem(QStringLiteral("the file is not finished; run: qtplc recover %1").arg(file));
-    if (!result->hasEnd)
-        verifier.problem(QStringLiteral("the end of the phase is not in the file"));
     return true;
+}
+
+/// Puts the files of a phase together, one after the other.
+class PhaseVerifier
+{
+public:
+    explicit PhaseVerifier(VerifiedPhase *result)
+        : m_result(*result)
+    {
+    }
+
+    void add(const QString &name, const VerifiedFile &file)
+    {
+        for (const QString &problem : file.problems)
+            m_result.problems << QStringLiteral("%1: %2").arg(name, problem);
+        if (file.from > m_next)
+            addHole(file);
+        else if (m_hasFile && file.from == m_next && file.fromDigest != m_digest)
+            m_result.problems << QStringLiteral("%1 does not go on where the file before has ended: other cycles are "
+                                                "before cycle %2")
+                                     .arg(name)
+                                     .arg(m_next);
+        if (m_result.cycles == 0)
+            m_result.firstCycle = file.firstCycle;
+        m_result.cycles += file.cycles;
+        m_result.skipped += file.skipped;
+        m_result.missing += file.missing;
+        m_result.gaps += file.gaps;
+        m_result.lastCycle = std::max(m_result.lastCycle, file.lastCycle);
+        m_result.hasEnd = m_result.hasEnd || file.hasEnd;
+        if (file.next >= m_next) {
+            m_next = file.next;
+            m_digest = m_result.digest = file.digest;
+        }
+        m_hasFile = true;
+        m_areAllMarked = m_areAllMarked && name.contains(QLatin1String("_marked.mcap"));
+    }
+
+private:
+    /// Old files are deleted first, and marked ones never: so what is missing behind others than
+    /// marked ones was not recorded.
+    void addHole(const VerifiedFile &file)
+    {
+        const VerifiedFile::Gap hole{m_next, file.from - 1};
+        if (m_areAllMarked) {
+            m_result.deleted << hole;
+            return;
+        }
+        m_result.gaps << hole;
+        m_result.missing += hole.last - hole.first + 1;
+    }
+
+    VerifiedPhase &m_result;
+    quint64 m_next = 0;  // cycle that comes behind the files so far
+    quint64 m_digest = 0;
+    bool m_hasFile = false;
+    bool m_areAllMarked = true;
+};
+
+}  // namespace
+
+bool verifyRecording(const QString &file, VerifiedFile *result, QString *error)
+{
+    if (!readFile(file, result, error))
+        return false;
+    if (!result->hasEnd)
+        result->problems << QStringLiteral("the end of the phase is not in the file");
+    return true;
+}
+
+VerifiedPhase verifyPhase(const RecordedPhase &phase)
+{
+    VerifiedPhase result;
+    result.phase = phase;
+    PhaseVerifier verifier(&result);
+    for (const QString &name : phase.files) {
+        VerifiedFile file;
+        QString error;
+        if (readFile(name, &file, &error))
+            verifier.add(name, file);
+        else
+            result.problems << error;
+    }
+    if (!result.hasEnd)
+        result.problems << QStringLiteral("the end of the phase is not in the files");
+    return result;
 }
 
 }  // namespace qplc

@@ -124,20 +124,6 @@ private:
     bool m_hasRoster = false;
 };
 
-class DescriptionReader final : public RecordedCycles::Reader
-{
-public:
-    bool begin(const RingDescription &ofFile, const QPlcSignalTable &tableOfFile) override
-    {
-        description = ofFile;
-        table = tableOfFile;
-        return false;
-    }
-    bool cycle(const RecordedRow &) override { return false; }
-    RingDescription description;
-    QPlcSignalTable table;
-};
-
 }  // namespace
 
 std::uint64_t NodePassage::count() const
@@ -147,29 +133,20 @@ std::uint64_t NodePassage::count() const
     return std::uint64_t(std::count(computed.begin(), computed.begin() + std::ptrdiff_t(until), true));
 }
 
-bool readPassages(const QString &file, const QString &name, std::vector<NodePassage> *passages, QString *error)
+bool readPassages(const RecordedPhase &phase, const QString &name, std::vector<NodePassage> *passages, QString *error)
 {
     passages->clear();
     HistoryReader reader(name, passages);
-    if (!RecordedCycles::read(file, reader, error))
+    if (!RecordedCycles::read(phase.files, reader, error))
         return false;
     if (!passages->empty())
         return true;
     *error = reader.hasRoster()
         ? QStringLiteral("the recording '%1' has no node '%2', but %3; choose one with --name")
-              .arg(file, name, reader.names().join(QStringLiteral(", ")))
-        : QStringLiteral("the recording '%1' does not say which nodes were there; it is of an older version").arg(file);
+              .arg(phase.name(), name, reader.names().join(QStringLiteral(", ")))
+        : QStringLiteral("the recording '%1' does not say which nodes were there; it is of an older version")
+              .arg(phase.name());
     return false;
-}
-
-bool readDescription(const QString &file, RingDescription *description, QPlcSignalTable *table, QString *error)
-{
-    DescriptionReader reader;
-    if (!RecordedCycles::read(file, reader, error))
-        return false;
-    *description = reader.description;
-    *table = reader.table;
-    return true;
 }
 
 }  // namespace qplc

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "recording/RecordedCycles.h"
+#include "recording/RecordedPhases.h"
 
 #include <optional>
 
@@ -30,9 +31,6 @@ struct NodePassage
 
 /// Reads the passages of the node \a name: each registration makes one, in their order.
 /// \return false when the recording cannot be read, or does not know such a node
-bool readPassages(const QString &file, const QString &name, std::vector<NodePassage> *passages, QString *error);
-
-/// What the recording says of its phase. \return false when it cannot be read
-bool readDescription(const QString &file, RingDescription *description, QPlcSignalTable *table, QString *error);
+bool readPassages(const RecordedPhase &phase, const QString &name, std::vector<NodePassage> *passages, QString *error);
 
 }  // namespace qplc

@@ -115,15 +115,18 @@ public:
     ReplayResult run()
     {
         QString error;
-        if (!readDescription(m_request.file, &m_description, &m_table, &error))
+        if (!findPhase(m_request.file, &m_phase, &error))
             return refuse(error);
+        m_table = QPlcSignalTable::fromIni(m_phase.description.table);
+        if (m_phase.files.size() > 1)
+            m_result.notes << QStringLiteral("the recording is %1").arg(m_phase.name());
         // The name of the node is known when its program has registered.
         if (!bringNode())
             return m_result;
         if (m_result.node.isEmpty())
             m_result.node = m_master->node()->name;
         std::vector<NodePassage> passages;
-        if (!readPassages(m_request.file, m_result.node, &passages, &error))
+        if (!readPassages(m_phase, m_result.node, &passages, &error))
             return refuse(error);
         if (m_request.node && passages.size() > 1) {
             m_result.notes << QStringLiteral("the recording has %1 registrations of the node; this is the first one")
@@ -158,7 +161,7 @@ private:
     bool bringNode()
     {
         QString error;
-        m_master = std::make_unique<ReplayMaster>(m_description, m_table);
+        m_master = std::make_unique<ReplayMaster>(m_phase.description, m_table);
         if (m_request.node)
             return m_master->add(m_request.node, &error) || fail(error);
         const QString address = m_master->listen(&error);
@@ -196,8 +199,8 @@ private:
             return;
         }
         const ProcessImage image(m_table);
-        const NodePayloads payloads(image, passage.node, m_description.ownSignals);
-        OutputComparison comparison(m_table, payloads, passage, m_description.period, m_request.from, &m_result);
+        const NodePayloads payloads(image, passage.node, m_phase.description.ownSignals);
+        OutputComparison comparison(m_table, payloads, passage, m_phase.description.period, m_request.from, &m_result);
         comparison.compareInitial(passage.start->outputs, m_master->node()->initialOutputs.data());
         Player player(*m_master, passage, m_request.speed, payloads, comparison, &m_result);
         playAside(player);
@@ -216,7 +219,7 @@ private:
         const std::int64_t begin = monotonicNow();
         bool isDone = false;
         Worker worker;
-        worker.begin([&] { isRead = RecordedCycles::read(m_request.file, player, &error); }, [&] { isDone = true; });
+        worker.begin([&] { isRead = RecordedCycles::read(m_phase.files, player, &error); }, [&] { isDone = true; });
         if (worker.descriptor() >= 0) {
             QSocketNotifier news(worker.descriptor(), QSocketNotifier::Read);
             QObject::connect(&news, &QSocketNotifier::activated, &loop, [&] { worker.collect(); });
@@ -273,7 +276,7 @@ private:
 
     const ReplayRequest &m_request;
     ReplayResult m_result;
-    RingDescription m_description;
+    RecordedPhase m_phase;
     QPlcSignalTable m_table;
     NodeProgram m_program;
     std::unique_ptr<ReplayMaster> m_master;

@@ -14,7 +14,7 @@ namespace qplc {
 /// What a replay is of.
 struct ReplayRequest
 {
-    QString file;     // recording
+    QString file;     // recording, or folder: findPhase()
     QString program;  // that is the node, with its arguments; empty: `node`
     QPlcSlaveNode *node = nullptr;
     QString name;        // of the node in the recording; empty: that under which it registers

@@ -332,14 +332,17 @@ const QVector<Command> &commands()
          2,
          &recordPlant},
         {"verify",
-         "FILE",
+         "FILE|FOLDER",
          "Checks whether a recording has every cycle of a flight.",
          "Needs no master. It computes the digest of all images in FILE and compares it\n"
          "with the digest of the flight, which the master has computed. The exit code is 0\n"
          "only if all cycles from the first to the last are there, and equal. Otherwise it\n"
-         "prints which cycles are missing, and what is damaged.",
+         "prints which cycles are missing, and what is damaged. In a FOLDER, it does this\n"
+         "for each phase, whose files have to follow each other. Cycles of files that were\n"
+         "deleted are named, and do not count as missing.",
          {},
-         {QStringLiteral("qtplc verify flight.mcap"), QStringLiteral("qtplc verify flight.mcap --json | jq .gaps")},
+         {QStringLiteral("qtplc verify flight.mcap"), QStringLiteral("qtplc verify flight.mcap --json | jq .gaps"),
+          QStringLiteral("qtplc verify /var/lib/qtplc/recordings")},
          Command::NoArguments,
          1,
          1,
@@ -399,12 +402,14 @@ const QVector<Command> &commands()
          1,
          &writeReport},
         {"replay",
-         "FILE",
+         "FILE|FOLDER",
          "Lets a node compute again what a recording says.",
          "Needs no master. It starts the program of the node, gives it the inputs of the\n"
          "recording cycle by cycle, and with --compare compares its outputs with those of\n"
          "the recording, bit by bit, but for signals that are volatile in the table. The\n"
          "exit code is 1 when they differ, and 2 when the node cannot be replayed.\n"
+         "A file in a folder of a recorder stands for all files of its phase, and a FOLDER\n"
+         "for its newest phase.\n"
          "With --from, the node computes from its first cycle on, for its state, and\n"
          "outputs are compared from that time on.",
          {{"node", "COMMAND", "Program of the node with its arguments, without --master."},

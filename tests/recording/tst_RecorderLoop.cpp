@@ -182,6 +182,10 @@ private Q_SLOTS:
     void aStopEndsTheFileAndAStartGoesOn();
     void aStopHoldsForTheNextRecorder();
     void theStatusSaysWhatIsRecorded();
+    void theFilesOfAPhaseAreVerifiedAsOne();
+    void aMissingFileIsAGapUnlessItWasDeleted();
+    void aFileOfAnotherFlightDoesNotGoOn();
+    void aFileStandsForItsPhase();
 };
 
 void tst_RecorderLoop::namesOfFilesSayTimePlantAndPhase()
@@ -569,6 +573,113 @@ void tst_RecorderLoop::theStatusSaysWhatIsRecorded()
     QCOMPARE(status.value("file"), flight.files().constFirst().toUtf8());
     flight.kill();
     QVERIFY(!RecorderControl::hasRecorder(flight.settings.folder));
+}
+
+/// Fifty seconds in five files. \return the folder
+static QString flyInFiveFiles(Recorded *flight)
+{
+    flight->settings.segmentTime = 10 * Second;
+    if (!flight->open() || !flight->attach() || !flight->start())
+        qFatal("%s", qPrintable(flight->error));
+    flight->fly(5000);
+    flight->endPhase();
+    return flight->settings.folder;
+}
+
+static VerifiedPhase verifiedFolder(const QString &folder)
+{
+    QVector<RecordedPhase> phases;
+    QString error;
+    if (!findPhases(folder, &phases, &error) || phases.size() != 1)
+        qFatal("%lld phases: %s", qlonglong(phases.size()), qPrintable(error));
+    return verifyPhase(phases.first());
+}
+
+void tst_RecorderLoop::theFilesOfAPhaseAreVerifiedAsOne()
+{
+    Recorded flight;
+    const VerifiedPhase phase = verifiedFolder(flyInFiveFiles(&flight));
+    QCOMPARE(phase.problems, QStringList());
+    QVERIFY(phase.isComplete() && phase.deleted.isEmpty());
+    QCOMPARE(phase.phase.files, flight.files());
+    QCOMPARE(phase.phase.files.size(), 5);
+    QCOMPARE(phase.cycles, quint64(5000));
+    QCOMPARE(phase.firstCycle, quint64(0));
+    QCOMPARE(phase.lastCycle, quint64(4999));
+    QCOMPARE(phase.digest, flight.digest());
+}
+
+void tst_RecorderLoop::aMissingFileIsAGapUnlessItWasDeleted()
+{
+    Recorded flight;
+    const QString folder = flyInFiveFiles(&flight);
+    const VerifiedFile lost = verified(flight.files()[2]);
+    QVERIFY(QFile::remove(flight.files()[2]));
+    VerifiedPhase phase = verifiedFolder(folder);
+    QVERIFY(!phase.isComplete() && phase.deleted.isEmpty());
+    QCOMPARE(phase.gaps.size(), 1);
+    QCOMPARE(phase.gaps[0].first, lost.from);
+    QCOMPARE(phase.gaps[0].last, lost.next - 1);
+    QCOMPARE(phase.missing, lost.cycles);
+    QCOMPARE(phase.cycles + phase.missing, quint64(5000));
+
+    for (int i = 0; i < 2; ++i)
+        RecordingFolder::mark(flight.files()[i]);
+    phase = verifiedFolder(folder);
+    QVERIFY2(phase.isComplete(), qPrintable(phase.problems.join('\n')));
+    QCOMPARE(phase.deleted.size(), 1);
+    QCOMPARE(phase.deleted[0].first, lost.from);
+
+    QVERIFY(QFile::remove(flight.files()[0]) && QFile::remove(flight.files()[0]));
+    phase = verifiedFolder(folder);
+    QVERIFY(phase.isComplete());
+    QCOMPARE(phase.deleted.size(), 1);
+    QCOMPARE(phase.deleted[0].first, quint64(0));
+    QCOMPARE(phase.deleted[0].last, lost.next - 1);
+
+    QVERIFY(QFile::remove(flight.files().constLast()));
+    phase = verifiedFolder(folder);
+    QCOMPARE(phase.problems, QStringList("the end of the phase is not in the files"));
+}
+
+void tst_RecorderLoop::aFileOfAnotherFlightDoesNotGoOn()
+{
+    Recorded flight;
+    Recorded other;
+    other.number = 1;  // other values
+    const QString folder = flyInFiveFiles(&flight);
+    flyInFiveFiles(&other);
+    const QString name = flight.files()[2];
+    QVERIFY(QFile::remove(name) && QFile::copy(other.files()[2], name));
+    const VerifiedPhase phase = verifiedFolder(folder);
+    QVERIFY(!phase.isComplete());
+    QCOMPARE(phase.problems.size(), 2);  // it, and the one behind it
+    QVERIFY2(phase.problems[0].startsWith(name + " does not go on where the file before has ended"),
+             qPrintable(phase.problems[0]));
+}
+
+void tst_RecorderLoop::aFileStandsForItsPhase()
+{
+    Recorded flight;
+    const QString folder = flyInFiveFiles(&flight);
+    const QStringList files = flight.files();
+    RecordedPhase phase;
+    QString error;
+    QVERIFY2(findPhase(files[3], &phase, &error), qPrintable(error));
+    QCOMPARE(phase.files, files);
+    QVERIFY(QFile::copy(files[3], flight.folder.filePath("alone.mcap")));
+    QVERIFY(findPhase(flight.folder.filePath("alone.mcap"), &phase, &error));
+    QCOMPARE(phase.files, QStringList(flight.folder.filePath("alone.mcap")));
+    QCOMPARE(phase.name(), phase.files.first());
+
+    QVERIFY(findPhase(folder, &phase, &error));
+    QCOMPARE(phase.files, files);
+    QVERIFY2(phase.name().endsWith("phase 1 of session abcdef, 5 files"), qPrintable(phase.name()));
+    QVERIFY(!findPhase(flight.folder.filePath("nowhere.mcap"), &phase, &error));
+    QVERIFY2(error.contains("nowhere.mcap"), qPrintable(error));
+    const QTemporaryDir empty;
+    QVERIFY(!findPhase(empty.path(), &phase, &error));
+    QVERIFY2(error.contains("has no recording"), qPrintable(error));
 }
 
 QTEST_GUILESS_MAIN(tst_RecorderLoop)

@@ -25,6 +25,7 @@ private Q_SLOTS:
     void anotherVersionOfANodeIsRefused();
     void aNodeWithDevicesIsRefused();
     void aRecordingFromTheMiddleOfAPhaseIsRefused();
+    void theFilesOfAPhaseAreOneRecording();
 
 private:
     static ReplayResult replay(const QString &file, QPlcSlaveNode &node)
@@ -220,6 +221,51 @@ void tst_NodeReplay::aRecordingFromTheMiddleOfAPhaseIsRefused()
     const ReplayResult result = replay(master.recording(), again.third);
     QCOMPARE(result.kind, ReplayResult::Refused);
     QVERIFY2(result.error.contains("take a recording from the start of the phase"), qPrintable(result.error));
+}
+
+/// The node begins in the first of three files.
+void tst_NodeReplay::theFilesOfAPhaseAreOneRecording()
+{
+    Chain chain;
+    RecordedMaster master(QPlcClock::external());
+    for (QPlcSlaveNode *node : chain.all())
+        QVERIFY(master.admitOver(*node, "in process"));
+    master.startRealTime();
+    for (const char *next : {"flight-2.mcap", "flight-3.mcap"}) {
+        for (int i = 0; i < 20; ++i)
+            master.step();
+        while (master.recorder.proceed(&master.error) == PlantRecorder::Recorded)
+            continue;
+        QVERIFY2(master.recorder.finish(&master.error)
+                     && master.recorder.begin(mcap::FileSink::create(master.folder.filePath(next), &master.error),
+                                              &master.error),
+                 qPrintable(master.error));
+    }
+    for (int i = 0; i < 20; ++i)
+        master.step();
+    QVERIFY2(master.finish(), qPrintable(master.error));
+
+    const QString folder = master.folder.path();
+    Chain again;
+    ReplayResult result = replay(folder, again.second);
+    QVERIFY2(result.kind == ReplayResult::Done, qPrintable(result.error));
+    QCOMPARE(result.cycles, quint64(60));
+    QCOMPARE(result.compared, quint64(60));
+    QCOMPARE(result.differences, quint64(0));
+    QVERIFY2(result.notes.join(' ').contains("3 files"), qPrintable(result.notes.join(' ')));
+
+    Chain alone;
+    result = replay(master.folder.filePath("flight-3.mcap"), alone.second);
+    QCOMPARE(result.kind, ReplayResult::Refused);
+
+    QVERIFY(QFile::remove(master.folder.filePath("flight-2.mcap")));
+    Chain until;
+    result = replay(folder, until.second);
+    QVERIFY2(result.kind == ReplayResult::Done, qPrintable(result.error));
+    QCOMPARE(result.cycles, quint64(20));
+    QCOMPARE(result.differences, quint64(0));
+    QVERIFY2(result.notes.join(' ').contains("the cycles from 20 to 39 are not in the recording"),
+             qPrintable(result.notes.join(' ')));
 }
 
 QTEST_GUILESS_MAIN(tst_NodeReplay)

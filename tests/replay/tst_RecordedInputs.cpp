@@ -159,7 +159,7 @@ void tst_RecordedInputs::inputsFollowFromTheRecording()
     QVERIFY2(master.finish(), qPrintable(master.error));
 
     Comparison comparison(sent);
-    QVERIFY2(RecordedCycles::read(master.recording(), comparison, &master.error), qPrintable(master.error));
+    QVERIFY2(RecordedCycles::read({master.recording()}, comparison, &master.error), qPrintable(master.error));
     QVERIFY2(comparison.difference.isEmpty(), qPrintable(comparison.difference));
     QCOMPARE(comparison.compared, int(sent.size()));
     QVERIFY(comparison.compared >= 360);
@@ -206,7 +206,7 @@ void tst_RecordedInputs::inputsFollowFromTheRecordingInRealTime()
             sent[{node->name(), cycle}] = values;
     }
     Comparison comparison(sent);
-    QVERIFY2(RecordedCycles::read(master.recording(), comparison, &master.error), qPrintable(master.error));
+    QVERIFY2(RecordedCycles::read({master.recording()}, comparison, &master.error), qPrintable(master.error));
     QVERIFY2(comparison.difference.isEmpty(), qPrintable(comparison.difference));
     QVERIFY(comparison.compared >= 400);
     if (kind == "in process")
@@ -229,7 +229,7 @@ void tst_RecordedInputs::aNodeThatJoinsHasItsInitialValuesInTheRecording()
     QVERIFY2(master.finish(), qPrintable(master.error));
 
     Comparison comparison({});
-    QVERIFY2(RecordedCycles::read(master.recording(), comparison, &master.error), qPrintable(master.error));
+    QVERIFY2(RecordedCycles::read({master.recording()}, comparison, &master.error), qPrintable(master.error));
     QCOMPARE(comparison.joins.size(), std::size_t(4));
     const auto &nodes = QPlcMasterNodePrivate::of(master).parts->registry.nodes();
     for (const auto &slot : nodes) {
