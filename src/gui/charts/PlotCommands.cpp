@@ -112,7 +112,8 @@ void QPlcTimePlot::Private::makeSettingActions()
     rightAxisAction
         = addAction(QPlcTimePlot::tr("Right axis"), {Qt::Key_Y}, "rightAxis", [this] { toggleRightAxis(); });
     triggerAction = addAction(QPlcTimePlot::tr("Trigger"), {Qt::Key_T}, "trigger", [this] { toggleTrigger(); });
-    for (QAction *action : {bandsAction, limitsAction, rightAxisAction, triggerAction})
+    runsAction = addAction(QPlcTimePlot::tr("Compare runs"), {Qt::Key_C}, "runs", [this] { toggleRuns(); });
+    for (QAction *action : {bandsAction, limitsAction, rightAxisAction, triggerAction, runsAction})
         action->setCheckable(true);
 }
 
@@ -199,7 +200,7 @@ QMenu *QPlcTimePlot::Private::menuOf(int curve, std::optional<QPoint> mouse)
     if (settings.hasLines())
         addTo(menu, {"removeLines"});
     menu->addSeparator();
-    addTo(menu, {"all", "zoomIn", "zoomOut", "freeze", "live", "trigger"});
+    addTo(menu, {"all", "zoomIn", "zoomOut", "freeze", "live", "trigger", "runs"});
     menu->addSeparator();
     addTo(menu, {"saveTable", "copyTable", "savePicture", "copyPicture"});
     if (time.hasBothCursors())
@@ -344,9 +345,13 @@ ChartExport::Table QPlcTimePlot::Private::table(Time begin, Time end) const
     return [this, begin, end](TableExport::Format format) {
         std::vector<TableExport::Column> columns;
         for (const PlotCurve &curve : curves) {
-            if (curve.isSeen())
-                columns.push_back(TableExport::Column::of(curve.source, curve.settings.text(), curve.settings.gain,
-                                                          curve.settings.offset));
+            if (!curve.isSeen())
+                continue;
+            columns.push_back(
+                TableExport::Column::of(curve.source, curve.text(), curve.settings.gain, curve.settings.offset));
+            columns.back().shift = curve.run.shift;
+            columns.back().begin = curve.run.begin;
+            columns.back().end = curve.run.end;
         }
         return TableExport(format, std::move(columns), begin, end);
     };

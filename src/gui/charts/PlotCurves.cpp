@@ -21,6 +21,8 @@ constexpr double boldness = 1.0;                  // [px] that the selected curv
 constexpr double limitOpacity = 0.6;              // of the colour of the curve
 constexpr double laneMargin = 3.0;                // [px] between bands and lines
 constexpr int digitsOfLine = 6;
+constexpr double opacityOfNextRun = 0.8;  // of the one before
+constexpr double leastOpacity = 0.35;
 constexpr double limitDepth = 15.0;  // below the curves, above the grid
 
 }  // namespace
@@ -33,9 +35,24 @@ double PlotCurve::value(std::optional<QPlcPast::Time> time) const
 {
     if (isMissing() || source.isEmpty())
         return NAN;
+    if (!time && run.shift != 0)
+        return NAN;  // what it has now lies elsewhere
     const PastRows rows = PastRows::of(source);
-    return time ? CursorStatistics::valueAt(*rows.store, rows.channel, scaling(), *time)
+    if (time && !run.contains(*time - run.shift))
+        return NAN;
+    return time ? CursorStatistics::valueAt(*rows.store, rows.channel, scaling(), *time - run.shift)
                 : settings.gain * source.value(source.endRow() - 1) + settings.offset;
+}
+
+QString PlotCurve::text() const
+{
+    return run.name.isEmpty() ? settings.text() : settings.text() + QStringLiteral(" · ") + run.name;
+}
+
+std::pair<QPlcPast::Time, QPlcPast::Time> PlotCurve::ownTimes(QPlcPast::Time begin, QPlcPast::Time end) const
+{
+    return {std::max(std::min(begin, end) - run.shift, run.begin),
+            std::min(std::max(begin, end) - run.shift, run.isWhole() ? run.end : run.end - 1)};
 }
 
 QColor PlotCurve::swatchColor(double value) const
@@ -47,7 +64,7 @@ QPlcQuality::Kind PlotCurve::mark(std::optional<QPlcPast::Time> time) const
 {
     if (isMissing() || source.isEmpty())
         return QPlcQuality::Good;
-    const QPlcPast::Row end = time ? source.rowAt(*time + 1) : source.endRow();
+    const QPlcPast::Row end = time ? source.rowAt(*time - run.shift + 1) : source.endRow();
     const QPlcPast::Row newest = std::max(end, source.firstRow() + 1) - 1;
     return source.quality(time ? newest : source.rowAt(source.time(newest) - calmTime), end);
 }
@@ -59,7 +76,7 @@ PlotCurves::PlotCurves(PlotCanvas *plot)
 
 PlotCurves::~PlotCurves() = default;
 
-void PlotCurves::bind(const PlotSettings &settings, const QPlcPanelContext &context)
+void PlotCurves::bind(const PlotSettings &settings, const QPlcPanelContext &context, const std::vector<PlotRun> &runs)
 {
     const QPlcTheme theme = context.theme();
     const std::vector<PlotCurve> before = std::move(m_curves);  // derived signals that go on are not made anew
@@ -77,8 +94,11 @@ void PlotCurves::bind(const PlotSettings &settings, const QPlcPanelContext &cont
             curve.axis = wanted.axis == PlotCurveSettings::Right ? 1 : 0;
         else if (!curve.isDrawnAsBands())
             curve.axis = m_axes.add(wanted.axis, curve.source.unit);
+        if (!runs.empty())
+            curve.run = runs.front();
         m_curves.push_back(std::move(curve));
     }
+    addFurther(context, runs);
     m_plot->setAxes(m_axes);
     for (PlotCurve &curve : m_curves) {
         if (curve.isSeen())
@@ -90,6 +110,51 @@ void PlotCurves::bind(const PlotSettings &settings, const QPlcPanelContext &cont
     m_lineValues.assign(std::size_t(m_axes.count()), {});
     for (int axis = 0; axis < m_axes.count(); ++axis)
         showLines(axis, settings.range(axis, m_axes.at(axis).unit).lines, theme);
+}
+
+/// Each curve once more for each run, on the axis of the curve. A single curve has a colour for
+/// each run; of several ones each keeps its colour, and runs are dashed, dotted, and paler.
+void PlotCurves::addFurther(const QPlcPanelContext &context, const std::vector<PlotRun> &runs)
+{
+    const QPlcTheme theme = context.theme();
+    const std::size_t count = m_curves.size();
+    for (std::size_t place = 1; place < runs.size(); ++place) {
+        for (std::size_t i = 0; i < count; ++i) {
+            const PlotCurve &base = m_curves[i];
+            if (base.isMissing() || base.isDrawnAsBands())
+                continue;
+            PlotCurve curve;
+            curve.isFurther = true;
+            curve.run = runs[place];
+            curve.settings = base.settings;
+            curve.axis = base.axis;
+            curve.source = runs[place].plant.isEmpty()
+                ? base.source
+                : plantPast(context, base.settings.signal, base.source.plant, runs[place].plant);
+            curve.color = base.color;
+            if (count == 1) {
+                curve.color = theme.curve(int(place));
+                curve.penStyle = QPlcTheme::curveStyle(int(place));
+            } else {
+                curve.penStyle = place % 2 == 1 ? Qt::DashLine : Qt::DotLine;
+                curve.color.setAlphaF(std::max(std::pow(opacityOfNextRun, double(place - 1)), leastOpacity));
+            }
+            m_curves.push_back(std::move(curve));
+        }
+    }
+}
+
+bool PlotCurves::hasRuns() const
+{
+    return std::any_of(m_curves.begin(), m_curves.end(), [](const PlotCurve &each) { return each.isFurther; });
+}
+
+QPlcPast::Row PlotCurves::endOfFurtherRows() const
+{
+    QPlcPast::Row end = 0;
+    for (const PlotCurve &curve : m_curves)
+        end += curve.isFurther && curve.isSeen() && curve.run.isWhole() ? curve.source.endRow() : 0;
+    return end;
 }
 
 void PlotCurves::showLines(int axis, const QVector<double> &lines, const QPlcTheme &theme)
@@ -119,24 +184,26 @@ void PlotCurves::showLines(int axis, const QVector<double> &lines, const QPlcThe
 void PlotCurves::show(PlotCurve *curve, bool showsLimits, const QPlcTheme &theme)
 {
     const QPlcPast &source = curve->source;
-    if (std::none_of(m_pasts.begin(), m_pasts.end(), [&](const QPlcPast &each) { return each.sharesRows(source); }))
+    const auto isKnown = [&](const QPlcPast &each) { return each.sharesRows(source); };
+    if (!curve->isFurther && std::none_of(m_pasts.begin(), m_pasts.end(), isKnown))
         m_pasts.push_back(source);
     if (curve->isDrawnAsBands()) {
         showBands(curve, theme);
         return;
     }
     const PastRows rows = PastRows::of(source);
-    curve->item = std::make_unique<StoreCurve>(rows.store, rows.channel, curve->settings.text());
+    curve->item = std::make_unique<StoreCurve>(rows.store, rows.channel, curve->text());
+    curve->item->setLimits(curve->run.begin, curve->run.end);
     curve->item->setColor(curve->color);
     curve->item->setPenStyle(curve->penStyle);
     curve->item->setLineWidth(theme.curveWidth);
     curve->item->setScaling(curve->settings.gain, curve->settings.offset);
     curve->item->setStyle(source.isStepped ? StoreCurve::Steps : StoreCurve::Line);
-    curve->item->setOrigin(m_origin);
+    curve->item->setOrigin(m_origin - curve->run.shift);
     curve->item->setRenderHint(QwtPlotItem::RenderAntialiased);
     m_plot->attach(curve->item.get(), curve->axis);
     for (const std::optional<double> &limit : {source.minimum, source.maximum}) {
-        if (showsLimits && limit)
+        if (showsLimits && limit && !curve->isFurther)
             showLimit(curve, curve->settings.gain * *limit + curve->settings.offset);
     }
 }
@@ -197,7 +264,7 @@ void PlotCurves::setOrigin(QPlcPast::Time origin)
     m_origin = origin;
     for (const PlotCurve &curve : m_curves) {
         if (curve.item)
-            curve.item->setOrigin(origin);
+            curve.item->setOrigin(origin - curve.run.shift);
         if (curve.bands)
             curve.bands->setOrigin(origin);
     }
@@ -227,7 +294,7 @@ QVector<QColor> PlotCurves::colors(int axis) const
 {
     QVector<QColor> colors;
     for (const PlotCurve &curve : m_curves) {
-        if (curve.axis == axis && curve.isLine() && !colors.contains(curve.color))
+        if (curve.axis == axis && curve.isLine() && !curve.isFurther && !colors.contains(curve.color))
             colors.append(curve.color);
     }
     return colors;
@@ -288,18 +355,20 @@ QPlcPast::Time PlotCurves::newestTime() const
 {
     QPlcPast::Time newest = 0;
     for (const PlotCurve &curve : m_curves)
-        newest = std::max(newest, curve.isSeen() ? curve.source.newestTime() : 0);
+        newest = std::max(newest, curve.isSeen() && !curve.isFurther ? curve.source.newestTime() : 0);
     return newest;
 }
 
 bool PlotCurves::timeRange(QPlcPast::Time *begin, QPlcPast::Time *end) const
 {
     bool isFound = false;
-    for (const QPlcPast &past : m_pasts) {
-        if (past.isEmpty())
+    for (const PlotCurve &curve : m_curves) {
+        const QPlcPast &past = curve.source;
+        if (!curve.isSeen() || past.isEmpty())
             continue;
-        const QPlcPast::Time first = past.time(past.firstRow());
-        const QPlcPast::Time last = past.time(past.endRow() - 1);
+        const QPlcPast::Time shift = curve.run.shift;
+        const QPlcPast::Time first = std::max(past.time(past.firstRow()), curve.run.begin) + shift;
+        const QPlcPast::Time last = std::min(past.time(past.endRow() - 1), curve.run.end) + shift;
         *begin = isFound ? std::min(*begin, first) : first;
         *end = isFound ? std::max(*end, last) : last;
         isFound = true;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "PlotAxes.h"
+#include "PlotRuns.h"
 #include "QPlcPast.h"
 #include "QPlcTheme.h"
 #include "StateBands.h"
@@ -9,6 +10,7 @@
 #include "gui/plot/StoreCurve.h"
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 class QPlcPanelContext;
@@ -29,6 +31,8 @@ struct PlotCurve
     std::unique_ptr<StoreCurve> item;   // of a line
     std::unique_ptr<StateBands> bands;  // of what is drawn as bands
     std::vector<std::unique_ptr<QwtPlotMarker>> limits;
+    PlotRun run;             // of the plot; without runs, what its own plant has
+    bool isFurther = false;  // lies over the curve of the settings
 
     PlotCurve();
     PlotCurve(PlotCurve &&) noexcept;
@@ -38,11 +42,16 @@ struct PlotCurve
     bool isSeen() const { return settings.isVisible && !isMissing(); }
     /// Whether it is a line, with values on an axis.
     bool isLine() const { return isSeen() && !isDrawnAsBands(); }
-    bool canBeBands() const { return source.isStepped && !settings.isScaled(); }
+    bool canBeBands() const { return source.isStepped && !settings.isScaled() && !isFurther; }
     bool isDrawnAsBands() const { return settings.isBands && canBeBands(); }
     /// Of the values that are drawn; empty: none.
     QPlcValueNames names() const { return settings.isScaled() ? QPlcValueNames() : source.names; }
-    bool isStale() const { return source && !source.isCurrent(); }
+    bool isStale() const { return source && run.isWhole() && !source.isCurrent(); }
+    /// What legends and tables call it: "power · flight2".
+    QString text() const;
+    /// The piece of its run that is in \a begin to \a end of the plot, in times of the run; in any
+    /// order. Nothing of it: first > second
+    std::pair<QPlcPast::Time, QPlcPast::Time> ownTimes(QPlcPast::Time begin, QPlcPast::Time end) const;
     CursorStatistics::Scaling scaling() const { return {settings.gain, settings.offset, source.isStepped}; }
     /// At \a time, the newest one without; NaN: none.
     double value(std::optional<QPlcPast::Time> time) const;
@@ -61,10 +70,15 @@ public:
     ~PlotCurves();
 
     /// Finds all signals anew.
-    void bind(const PlotSettings &settings, const QPlcPanelContext &context);
+    /// \param runs  that lie over each other; the first one is that of the curves
+    void bind(const PlotSettings &settings, const QPlcPanelContext &context, const std::vector<PlotRun> &runs = {});
 
     int size() const { return int(m_curves.size()); }
     bool isEmpty() const { return m_curves.empty(); }
+    /// Whether runs lie over each other.
+    bool hasRuns() const;
+    /// Changes when a run that lies over the curves goes on.
+    QPlcPast::Row endOfFurtherRows() const;
     const PlotCurve &at(int place) const { return m_curves[std::size_t(place)]; }
     std::vector<PlotCurve>::const_iterator begin() const { return m_curves.begin(); }
     std::vector<PlotCurve>::const_iterator end() const { return m_curves.end(); }
@@ -100,6 +114,7 @@ public:
     bool timeRange(QPlcPast::Time *begin, QPlcPast::Time *end) const;
 
 private:
+    void addFurther(const QPlcPanelContext &context, const std::vector<PlotRun> &runs);
     void show(PlotCurve *curve, bool showsLimits, const QPlcTheme &theme);
     void showBands(PlotCurve *curve, const QPlcTheme &theme);
     void placeBands();

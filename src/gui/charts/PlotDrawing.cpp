@@ -29,6 +29,7 @@ constexpr qint64 wholeSeconds = 1'000'000'000;  // [ns]
 void QPlcTimePlot::Private::takeValues()
 {
     time.own()->setNewest(time.newest());
+    takeRuns();
     schedule();
 }
 
@@ -111,6 +112,8 @@ void QPlcTimePlot::Private::showOverlay()
 
 std::optional<QPlcTimePlot::Private::Time> QPlcTimePlot::Private::shownEvent()
 {
+    if (runs.zero())
+        return runs.zero();
     const Trigger &trigger = triggerBar->trigger();
     return settings.hasTrigger() && !time.view()->isLive() && trigger.view() ? trigger.shownEvent() : std::nullopt;
 }
@@ -180,12 +183,15 @@ void QPlcTimePlot::Private::showNumbers()
     legend->show(curves, moment);
     arrangeLegend();  // wider values leave room for fewer columns
     const bool hasCursors = (shared->cursor(QPlcTimeAxis::A) || shared->cursor(QPlcTimeAxis::B)) && !curves.isEmpty();
-    if (hasCursors != !statistics->isHidden()) {
-        statistics->setVisible(hasCursors);
+    const bool hasRuns = !runs.all().empty() && !curves.isEmpty();
+    if ((hasCursors || hasRuns) != !statistics->isHidden()) {
+        statistics->setVisible(hasCursors || hasRuns);
         arrange();
     }
     if (hasCursors)
         statistics->show(curves, shared->cursor(QPlcTimeAxis::A), shared->cursor(QPlcTimeAxis::B));
+    else if (hasRuns)
+        statistics->showView(curves, canvas->begin(), canvas->end() - 1);
     if (ranges.fit())
         ++version;
     schedule();
@@ -193,7 +199,8 @@ void QPlcTimePlot::Private::showNumbers()
 
 void QPlcTimePlot::Private::showLiveButton()
 {
-    const bool isFrozen = !time.view()->isLive() && !(settings.hasTrigger() && triggerBar->showsEvent());
+    const bool isFrozen
+        = !time.view()->isLive() && !(settings.hasTrigger() && triggerBar->showsEvent()) && !runs.zero();
     liveButton->setVisible(isFrozen && !curves.isEmpty());
     if (!isFrozen)
         return;

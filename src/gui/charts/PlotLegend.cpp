@@ -47,7 +47,7 @@ QString hintOf(const PlotCurve &curve)
 {
     if (curve.isMissing())
         return curve.source.problem;
-    QString hint = curve.settings.text();
+    QString hint = curve.text();
     if (hint != curve.settings.signal)
         hint += QLatin1Char('\n') + curve.settings.signal;
     if (curve.source.minimum || curve.source.maximum)
@@ -95,7 +95,7 @@ void PlotLegend::show(const PlotCurves &curves, std::optional<QPlcPast::Time> ti
     for (int place = 0; place < curves.size(); ++place) {
         const PlotCurve &curve = curves.at(place);
         Entry entry;
-        entry.name = curve.settings.text();
+        entry.name = curve.text();
         fillValue(curves, place, time, &entry);
         entry.hint = hintOf(curve);
         entry.color = curve.swatchColor(curve.value(time));

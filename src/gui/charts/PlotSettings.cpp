@@ -24,6 +24,7 @@ const QString limitsKey = QStringLiteral("limits");
 const QString legendKey = QStringLiteral("legend");
 const QString statisticsKey = QStringLiteral("statistics");
 const QString triggerKey = QStringLiteral("trigger");
+const QString runsKey = QStringLiteral("runs");
 const QString onKey = QStringLiteral("on");
 const QString signalKey = QStringLiteral("signal");
 const QString nameKey = QStringLiteral("name");
@@ -201,6 +202,7 @@ PlotSettings PlotSettings::fromJson(const QJsonObject &json)
     settings.hasLegend = json.value(legendKey).toBool(true);
     settings.hasStatistics = json.value(statisticsKey).toBool(true);
     settings.trigger = json.value(triggerKey).toObject();
+    settings.runs = RunSettings::fromJson(json.value(runsKey).toObject());
     return settings;
 }
 
@@ -246,13 +248,14 @@ QJsonObject PlotSettings::toJson() const
     insertUnless(&json, legendKey, hasLegend, true);
     insertUnless(&json, statisticsKey, hasStatistics, true);
     insertUnless(&json, triggerKey, trigger, QJsonObject());
+    insertUnless(&json, runsKey, runs.toJson(), QJsonObject());
     return json;
 }
 
 PanelSettings PlotSettings::emptyJson()
 {
-    return {"curves", "left", "right",  "axes",   "time",       "span",
-            "labels", "grid", "limits", "legend", "statistics", "trigger"};
+    return {"curves", "left",   "right",  "axes",       "time",    "span", "labels",
+            "grid",   "limits", "legend", "statistics", "trigger", "runs"};
 }
 
 }  // namespace qplc

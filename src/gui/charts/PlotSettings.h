@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "RunSettings.h"
 #include "gui/panel/PanelSettings.h"
 
 #include <QtCore/QMap>
@@ -58,7 +59,8 @@ struct PlotRangeSettings
 ///  "left": {"minimum": 0, "maximum": 90, "lines": [60, 75]}, "right": {},
 ///  "axes": {"N": {"minimum": 0}}, "time": "own", "span": 10, "labels": "seconds", "grid": false,
 ///  "limits": true, "legend": false, "statistics": false,
-///  "trigger": {"on": true, "signal": "kite.elevation", "level": 30, "mode": "normal"}}
+///  "trigger": {"on": true, "signal": "kite.elevation", "level": 30, "mode": "normal"},
+///  "runs": {"on": true, "plants": ["flight2"]}}
 /// ```
 struct PlotSettings
 {
@@ -78,6 +80,7 @@ struct PlotSettings
     bool hasLegend = true;
     bool hasStatistics = true;  // between cursors A and B, when both are there
     QJsonObject trigger;        // as TriggerBar has it, and "on"
+    RunSettings runs;           // that lie over each other; not with a trigger
 
     /// As chosen; else where there is one line, whose limits nobody takes for those of another one.
     bool showsLimits() const;

@@ -38,7 +38,8 @@ QPlcTimeAxis *PlotTime::shared() const
 
 QPlcTimeAxis *PlotTime::view()
 {
-    const bool hasOwn = m_settings->hasTrigger() ? !m_trigger->isLinked() : m_settings->hasOwnTime;
+    const bool hasOwn
+        = m_settings->hasTrigger() ? !m_trigger->isLinked() : m_settings->hasOwnTime || m_settings->runs.hasEdges();
     return hasOwn ? &m_own : shared();
 }
 

@@ -30,6 +30,7 @@ void QPlcTimePlot::Private::toggleTrigger()
 {
     PlotSettings wanted = settings;
     wanted.setTriggerOn(!settings.hasTrigger());
+    wanted.runs.isOn = wanted.runs.isOn && !wanted.hasTrigger();
     if (!settings.hasOwnTime)
         wanted.span = wanted.hasTrigger() ? double(time.view()->span()) * 1e-9 : PlotSettings::defaultSpan;
     edit(wanted);

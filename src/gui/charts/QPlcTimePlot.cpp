@@ -23,6 +23,7 @@ QPlcTimePlot::Private::Private(QPlcTimePlot *plot)
     : ChartPanel(plot, [this] { return std::make_unique<PlotPicture>(canvas, overlay, legend); })
     , q(plot)
     , triggerBar(new TriggerBar(context(), plot))
+    , runBar(new RunBar(context(), plot))
     , canvas(new PlotCanvas(plot))
     , overlay(new PlotOverlay(canvas->canvas()))
     , interaction(new PlotInteraction(canvas, this))
@@ -42,11 +43,13 @@ QPlcTimePlot::Private::Private(QPlcTimePlot *plot)
     legendArea->setFocusPolicy(Qt::NoFocus);
     statistics->hide();
     triggerBar->hide();
+    runBar->hide();
     triggerBar->setOwnTime(time.own());
     auto *column = new QVBoxLayout(plot);
     column->setContentsMargins(2, 4, 2, 2);
     column->setSpacing(0);
     column->addWidget(triggerBar);
+    column->addWidget(runBar);
     column->addWidget(canvas, 1);
     column->addWidget(legendArea);
     column->addWidget(statistics);
@@ -60,6 +63,7 @@ QPlcTimePlot::Private::Private(QPlcTimePlot *plot)
         [this](const QStringList &references) { return addToRightAxis(references); }, plot);
     connectInteraction();
     connectTrigger();
+    connectRuns();
 }
 
 QPlcTimePlot::QPlcTimePlot(QWidget *parent)
@@ -111,7 +115,9 @@ int QPlcTimePlot::drawnPictures() const
 
 void QPlcTimePlot::Private::bind()
 {
-    curves.bind(settings, *context());
+    findRuns();
+    curves.bind(settings, *context(), runs.all());
+    furtherRows = curves.endOfFurtherRows();
     curves.setOrigin(canvas->origin());
     statistics->reset();
     redraw.assign(std::max<std::size_t>(1, curves.pasts().size()), RedrawRule());
@@ -147,12 +153,15 @@ QStringList QPlcTimePlot::Private::furtherUnits() const
 void QPlcTimePlot::Private::applySettings(const PlotSettings &wanted)
 {
     if (wanted.span != settings.span || wanted.hasOwnTime != settings.hasOwnTime
-        || wanted.hasTrigger() != settings.hasTrigger())
+        || wanted.hasTrigger() != settings.hasTrigger() || wanted.runs != settings.runs)
         time.own()->setSpan(Time(wanted.span * 1e9));
+    if (wanted.runs != settings.runs)
+        shownZero.reset();
     settings = wanted;
     ranges.reset();
     statistics->setUnfolded(settings.hasStatistics);
     showTrigger();
+    showRuns();
     bind();
 }
 

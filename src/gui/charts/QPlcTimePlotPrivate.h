@@ -11,6 +11,7 @@
 #include "PlotSettings.h"
 #include "PlotTime.h"
 #include "QPlcTimePlot.h"
+#include "RunBar.h"
 #include "StatisticsView.h"
 #include "TriggerBar.h"
 #include "ValueRanges.h"
@@ -63,7 +64,11 @@ public:
     QString hint() const;
     QString hintOfTime() const;
     void takeValues() override;
-    void takePast() override { change(); }
+    void takePast() override
+    {
+        takeRuns();
+        change();
+    }
     void tick() override { showNumbers(); }
     void resized() override { arrange(); }
     void showNumbers();
@@ -104,11 +109,22 @@ public:
     void showTrigger();
     void takeTrigger();
 
+    // -- PlotComparing.cpp: runs that lie over each other --
+    void connectRuns();
+    void toggleRuns();
+    void showRuns();
+    /// Finds the runs, and moves the view to them.
+    void findRuns();
+    void takeRuns();
+    void showLaps();
+    qplc::RunSettings usualRuns() const;
+
     QPlcTimePlot *q;
     qplc::PlotSettings settings;
 
     qplc::SignalEdit *addBar = nullptr;
     qplc::TriggerBar *triggerBar;
+    qplc::RunBar *runBar;
     qplc::PlotCanvas *canvas;
     qplc::PlotOverlay *overlay;
     qplc::PlotInteraction *interaction;
@@ -117,6 +133,7 @@ public:
     qplc::PlotLegend *legend;
     qplc::StatisticsView *statistics;
     qplc::EventFiles *eventFiles;
+    qplc::PlotRuns runs;
     qplc::PlotCurves curves;
     qplc::ValueRanges ranges;
     qplc::PlotTime time;
@@ -135,4 +152,8 @@ public:
     QAction *limitsAction = nullptr;
     QAction *rightAxisAction = nullptr;
     QAction *triggerAction = nullptr;
+    QAction *runsAction = nullptr;
+    QPlcPast::Row furtherRows = 0;  // of runs, when they were drawn
+    std::optional<Time> shownZero;  // of runs
+    Time shownLength = 0;           // of the view of runs
 };

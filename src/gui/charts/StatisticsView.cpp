@@ -30,11 +30,21 @@ constexpr int swatch = 10;              // [px]
 constexpr int mostLines = 6;            // of the table, before it scrolls
 constexpr Time resolution = 1'000'000;  // of times in words [ns]
 
-enum Column { Signal, ValueA, ValueB, Difference, Minimum, Maximum, Mean, Rms, Sigma, Integral, ColumnCount };
+enum Column { Signal, ValueA, ValueB, Difference, Minimum, Maximum, Mean, Rms, Sigma, Integral, Duration, ColumnCount };
 
 QString differenceText(Time difference)
 {
     return durationText(double(difference));
+}
+
+/// Of the rows of a curve between two times of the plot.
+QString lengthText(const PlotCurve &curve, Time a, Time b)
+{
+    const QPlcPast &past = curve.source;
+    const auto [begin, end] = curve.ownTimes(a, b);
+    const QPlcPast::Row first = past.rowAt(begin);
+    const QPlcPast::Row behind = past.rowAt(end + 1);
+    return first < behind ? differenceText(past.time(behind - 1) - past.time(first)) : QString();
 }
 
 }  // namespace
@@ -56,7 +66,8 @@ StatisticsView::StatisticsView(QWidget *parent)
     m_table->setFont(figureFont(small));
     m_table->setAccessibleName(tr("Values between cursors A and B"));
     m_table->setHorizontalHeaderLabels({tr("Signal"), QStringLiteral("A"), QStringLiteral("B"), tr("B − A"), tr("min"),
-                                        tr("max"), tr("mean"), tr("rms"), QStringLiteral("σ"), QStringLiteral("∫ dt")});
+                                        tr("max"), tr("mean"), tr("rms"), QStringLiteral("σ"), QStringLiteral("∫ dt"),
+                                        tr("duration")});
     m_table->horizontalHeader()->setFont(small);
     m_table->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
     m_table->horizontalHeader()->setSectionResizeMode(Signal, QHeaderView::Fixed);
@@ -89,6 +100,7 @@ StatisticsView::StatisticsView(QWidget *parent)
         Q_EMIT unfoldedChanged();
     });
     setUnfolded(true);
+    showColumns(true, false);
 }
 
 bool StatisticsView::isUnfolded() const
@@ -121,7 +133,27 @@ void StatisticsView::show(const PlotCurves &curves, std::optional<Time> a, std::
     showTimes(a, b);
     if (!isUnfolded() || !(a || b))
         return;
+    showColumns(true, curves.hasRuns());
     showCurves(curves, a ? *a : *b, b ? *b : *a);
+}
+
+void StatisticsView::showView(const PlotCurves &curves, Time begin, Time end)
+{
+    m_times->setText(tr("All that is seen, %1").arg(differenceText(end + 1 - begin)));
+    if (!isUnfolded())
+        return;
+    showColumns(false, true);
+    showCurves(curves, begin, end);
+}
+
+void StatisticsView::showColumns(bool hasCursors, bool hasRuns)
+{
+    if (hasCursors == !m_table->isColumnHidden(ValueA) && hasRuns == !m_table->isColumnHidden(Duration))
+        return;
+    for (const int column : {ValueA, ValueB, Difference, Sigma, Integral})
+        m_table->setColumnHidden(column, !hasCursors);
+    m_table->setColumnHidden(Duration, !hasRuns);
+    fitWidth();
 }
 
 void StatisticsView::showTimes(std::optional<Time> a, std::optional<Time> b)
@@ -155,7 +187,8 @@ void StatisticsView::showCurves(const PlotCurves &curves, Time a, Time b)
         CursorStatistics &statistics = m_statistics[std::size_t(row)];
         const PlotCurve &curve = *seen[std::size_t(row)];
         const PastRows rows = PastRows::of(curve.source);
-        statistics.set(rows.store, rows.channel, curve.scaling(), a, b);
+        const auto [begin, end] = curve.ownTimes(a, b);
+        statistics.set(rows.store, rows.channel, curve.scaling(), begin, end);
         statistics.advance(mostRowsOfUpdate / int(seen.size()));
         showRow(row, curve, &statistics, a, b);
     }
@@ -176,7 +209,7 @@ void StatisticsView::showRow(int row, const PlotCurve &curve, CursorStatistics *
         return numberText(prefix.shown(value), statisticsDigits)
             + (statistics->isComplete() ? QString() : QStringLiteral(" …"));
     };
-    if (setText(row, Signal, withUnit(curve.settings.text(), prefix.unit())))
+    if (setText(row, Signal, withUnit(curve.text(), prefix.unit())))
         fitWidth();
     m_table->item(row, Signal)->setData(Qt::DecorationRole, curve.swatchColor(atB));
     setText(row, ValueA, shown(atA));
@@ -188,6 +221,7 @@ void StatisticsView::showRow(int row, const PlotCurve &curve, CursorStatistics *
     setText(row, Rms, between(result.rms));
     setText(row, Sigma, between(result.sigma));
     setText(row, Integral, between(result.integral));
+    setText(row, Duration, lengthText(curve, a, b));
 }
 
 bool StatisticsView::setText(int row, int column, const QString &text)
@@ -223,7 +257,7 @@ int StatisticsView::nameWidth() const
 /// Names get what they need, if numbers keep enough.
 void StatisticsView::fitWidth()
 {
-    const int forNumbers = (ColumnCount - 1) * leastNumberWidth();
+    const int forNumbers = (ColumnCount - 1 - m_table->horizontalHeader()->hiddenSectionCount()) * leastNumberWidth();
     const int least = 2 * leastNumberWidth();
     const int wanted = nameWidth() + cellMargin;
     m_table->setColumnWidth(Signal, std::max(least, std::min(wanted, width() - forNumbers)));

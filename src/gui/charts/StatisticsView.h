@@ -16,7 +16,7 @@ class QToolButton;
 namespace qplc {
 
 /// What happens between cursors A and B: one line with times, and a table with a line for each
-/// curve, which can be folded away.
+/// curve, which can be folded away. Where runs are compared, it has their durations, too.
 ///
 /// Long ranges are looked at a piece at a time; numbers that are not complete have "…".
 class StatisticsView : public QWidget
@@ -28,6 +28,8 @@ public:
     /// Shows the curves that are seen, and looks at some more rows.
     void show(const PlotCurves &curves, std::optional<CursorStatistics::Time> a,
               std::optional<CursorStatistics::Time> b);
+    /// Shows the curves that are seen in all of the view, where runs are compared without cursors.
+    void showView(const PlotCurves &curves, CursorStatistics::Time begin, CursorStatistics::Time end);
     /// Stores are others now.
     void reset() { m_statistics.clear(); }
     bool isUnfolded() const;
@@ -51,6 +53,7 @@ private:
                  CursorStatistics::Time b);
     /// \return whether it is another one
     bool setText(int row, int column, const QString &text);
+    void showColumns(bool hasCursors, bool hasRuns);
     int leastNumberWidth() const;
     int nameWidth() const;
     void fitWidth();

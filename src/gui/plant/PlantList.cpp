@@ -9,6 +9,25 @@
 
 namespace qplc {
 
+namespace {
+
+/// All recordings together take as much memory as one may.
+void shareMemory(const std::vector<std::unique_ptr<Plant>> &plants)
+{
+    std::vector<PlantRecording *> recordings;
+    for (const std::unique_ptr<Plant> &plant : plants) {
+        if (plant->recording())
+            recordings.push_back(plant->recording());
+    }
+    for (PlantRecording *recording : recordings) {
+        const std::int64_t share = PlantRecording::UsualMemory / std::int64_t(recordings.size());
+        if (recording->memory() != share)
+            recording->setMemory(share);
+    }
+}
+
+}  // namespace
+
 QPlcValue PlantList::Signal::value() const
 {
     const QPlcValue whole = plant ? plant->value(index) : QPlcValue();
@@ -96,6 +115,7 @@ Plant *PlantList::addRecording(const QStringList &paths, const QString &name, QS
     const QString usual = QFileInfo(recording->files().front().name).completeBaseName();
     Plant *plant = insert(QString(), name.isEmpty() ? usual : name, QString());
     plant->makeRecording(std::move(recording));
+    shareMemory(m_plants);
     Q_EMIT added(plant);
     return plant;
 }
@@ -112,6 +132,8 @@ void PlantList::remove(Plant *plant)
     m_plants.erase(m_plants.begin() + place);
     if (wasSelected)
         m_selected = m_plants.empty() ? nullptr : m_plants.front().get();
+    if (plant->recording())
+        shareMemory(m_plants);
     Q_EMIT removed(plant);
     Q_EMIT signalsChanged();
     if (wasSelected)

@@ -97,6 +97,15 @@ bool PlantRecording::fits(Time begin, Time end) const
     return (end - begin) / m_period < m_mostRows;
 }
 
+void PlantRecording::setMemory(std::int64_t memory)
+{
+    const bool didFit = fits(m_begin, m_end);
+    m_memory = memory;
+    m_mostRows = memory / PlantValues::bytesOfRow(ChannelMap(m_recording->table()).channels());
+    if (!didFit || !fits(m_begin, m_end))
+        beginSection(m_begin, m_end);
+}
+
 double PlantRecording::progress() const
 {
     if (!m_section)

@@ -29,7 +29,8 @@ class PlantRecording : public QObject
 public:
     using Time = PlantValues::Time;
 
-    static constexpr std::int64_t UsualMemory = std::int64_t(512) << 20;  // [byte]
+    /// Of all recordings of a window together [byte].
+    static constexpr std::int64_t UsualMemory = std::int64_t(512) << 20;
 
     /// Begins to read the cycles.
     /// \param plant  owns this object; never open()ed
@@ -47,6 +48,10 @@ public:
     double progress() const;
     /// "32 signals, 100 Hz, 10 min" and what the files lack.
     QString text() const;
+    /// Of the store from now on [byte]. What no longer fits becomes an overview, and what fits now
+    /// is read.
+    void setMemory(std::int64_t memory);
+    std::int64_t memory() const { return m_memory; }
     /// Looked at are now the times \a begin to \a end.
     void see(Time begin, Time end);
 

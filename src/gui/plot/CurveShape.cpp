@@ -36,14 +36,17 @@ bool hasManyRows(const SignalStore &store, const TimeColumns &columns, const Row
 
 }  // namespace
 
-void CurveShape::read(const SignalStore &store, int channel, const TimeColumns &columns)
+void CurveShape::read(const SignalStore &store, int channel, const TimeColumns &columns, Row least, Row most)
 {
     m_points.clear();
     m_points.reserve(std::size_t(fewestRowsOfColumn) * std::size_t(columns.count()) + 4);
-    const Rows inside = rowsOf(store, columns);
+    least = std::max(least, store.firstRow());
+    most = std::min(most, store.endRow());
+    Rows inside = rowsOf(store, columns);
+    inside = {std::max(inside.begin, least), std::min(inside.end, most)};
     m_isDense = hasManyRows(store, columns, inside);
-    const Row end = std::min(inside.end + 1, store.endRow());
-    Row begin = inside.begin > store.firstRow() ? inside.begin - 1 : inside.begin;
+    const Row end = std::min(inside.end + 1, most);
+    Row begin = inside.begin > least ? inside.begin - 1 : inside.begin;
     m_hasMarks = begin < end && store.greatestMark(channel, begin, end) != RowMarks::None;
     while (begin < end) {
         const Row next = store.nextBeginAnew(begin + 1, end);

@@ -4,6 +4,7 @@
 #include "gui/plot/TimeColumns.h"
 #include "gui/store/SignalStore.h"
 
+#include <limits>
 #include <vector>
 
 namespace qplc {
@@ -28,7 +29,9 @@ public:
     };
 
     /// Reads a channel anew; takes memory only when a view is larger than all before.
-    void read(const SignalStore &store, int channel, const TimeColumns &columns);
+    /// \param least, most  only rows from \a least to before \a most are seen
+    void read(const SignalStore &store, int channel, const TimeColumns &columns, SignalStore::Row least = 0,
+              SignalStore::Row most = std::numeric_limits<SignalStore::Row>::max());
 
     const std::vector<Point> &points() const { return m_points; }
     /// Whether some of the points have a mark.

@@ -117,6 +117,13 @@ void StoreCurve::setOrigin(Time origin)
     itemChanged();
 }
 
+void StoreCurve::setLimits(Time begin, Time end)
+{
+    m_begin = begin;
+    m_end = end;
+    itemChanged();
+}
+
 void StoreCurve::setScaling(double gain, double offset)
 {
     m_gain = gain;
@@ -159,8 +166,8 @@ SignalStore::Range StoreCurve::valueRange(double begin, double end) const
 {
     if (!m_store)
         return {NAN, NAN};
-    const SignalStore::Range range
-        = m_store->range(m_channel, m_store->rowAt(timeAt(begin)), m_store->rowAt(timeAt(end)));
+    const SignalStore::Range range = m_store->range(m_channel, m_store->rowAt(std::max(timeAt(begin), m_begin)),
+                                                    m_store->rowAt(std::min(timeAt(end), m_end)));
     const auto first = float(m_gain * double(range.minimum) + m_offset);
     const auto second = float(m_gain * double(range.maximum) + m_offset);
     return m_gain < 0.0 ? SignalStore::Range{second, first} : SignalStore::Range{first, second};
@@ -185,7 +192,7 @@ void StoreCurve::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScale
     const QTransform device = pixelsOf(*painter);
     const PixelScale scale(*this, device, xMap, yMap, canvasRect);
     const TimeColumns timeColumns = columns(xMap, device.m11());
-    m_shape.read(*m_store, m_channel, timeColumns);
+    m_shape.read(*m_store, m_channel, timeColumns, m_store->rowAt(m_begin), m_store->rowAt(m_end));
     painter->save();
     painter->setWorldTransform(device.inverted() * painter->worldTransform());  // pixels of the device, one by one
     isDrawnAsLine(*painter) ? drawLines(painter, scale) : drawSpans(painter, scale, dashes(scale, timeColumns));

@@ -11,6 +11,8 @@
 
 #include <qwt_plot_item.h>
 
+#include <limits>
+
 namespace qplc {
 
 /// A channel of a SignalStore as a curve of a plot.
@@ -36,6 +38,8 @@ public:
     /// The time that is 0 on the x axis [ns].
     SignalStore::Time origin() const { return m_origin; }
     void setOrigin(SignalStore::Time origin);
+    /// Shows only rows from \a begin to before \a end of their times [ns]
+    void setLimits(SignalStore::Time begin, SignalStore::Time end);
     double gain() const { return m_gain; }
     double offset() const { return m_offset; }
     void setScaling(double gain, double offset);
@@ -77,6 +81,8 @@ private:
     const SignalStore *m_store;
     int m_channel;
     SignalStore::Time m_origin = 0;
+    SignalStore::Time m_begin = std::numeric_limits<SignalStore::Time>::min();
+    SignalStore::Time m_end = std::numeric_limits<SignalStore::Time>::max();
     double m_gain = 1.0;
     double m_offset = 0.0;
     QColor m_color = Qt::black;

@@ -8,7 +8,7 @@ namespace qplc {
 TableExport::Column TableExport::Column::of(const QPlcPast &past, const QString &name, double gain, double offset)
 {
     const auto [store, channel] = PastRows::of(past);
-    return {store, channel, gain, offset, name, past.unit, past};
+    return Column{store, channel, gain, offset, name, past.unit, past};
 }
 
 TableExport::TableExport(Format format, std::vector<Column> columns, Time begin, Time end)
@@ -18,11 +18,13 @@ TableExport::TableExport(Format format, std::vector<Column> columns, Time begin,
     , m_end(end)
 {
     for (const Column &column : m_columns) {
-        const auto known = std::find_if(m_readers.begin(), m_readers.end(),
-                                        [&](const Reader &each) { return each.store == column.store; });
+        const auto known = std::find_if(m_readers.begin(), m_readers.end(), [&](const Reader &each) {
+            return each.store == column.store && each.shift == column.shift && each.end == column.end;
+        });
         m_readerOf.push_back(std::size_t(known - m_readers.begin()));
         if (known == m_readers.end())
-            m_readers.push_back({column.store, column.store->rowAt(begin)});
+            m_readers.push_back({column.store, column.store->rowAt(std::max(begin - column.shift, column.begin)),
+                                 column.shift, column.end});
     }
     Time first = begin;
     if (findTime(&first))
@@ -42,7 +44,7 @@ QByteArray TableExport::header() const
 
 bool TableExport::hasRow(const Reader &reader) const
 {
-    return reader.row < reader.store->endRow() && reader.store->time(reader.row) <= m_end;
+    return reader.row < reader.store->endRow() && reader.time() <= m_end && reader.store->time(reader.row) < reader.end;
 }
 
 bool TableExport::findTime(Time *time) const
@@ -51,7 +53,7 @@ bool TableExport::findTime(Time *time) const
     for (const Reader &reader : m_readers) {
         if (!hasRow(reader))
             continue;
-        const Time next = reader.store->time(reader.row);
+        const Time next = reader.time();
         *time = isFound ? std::min(*time, next) : next;
         isFound = true;
     }
@@ -73,7 +75,7 @@ QByteArray TableExport::next(int mostRows)
     for (int i = 0; i < mostRows && findTime(&time); ++i) {
         appendRow(time, &text);
         for (Reader &reader : m_readers)
-            reader.row += hasRow(reader) && reader.store->time(reader.row) == time ? 1 : 0;
+            reader.row += hasRow(reader) && reader.time() == time ? 1 : 0;
         ++m_rows;
     }
     return text.take();
@@ -86,7 +88,7 @@ void TableExport::appendRow(Time time, TableText *text) const
     for (std::size_t i = 0; i < m_columns.size(); ++i) {
         const Column &column = m_columns[i];
         const Reader &reader = m_readers[m_readerOf[i]];
-        if (hasRow(reader) && reader.store->time(reader.row) == time) {
+        if (hasRow(reader) && reader.time() == time) {
             const double value = double(reader.store->value(column.channel, reader.row));
             text->addNumber(float(column.gain * value + column.offset));
         } else {

@@ -8,6 +8,7 @@
 #include <QtCore/QByteArray>
 #include <QtCore/QString>
 
+#include <limits>
 #include <vector>
 
 namespace qplc {
@@ -35,6 +36,10 @@ public:
         QString name;
         QString unit;
         QPlcPast owner{};  // of the store, until the table goes
+        Time shift = 0;    // from the times of the store to those of the table [ns]
+        // Of the store: only these times [ns]
+        Time begin = std::numeric_limits<Time>::min();
+        Time end = std::numeric_limits<Time>::max();
 
         static Column of(const QPlcPast &past, const QString &name, double gain = 1.0, double offset = 0.0);
     };
@@ -55,6 +60,10 @@ private:
     {
         const SignalStore *store;
         SignalStore::Row row;
+        Time shift;
+        Time end;  // first one of the store that is not in the table
+
+        Time time() const { return store->time(row) + shift; }
     };
 
     bool hasRow(const Reader &reader) const;

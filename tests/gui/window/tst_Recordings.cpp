@@ -83,6 +83,8 @@ private Q_SLOTS:
     void closingTheRecordingHidesTheBar();
     void aRecordingOfOneCycleIsShown();
     void aRecordingThatDoesNotFitIsAnOverviewUntilAPersonLooksCloser();
+    void recordingsShareTheMemoryOfOne();
+    void aRecordingWithLessMemoryBecomesAnOverviewAndComesBack();
 
 private:
     TestSettings m_settings;
@@ -348,6 +350,43 @@ void tst_Recordings::aRecordingThatDoesNotFitIsAnOverviewUntilAPersonLooksCloser
     read->see(read->begin(), read->end());
     QVERIFY(waitUntil([&] { return !read->isReading(); }, patience));
     QCOMPARE(extremes().maximum, 19'999.0F);
+}
+
+void tst_Recordings::recordingsShareTheMemoryOfOne()
+{
+    PlantList plants;
+    const FlightFile flight(20);
+    QString error;
+    Plant *first = plants.addRecording({flight.file}, {}, &error);
+    QVERIFY2(first, qPrintable(error));
+    QCOMPARE(first->recording()->memory(), PlantRecording::UsualMemory);
+    Plant *second = plants.addRecording({flight.file}, {}, &error);
+    QVERIFY2(second, qPrintable(error));
+    QCOMPARE(first->recording()->memory(), PlantRecording::UsualMemory / 2);
+    QCOMPARE(second->recording()->memory(), PlantRecording::UsualMemory / 2);
+    plants.remove(first);
+    QCOMPARE(second->recording()->memory(), PlantRecording::UsualMemory);
+}
+
+void tst_Recordings::aRecordingWithLessMemoryBecomesAnOverviewAndComesBack()
+{
+    const FlightFile flight(20'000);
+    auto recording = std::make_unique<Recording>();
+    QString error;
+    QVERIFY2(recording->open({flight.file}, &error), qPrintable(error));
+    Plant plant{QString(), QStringLiteral("flight")};
+    auto *read = new PlantRecording(&plant, std::move(recording), 40'000 * PlantValues::bytesOfRow(6));
+    const auto rows = [&] { return plant.store()->endRow() - plant.store()->firstRow(); };
+    QVERIFY(waitUntil([&] { return !read->isReading(); }, patience));
+    QCOMPARE(rows(), SignalStore::Row(20'000));
+    read->setMemory(2000 * PlantValues::bytesOfRow(6));
+    QVERIFY(waitUntil([&] { return !read->isReading(); }, patience));
+    QVERIFY(rows() <= 2000);
+    read->setMemory(40'000 * PlantValues::bytesOfRow(6));
+    QVERIFY(waitUntil([&] { return !read->isReading(); }, patience));
+    QCOMPARE(rows(), SignalStore::Row(20'000));
+    read->setMemory(50'000 * PlantValues::bytesOfRow(6));  // it is there
+    QVERIFY(!read->isReading());
 }
 
 QTEST_MAIN(tst_Recordings)
