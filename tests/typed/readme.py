@@ -25,13 +25,23 @@ INTERRUPT = b"\x03"
 WINDOW_IS_THERE = None  # Ctrl-C as soon as the program can be ended by it
 
 
-def expected(terminal):
+def expected(terminal, programs):
+    def forget_flight():
+        for name in ("flight.mcap", "power.csv", "flight.html"):
+            (programs / name).unlink(missing_ok=True)
+
     def registered():
         terminal.take(0.1)
         return terminal.shown.count("registered at") >= 2
 
     return {
         "awe_control_center": Expectation(keys=(WINDOW_IS_THERE, INTERRUPT)),
+        "./awe_sil --duration 60 --record flight.mcap": Expectation(before=forget_flight),
+        "./awe_control_center --recording flight.mcap": Expectation(keys=(WINDOW_IS_THERE, INTERRUPT)),
+        "./qtplc verify flight.mcap": Expectation(shows="nothing is missing"),
+        "./qtplc replay flight.mcap --node ./awe_autopilot --compare": Expectation(
+            shows="0 differences", after=forget_flight
+        ),
         "awe_control_center --master 192.168.1.5:50000": Expectation(keys=(WINDOW_IS_THERE, INTERRUPT)),
         "./awe_master &": Expectation(after=lambda: terminal.await_text("port 50000")),
         "./qtplc state": Expectation(
@@ -88,7 +98,9 @@ def main():
         terminal = Terminal(home, {"PATH": f"{home}/qtplc/bin:/usr/local/bin:/usr/bin:/bin"})
         try:
             terminal.type("cd QtPLC")
-            Reader(source / "README.md", home, terminal, expected(terminal), NOT_TYPED, programs.build).follow()
+            Reader(
+                source / "README.md", home, terminal, expected(terminal, build / "bin"), NOT_TYPED, programs.build
+            ).follow()
         finally:
             terminal.close()
     print("the README works as written")
