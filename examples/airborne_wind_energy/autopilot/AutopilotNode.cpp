@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "AutopilotNode.h"
 
+#include "AngleMath.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace awe {
-
-namespace {
-
-constexpr double degreesPerRadian = 180.0 / 3.14159265358979323846;
-
-}  // namespace
 
 AutopilotNode::AutopilotNode(const AutopilotGains &gains, int extraDeadTime)
     : QPlcCompactSlaveNode(QStringLiteral("Autopilot"), ErrorZeroOrderHold)

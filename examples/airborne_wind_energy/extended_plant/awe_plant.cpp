@@ -2,6 +2,7 @@
 // Replays a recorded flight: the plant starts in the state of the file, gets its inputs and its
 // wind, and writes what it does into a second file of the same form.
 
+#include "ExtendedTrajectory.h"
 #include "Trajectory.h"
 
 #include <cstdio>
@@ -14,8 +15,9 @@ constexpr int success = 0;
 constexpr int badUse = 2;
 
 const char usage[] = "usage: awe_plant --replay IN.csv --out OUT.csv\n"
-                     "Flies the inputs and the wind of IN.csv with the lift airborne wind energy plant and writes\n"
-                     "the flight to OUT.csv. Exit code 0: written; 2: bad option or bad file, nothing written.\n";
+                     "Flies the inputs and the wind of IN.csv with the airborne wind energy plant, with the options\n"
+                     "that its header names, and writes the flight to OUT.csv. Exit code 0: written; 2: bad option or "
+                     "bad file, nothing written.\n";
 
 struct Options
 {
@@ -50,9 +52,10 @@ std::string parse(const std::vector<std::string> &arguments, Options &options)
     return {};
 }
 
+template<typename Flight>
 std::string replay(const Options &options)
 {
-    awe::Trajectory recorded;
+    Flight recorded;
     const std::string complaint = recorded.load(options.input);
     return complaint.empty() ? recorded.replayed().save(options.output) : complaint;
 }
@@ -68,7 +71,8 @@ int main(int argc, char **argv)
         return success;
     }
     if (complaint.empty())
-        complaint = replay(options);
+        complaint = awe::ExtendedTrajectory::isOne(options.input) ? replay<awe::ExtendedTrajectory>(options)
+                                                                  : replay<awe::Trajectory>(options);
     if (complaint.empty())
         return success;
     std::fprintf(stderr, "awe_plant: %s\n", complaint.c_str());

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Aerodynamics.h"
 
+#include "AngleMath.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -9,8 +11,6 @@
 namespace awe {
 
 namespace {
-
-constexpr double degreesPerRadian = 57.295779513082320877;
 
 double aweCoefficient(double drag, double lift)
 {
@@ -46,13 +46,13 @@ double Aerodynamics::angleOfAttack(const Eigen::Vector3d &relativeWind, const Ei
 
 Aerodynamics::Airflow Aerodynamics::airflow(const Eigen::Vector3d &relativeWind, const Eigen::Vector3d &tailwards,
                                             const Eigen::Vector3d &sideways, const Eigen::Vector3d &topwards,
-                                            double dynamicArea) const
+                                            double dynamicArea, const MoreDrag &moreDrag) const
 {
     Airflow flow;
     const double speed = relativeWind.norm();
     if (speed > 0.0)
         flow.angleOfAttack = angleOfAttack(relativeWind, tailwards, topwards, speed);
-    flow.drag = dragCoefficient(flow.angleOfAttack);
+    flow.drag = dragCoefficient(flow.angleOfAttack) * moreDrag.factor + moreDrag.coefficient;
     flow.lift = liftCoefficient(flow.angleOfAttack);
     flow.force = dynamicArea * speed * flow.drag * relativeWind;
     const Eigen::Vector3d liftDirection = relativeWind.cross(sideways);

@@ -43,6 +43,13 @@ public:
         Eigen::Vector3d force = Eigen::Vector3d::Zero();  // F_ae [N], same frame as the arguments
     };
 
+    /// c_d = c_d(alpha) dragFactor factor + coefficient
+    struct MoreDrag
+    {
+        double factor = 1.0;       // of a wing that steers [-]
+        double coefficient = 0.0;  // of lines [-]
+    };
+
     /// \param dragFactor multiplies c_d, > 0; 0.2 makes the wing about five times faster at the
     ///         same angle of attack
     explicit Aerodynamics(double dragFactor = 1.0, AngleOfAttackRange range = AngleOfAttackRange::Folded);
@@ -60,8 +67,10 @@ public:
     /// \param sideways       y_b, unit vector along the span, y_b = z_b x x_b
     /// \param topwards       z_b, unit vector out of the top side, away from the ground station
     /// \param dynamicArea    1/2 rho A [kg/m]
+    /// \param moreDrag       what else brakes than the plain wing
     Airflow airflow(const Eigen::Vector3d &relativeWind, const Eigen::Vector3d &tailwards,
-                    const Eigen::Vector3d &sideways, const Eigen::Vector3d &topwards, double dynamicArea) const;
+                    const Eigen::Vector3d &sideways, const Eigen::Vector3d &topwards, double dynamicArea,
+                    const MoreDrag &moreDrag = {1.0, 0.0}) const;
 
     /// Largest c_AWE of a wing for -90...90 deg and where it is, drag factor included.
     struct BestAngle

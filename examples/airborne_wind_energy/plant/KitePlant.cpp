@@ -6,40 +6,6 @@
 
 namespace awe {
 
-namespace {
-
-constexpr double radiansPerDegree = 0.017453292519943295769;
-
-struct Sphere  // where the wing is, seen from the ground station
-{
-    double distance = 0.0;    // R [m]
-    double horizontal = 0.0;  // distance from the vertical axis [m]
-    double cosElevation = 1.0, sinElevation = 0.0, cosAzimuth = 1.0, sinAzimuth = 0.0;
-
-    explicit Sphere(const Eigen::Vector3d &r)
-        : horizontal(std::sqrt(r.x() * r.x() + r.y() * r.y()))
-    {
-        distance = r.norm();
-        if (horizontal > 0.0) {
-            cosAzimuth = r.x() / horizontal;
-            sinAzimuth = r.y() / horizontal;
-        }
-        if (distance > 0.0) {
-            cosElevation = horizontal / distance;
-            sinElevation = r.z() / distance;
-        }
-    }
-
-    Eigen::Vector3d outwards() const { return {cosElevation * cosAzimuth, cosElevation * sinAzimuth, sinElevation}; }
-    Eigen::Vector3d zenithwards() const
-    {
-        return {-sinElevation * cosAzimuth, -sinElevation * sinAzimuth, cosElevation};
-    }
-    Eigen::Vector3d azimuthwards() const { return {-sinAzimuth, cosAzimuth, 0.0}; }
-};
-
-}  // namespace
-
 KitePlant::KitePlant(const PlantParameters &parameters)
     : m_parameters(parameters)
     , m_aerodynamics(parameters.dragFactor, parameters.angleOfAttackRange)
@@ -50,15 +16,9 @@ KitePlant::KitePlant(const PlantParameters &parameters)
 void KitePlant::reset()
 {
     m_state = m_parameters.initialState;
-    m_attitude = attitude(m_state.pitchAngle, m_state.yawAngle);
+    m_attitude = Attitude::of(m_state.pitchAngle, m_state.yawAngle);
     m_crashed = false;
     noticeGround();
-}
-
-KitePlant::Attitude KitePlant::attitude(double pitchAngle, double yawAngle)
-{
-    const double pitch = pitchAngle * radiansPerDegree, yaw = yawAngle * radiansPerDegree;
-    return {std::sin(pitch), std::cos(pitch), std::sin(yaw), std::cos(yaw)};
 }
 
 double KitePlant::tetherTension(const PlantState &state, double distance, double tetherSpeed) const
@@ -76,20 +36,13 @@ double KitePlant::tetherTension(const PlantState &state, double distance, double
 KitePlant::Forces KitePlant::forces(const PlantState &state, const Attitude &attitude, const PlantInputs &inputs) const
 {
     const Sphere sphere(state.position);
-    const Eigen::Vector3d outwards = sphere.outwards();
-    const Eigen::Vector3d zenithwards = sphere.zenithwards();
-    const Eigen::Vector3d azimuthwards = sphere.azimuthwards();
-    const Eigen::Vector3d tail = attitude.sinYaw * azimuthwards - attitude.cosYaw * zenithwards;  // before pitching
-    const Eigen::Vector3d side = attitude.sinYaw * zenithwards + attitude.cosYaw * azimuthwards;
-    const Eigen::Vector3d top = attitude.sinPitch * tail + attitude.cosPitch * outwards;
-    const Eigen::Vector3d pitchedTail = attitude.cosPitch * tail - attitude.sinPitch * outwards;
-
+    const WingFrame wing(sphere, attitude);
     Forces forces;
     const Eigen::Vector3d relativeWind = inputs.windVelocity - state.velocity;
     const double dynamicArea = 0.5 * m_parameters.airDensity * m_parameters.area;
-    forces.air = m_aerodynamics.airflow(relativeWind, pitchedTail, side, top, dynamicArea);
+    forces.air = m_aerodynamics.airflow(relativeWind, wing.tailwards, wing.sideways, wing.topwards, dynamicArea);
     forces.tetherTension = tetherTension(state, sphere.distance, inputs.tetherSpeed);
-    forces.tether = -forces.tetherTension * outwards;
+    forces.tether = -forces.tetherTension * wing.outwards;
     return forces;
 }
 
@@ -124,8 +77,9 @@ void KitePlant::step(const PlantInputs &inputs)
         return;
     const double h = m_parameters.step;
     const Attitude middle
-        = attitude(m_state.pitchAngle + 0.5 * h * inputs.pitchSpeed, m_state.yawAngle + 0.5 * h * inputs.yawSpeed);
-    const Attitude end = attitude(m_state.pitchAngle + h * inputs.pitchSpeed, m_state.yawAngle + h * inputs.yawSpeed);
+        = Attitude::of(m_state.pitchAngle + 0.5 * h * inputs.pitchSpeed, m_state.yawAngle + 0.5 * h * inputs.yawSpeed);
+    const Attitude end
+        = Attitude::of(m_state.pitchAngle + h * inputs.pitchSpeed, m_state.yawAngle + h * inputs.yawSpeed);
 
     const Rates k1 = rates(m_state, m_attitude, inputs);
     const Rates k2 = rates(moved(k1, 0.5 * h, inputs), middle, inputs);

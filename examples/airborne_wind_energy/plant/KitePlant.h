@@ -6,6 +6,7 @@
 #include "PlantOutputs.h"
 #include "PlantParameters.h"
 #include "PlantState.h"
+#include "WingFrame.h"
 
 namespace awe {
 
@@ -61,10 +62,6 @@ public:
     bool hasCrashed() const { return m_crashed; }
 
 private:
-    struct Attitude  // sine and cosine of the control angles
-    {
-        double sinPitch, cosPitch, sinYaw, cosYaw;
-    };
     struct Forces
     {
         Aerodynamics::Airflow air;
@@ -77,7 +74,6 @@ private:
         double averagePower, power;
     };
 
-    static Attitude attitude(double pitchAngle, double yawAngle);
     Forces forces(const PlantState &state, const Attitude &attitude, const PlantInputs &inputs) const;
     Rates rates(const PlantState &state, const Attitude &attitude, const PlantInputs &inputs) const;
     PlantState moved(const Rates &rates, double time, const PlantInputs &inputs) const;

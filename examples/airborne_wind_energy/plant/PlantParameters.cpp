@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PlantParameters.h"
 
+#include "AngleMath.h"
 #include "RangeCheck.h"
 
 #include <cmath>
@@ -14,7 +15,6 @@ PlantState PlantParameters::defaultInitialState()
 
 PlantState PlantParameters::stateAtRest(double elevation, double azimuth, double distance)
 {
-    constexpr double radiansPerDegree = 0.017453292519943295769;
     const double e = elevation * radiansPerDegree, a = azimuth * radiansPerDegree;
     PlantState state;
     state.position = distance * Eigen::Vector3d(std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e));

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Trajectory.h"
 
+#include "CsvTable.h"
 #include "KitePlant.h"
 #include "TrajectoryReader.h"
 
-#include <charconv>
-#include <cstdio>
 #include <fstream>
 #include <ostream>
 
@@ -85,14 +84,6 @@ void visitColumns(RowType &row, Visitor visit)
     visit(y.energy);
 }
 
-void writeNumber(std::ostream &stream, double value)
-{
-    std::array<char, 32> text{};
-    const std::to_chars_result end
-        = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 17);
-    stream.write(text.data(), end.ptr - text.data());
-}
-
 }  // namespace
 
 Trajectory::Columns Trajectory::toColumns(const Row &row)
@@ -131,42 +122,16 @@ std::string Trajectory::read(std::istream &stream, const std::string &name)
 
 std::string Trajectory::save(const std::string &path) const
 {
-    const std::string temporary = path + ".part";
-    std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
-    if (!file)
-        return path + ": '" + temporary + "' cannot be opened for writing; check the folder and the permissions";
-    write(file);
-    file.close();
-    if (!file) {
-        std::remove(temporary.c_str());
-        return path + ": writing failed; check the free space of the disk";
-    }
-    if (std::rename(temporary.c_str(), path.c_str()) != 0) {
-        std::remove(temporary.c_str());
-        return path + ": cannot be replaced; check that it is a file you may write";
-    }
-    return {};
+    return saveWhole(path, [this](std::ostream &stream) { write(stream); });
 }
 
 void Trajectory::write(std::ostream &stream) const
 {
     for (const std::string &comment : m_comments)
         stream << comment << '\n';
-    const char *separator = "";
-    for (const char *name : columnNames()) {
-        stream << separator << name;
-        separator = ",";
-    }
-    stream << '\n';
-    for (const Row &row : m_rows) {
-        const Columns columns = toColumns(row);
-        for (std::size_t i = 0; i < columnCount; ++i) {
-            if (i > 0)
-                stream << ',';
-            writeNumber(stream, columns[i]);
-        }
-        stream << '\n';
-    }
+    writeCsvNames(stream, columnNames().data(), columnCount);
+    for (const Row &row : m_rows)
+        writeCsvRow(stream, toColumns(row).data(), columnCount);
 }
 
 Trajectory Trajectory::replayed() const

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TrajectoryReader.h"
 
+#include "CsvTable.h"
 #include "PlantParameters.h"
 
-#include <charconv>
 #include <cmath>
 #include <istream>
-#include <sstream>
 
 namespace awe {
 
@@ -54,6 +53,12 @@ bool TrajectoryReader::nextLine()
     if (!m_line.empty() && m_line.back() == '\r')
         m_line.pop_back();
     return true;
+}
+
+/// \return true when there is nothing wrong
+bool TrajectoryReader::accept(const std::string &wrong)
+{
+    return wrong.empty() || fail(wrong);
 }
 
 bool TrajectoryReader::fail(const std::string &what)
@@ -118,18 +123,7 @@ bool TrajectoryReader::readInitialState(Trajectory &trajectory)
 
 bool TrajectoryReader::readColumnNames()
 {
-    std::istringstream names(m_line);
-    std::string name;
-    for (std::size_t i = 0; i < Trajectory::columnCount; ++i) {
-        if (!std::getline(names, name, ','))
-            name.clear();
-        const std::string wanted = Trajectory::columnNames()[i];
-        if (name != wanted)
-            return fail("column " + std::to_string(i + 1) + " is '" + name + "'; it must be '" + wanted + "'");
-    }
-    if (std::getline(names, name, ','))
-        return fail("column 37 is '" + name + "'; remove it, the table has 36 columns");
-    return true;
+    return accept(checkCsvNames(m_line, Trajectory::columnNames().data(), Trajectory::columnCount));
 }
 
 bool TrajectoryReader::checkParameters(const Trajectory &trajectory)
@@ -169,28 +163,15 @@ bool TrajectoryReader::readRows(Trajectory &trajectory)
 bool TrajectoryReader::readRow(Trajectory::Row &row)
 {
     Trajectory::Columns columns{};
-    std::string_view rest = m_line;
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-        const bool isLast = i + 1 == columns.size();
-        const std::size_t comma = rest.find(',');
-        if ((comma == std::string_view::npos) != isLast)
-            return fail(isLast ? "more than 36 values; remove the surplus"
-                               : "only " + std::to_string(i + 1) + " of 36 values; complete the row");
-        if (!readNumber(rest.substr(0, comma), Trajectory::columnNames()[i], columns[i]))
-            return false;
-        if (!isLast)
-            rest.remove_prefix(comma + 1);
-    }
+    if (!accept(readCsvRow(m_line, Trajectory::columnNames().data(), columns.data(), columns.size())))
+        return false;
     row = Trajectory::fromColumns(columns);
     return true;
 }
 
 bool TrajectoryReader::readNumber(std::string_view text, const char *what, double &value)
 {
-    const std::from_chars_result end = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (end.ec == std::errc() && end.ptr == text.data() + text.size() && std::isfinite(value))
-        return true;
-    return fail(std::string(what) + " is '" + std::string(text) + "'; write a finite number such as 1.5e-3");
+    return accept(awe::readNumber(text, what, &value));
 }
 
 bool TrajectoryReader::readNumbers(std::string_view text, const char *what, double *values, std::size_t count)

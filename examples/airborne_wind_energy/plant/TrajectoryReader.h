@@ -23,6 +23,7 @@ public:
 private:
     bool nextLine();
     bool fail(const std::string &what);
+    bool accept(const std::string &wrong);
     bool readComments(Trajectory &trajectory);
     bool readWindLine(Trajectory &trajectory);
     bool readInitialState(Trajectory &trajectory);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ClosedLoopFlight.h"
+#include "ExtendedPlant.h"
 #include "WinchDrive.h"
 #include "WinchStatistics.h"
 
@@ -64,6 +65,7 @@ private Q_SLOTS:
     void crashedFlightAllocatesNoMemory();
     void resetAllocatesNoMemory();
     void winchDriveAllocatesNoMemory();
+    void plantWithAllOptionsAllocatesNoMemory();
 };
 
 void tst_Allocations::counterDetectsAllocations()
@@ -137,6 +139,26 @@ void tst_Allocations::winchDriveAllocatesNoMemory()
     QCOMPARE(allocations - before, 0L);
     QCOMPARE(drive.state(), DriveState::Fault);
     QCOMPARE(report.interruptions, 0);
+}
+
+void tst_Allocations::plantWithAllOptionsAllocatesNoMemory()
+{
+    ExtendedParameters parameters;
+    parameters.air.profile = WindProfile::Log;
+    parameters.tether.kind = TetherKind::Segments;
+    parameters.steering.kind = SteeringKind::TurnRate;
+    parameters.hasMachine = parameters.hasTurbines = true;
+    ExtendedPlant plant(parameters);
+    PlantInputs inputs;
+    inputs.windVelocity = {5.0, 3.0, 0.0};
+    const long before = allocations;
+    for (int i = 0; i < 500; ++i) {
+        plant.step(inputs);
+        (void)plant.outputs(inputs);
+        (void)plant.details(inputs);
+    }
+    plant.reset();
+    QCOMPARE(allocations - before, 0L);
 }
 
 QTEST_APPLESS_MAIN(tst_Allocations)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "ExtendedTrajectory.h"
 #include "Trajectory.h"
 
 #include "Near.h"
@@ -18,6 +19,9 @@ class tst_awe_plant : public QObject
 private Q_SLOTS:
     void programReplaysEveryReferenceFlight_data();
     void programReplaysEveryReferenceFlight();
+    void programReplaysFlightsWithOptions();
+    void programRefusesInvalidHeadersOfOptions_data();
+    void programRefusesInvalidHeadersOfOptions();
     void programRefusesInvalidArguments_data();
     void programRefusesInvalidArguments();
     void programRefusesInvalidFilesAndWritesNothing_data();
@@ -71,6 +75,70 @@ void tst_awe_plant::programReplaysEveryReferenceFlight()
                seen = Trajectory::toColumns(flown.rows().back());
     for (std::size_t i = 0; i < expected.size(); ++i)
         COMPARE_NEAR(seen[i], expected[i], 1e-9 * (1.0 + std::abs(expected[i])));
+}
+
+void tst_awe_plant::programReplaysFlightsWithOptions()
+{
+    const QString output = m_folder.filePath(QStringLiteral("p7.csv"));
+    const QString input = reference(QStringLiteral("p7_drag_mode.csv"));
+    const Result result = run({QStringLiteral("--replay"), input, QStringLiteral("--out"), output});
+    QVERIFY2(result.exitCode == 0, qPrintable(result.errors));
+    awe::ExtendedTrajectory recorded, flown;
+    QVERIFY(recorded.load(input.toStdString()).empty());
+    QVERIFY(flown.load(output.toStdString()).empty());
+    QCOMPARE(flown.rows().size(), recorded.rows().size());
+    for (std::size_t i = 0; i < awe::ExtendedTrajectory::columnCount; ++i) {
+        const double expected = recorded.rows().back()[i];
+        COMPARE_NEAR(flown.rows().back()[i], expected, 1e-9 * (1.0 + std::abs(expected)));
+    }
+}
+
+void tst_awe_plant::programRefusesInvalidHeadersOfOptions_data()
+{
+    QTest::addColumn<QByteArray>("before");
+    QTest::addColumn<QByteArray>("after");
+    QTest::addColumn<QString>("message");
+    QTest::newRow("not JSON") << QByteArray("{\"plant2\"") << QByteArray("{plant2") << ":2: the header is not JSON: ";
+    QTest::newRow("unknown parameter") << QByteArray("\"parameters\": {}")
+                                       << QByteArray("\"parameters\": {\"mast\": 1}")
+                                       << ":2: parameter 'mast' of the header: it is not known; use tether, ";
+    QTest::newRow("unknown word") << QByteArray("\"parameters\": {}")
+                                  << QByteArray("\"parameters\": {\"tether\": \"rope\"}")
+                                  << ":2: parameter 'tether' of the header: use one of spring, straight, segments";
+    QTest::newRow("not a number") << QByteArray("\"parameters\": {}")
+                                  << QByteArray("\"parameters\": {\"hRef\": \"high\"}")
+                                  << ":2: parameter 'hRef' of the header: use a number";
+    QTest::newRow("out of range") << QByteArray("\"parameters\": {}") << QByteArray("\"parameters\": {\"z0\": 7}")
+                                  << ":6: roughness is 7 m; choose a value from ";
+    QTest::newRow("too many segments") << QByteArray("\"parameters\": {}")
+                                       << QByteArray("\"parameters\": {\"tether\": \"segments\", \"segments\": 7}")
+                                       << ":6: the tether has 7 segments; the table has room for 6";
+    QTest::newRow("wind") << QByteArray("[5.0, 3.0, 0.0]") << QByteArray("[5.0, 3.0]")
+                          << ":2: the header has no wind; write ";
+    QTest::newRow("winch") << QByteArray("\"ideal\"") << QByteArray("\"steam\"")
+                           << ":2: winch of the header: use one of ideal, machine";
+    QTest::newRow("column") << QByteArray(",turbinePower,") << QByteArray(",propeller,")
+                            << ":5: column 31 is 'propeller'; it must be 'turbinePower'";
+}
+
+void tst_awe_plant::programRefusesInvalidHeadersOfOptions()
+{
+    QFETCH(QByteArray, before);
+    QFETCH(QByteArray, after);
+    QFETCH(QString, message);
+    QFile original(reference(QStringLiteral("p7_drag_mode.csv")));
+    QVERIFY(original.open(QIODevice::ReadOnly));
+    QByteArray text = original.readAll();
+    QVERIFY(text.contains(before));
+    QFile changed(m_folder.filePath(QStringLiteral("changed.csv")));
+    QVERIFY(changed.open(QIODevice::WriteOnly | QIODevice::Truncate));
+    changed.write(text.replace(before, after));
+    changed.close();
+    const QString output = m_folder.filePath(QStringLiteral("refused.csv"));
+    const Result result = run({QStringLiteral("--replay"), changed.fileName(), QStringLiteral("--out"), output});
+    QCOMPARE(result.exitCode, 2);
+    QVERIFY2(result.errors.contains(message), qPrintable(result.errors));
+    QVERIFY(!QFile::exists(output));
 }
 
 void tst_awe_plant::programRefusesInvalidArguments_data()

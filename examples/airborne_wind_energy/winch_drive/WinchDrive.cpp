@@ -22,24 +22,24 @@ double WinchDrive::kineticEnergy() const
     return 0.5 * m_parameters.inertia() * m_speed * m_speed;
 }
 
-void WinchDrive::step(const WinchDriveInputs &inputs)
+void WinchDrive::step(const WinchDriveInputs &inputs, double time)
 {
-    takeCommand(inputs);
-    chooseState(inputs);
-    const double share = std::exp(-m_parameters.step / m_parameters.currentLoopTime);
-    const double target = isPowered() ? wantedCurrent() : 0.0;
+    takeCommand(inputs, time);
+    chooseState(inputs, time);
+    const double share = std::exp(-time / m_parameters.currentLoopTime);
+    const double target = isPowered() ? wantedCurrent(time) : 0.0;
     const double next = target + share * (m_current - target);
     const double mean = 0.5 * (m_current + next);
     m_current = next;
-    moveShaft(mean, inputs.tetherForce);
+    moveShaft(mean, inputs.tetherForce, time);
 }
 
 // ---- states ----
 
-void WinchDrive::takeCommand(const WinchDriveInputs &inputs)
+void WinchDrive::takeCommand(const WinchDriveInputs &inputs, double time)
 {
     if (!inputs.hasCommand) {
-        m_silence += m_parameters.step;
+        m_silence += time;
         return;
     }
     m_silence = 0.0;
@@ -47,9 +47,9 @@ void WinchDrive::takeCommand(const WinchDriveInputs &inputs)
     m_setpoint = inputs.speedSetpoint;
 }
 
-void WinchDrive::chooseState(const WinchDriveInputs &inputs)
+void WinchDrive::chooseState(const WinchDriveInputs &inputs, double time)
 {
-    m_stateTime += m_parameters.step;
+    m_stateTime += time;
     const bool isStanding = std::abs(m_speed) < m_parameters.standstill;
     const bool isSilent = m_silence >= m_parameters.commandTimeout;
     if (inputs.emergencyStop)
@@ -97,11 +97,11 @@ void WinchDrive::enter(DriveState state)
 
 // ---- control ----
 
-double WinchDrive::wantedCurrent()
+double WinchDrive::wantedCurrent(double time)
 {
     const WinchDriveParameters &p = m_parameters;
     const bool stops = m_state == DriveState::QuickStop;
-    const double largestChange = (stops ? p.stopDeceleration : p.acceleration) * p.step;
+    const double largestChange = (stops ? p.stopDeceleration : p.acceleration) * time;
     m_reference += std::clamp((stops ? 0.0 : m_setpoint) - m_reference, -largestChange, largestChange);
 
     const double error = m_reference - m_speed;
@@ -109,7 +109,7 @@ double WinchDrive::wantedCurrent()
     const double wanted = (gain * error + m_integral) / p.torqueConstant;
     const double limited = std::clamp(wanted, -p.currentLimit, p.currentLimit);
     if (wanted == limited || (wanted > limited) != (error > 0.0))  // else it would wind up
-        m_integral += gain / p.speedIntegralTime * error * p.step;
+        m_integral += gain / p.speedIntegralTime * error * time;
     return limited;
 }
 
@@ -126,10 +126,10 @@ double WinchDrive::frictionTorque(double freeSpeed, double effectiveInertia) con
     return std::clamp(stopping, m_speed < 0.0 ? 0.0 : -largest, m_speed > 0.0 ? 0.0 : largest);
 }
 
-void WinchDrive::moveShaft(double current, double tetherForce)
+void WinchDrive::moveShaft(double current, double tetherForce, double time)
 {
     const WinchDriveParameters &p = m_parameters;
-    const double h = p.step;
+    const double h = time;
     const double machineTorque = p.torqueConstant * current;
     const double tetherTorque = tetherForce * p.leverage();
     // J (w1 - w0) / h = torques - b (w0 + w1) / 2, solved for w1

@@ -78,7 +78,9 @@ public:
     /// At rest, Disabled, all energies zero.
     void reset();
     /// Moves on by parameters().step seconds.
-    void step(const WinchDriveInputs &inputs);
+    void step(const WinchDriveInputs &inputs) { step(inputs, m_parameters.step); }
+    /// Moves on by \a time [s], for a host with steps of its own.
+    void step(const WinchDriveInputs &inputs, double time);
 
     const WinchDriveParameters &parameters() const { return m_parameters; }
     DriveState state() const { return m_state; }
@@ -93,13 +95,13 @@ public:
 
 private:
     bool isPowered() const { return m_state == DriveState::Enabled || m_state == DriveState::QuickStop; }
-    void takeCommand(const WinchDriveInputs &inputs);
-    void chooseState(const WinchDriveInputs &inputs);
+    void takeCommand(const WinchDriveInputs &inputs, double time);
+    void chooseState(const WinchDriveInputs &inputs, double time);
     void enter(DriveState state);
     void leave(DriveState state, DriveStop why);
-    double wantedCurrent();
+    double wantedCurrent(double time);
     double frictionTorque(double freeSpeed, double effectiveInertia) const;
-    void moveShaft(double current, double tetherForce);
+    void moveShaft(double current, double tetherForce, double time);
 
     WinchDriveParameters m_parameters;
     DriveState m_state = DriveState::Disabled;

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ExtendedParameters.h"
+
+#include "RangeCheck.h"
+
+namespace awe {
+
+namespace {
+
+template<typename Parameters>
+void checkConstants(const Parameters &parameters, RangeCheck *check)
+{
+    Parameters::visitConstants(parameters,
+                               [check](const char *name, double value, double smallest, double largest,
+                                       const char *unit) { check->within(name, value, smallest, largest, unit); });
+}
+
+}  // namespace
+
+std::string TetherParameters::validate() const
+{
+    RangeCheck check;
+    checkConstants(*this, &check);
+    check.within("segments", segments, 1, mostSegments, "");
+    return check.message();
+}
+
+std::string SteeringParameters::validate() const
+{
+    RangeCheck check;
+    checkConstants(*this, &check);
+    return check.message();
+}
+
+bool ExtendedParameters::isThesis() const
+{
+    return air.profile == WindProfile::Uniform && !air.isThinner && tether.kind == TetherKind::Spring
+        && steering.kind == SteeringKind::Kinematic && !hasMachine && !hasTurbines;
+}
+
+std::string ExtendedParameters::validate() const
+{
+    for (const std::string &complaint :
+         {kite.validate(), air.validate(), tether.validate(), steering.validate(), machine.validate()}) {
+        if (!complaint.empty())
+            return complaint;
+    }
+    return {};
+}
+
+}  // namespace awe
