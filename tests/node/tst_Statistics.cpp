@@ -85,7 +85,7 @@ void tst_Statistics::nodesOverTheNetworkAndInTheProcessAreMeasured()
     master.setInterval(0.002);
     CounterNode counter;
     EchoNode echo;
-    echo.onStep = [](const QPlcCycle &) { spin(510'000); };  // an answer tells it in steps of 128 ns
+    echo.onStep = [](const QPlcCycle &) { spin(510'000); };       // an answer tells it in steps of 128 ns
     QVERIFY(echo.activateWatchdog(std::chrono::nanoseconds(0)));  // a node in its safe state computes nothing
     QVERIFY(master.addLocalNode(&counter));
     QVERIFY(master.listen());
