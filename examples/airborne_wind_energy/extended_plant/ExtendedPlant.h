@@ -34,7 +34,8 @@ struct PlantDetails
 /// turbines on board. Each is an option of ExtendedParameters. Without any it is KitePlant, bit for
 /// bit.
 ///
-/// Points: 0 is the winch, N the wing; between them are the nodes of the tether, if it has segments.
+/// Points: 0 is the winch, N the wing; between them are the nodes of the tether, if it has
+/// segments.
 ///
 ///     l0 = l_t / N,  mu = rho_T pi/4 d^2,  mass of a node mu l0, of the wing m + mu l0 / 2
 ///     segment from i to i+1: s = r(i+1) - r(i), L = |s|, e = s / L

@@ -36,8 +36,8 @@ public:
 
     static const std::array<const char *, columnCount> &columnNames();
 
-    /// true if the file \a path begins like one of these; such files have another header than those of
-    /// Trajectory
+    /// true if the file \a path begins like one of these; such files have another header than those
+    /// of Trajectory
     static bool isOne(const std::string &path);
 
     /// Reads a file. On failure the object is unchanged.
