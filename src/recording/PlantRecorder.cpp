@@ -3,6 +3,7 @@
 
 #include "RecordingMessages.h"
 
+#include <QtCore/QDateTime>
 #include <QtCore/QFile>
 
 #include <algorithm>
@@ -13,6 +14,9 @@ namespace qplc {
 namespace {
 
 constexpr std::size_t FullChunk = 256 * 1024;  // [byte] of messages
+constexpr std::uint64_t AllTexts = ~std::uint64_t(0);
+constexpr std::size_t MostAdoptions = 10'000;  // that texts may come after
+constexpr int MostLooksForText = 200;          // at the end of a phase: a second
 
 const char rawSchema[] = "# The outputs of a node as it has answered them, where the signals do not show all of them.\n"
                          "uint16 id\n"
@@ -93,6 +97,7 @@ bool PlantRecorder::begin(std::unique_ptr<mcap::FileSink> sink, QString *error)
     m_missing = 0;
     m_hasEndMetadata = false;
     const QByteArray ros = "ros1msg";
+    std::size_t happening = 0;
     m_plant = m_writer->addChannel("/plant", "ros1", PlantMessage::schemaName(), ros, m_message->schema());
     m_before = m_writer->addChannel("/plant_before", "ros1", PlantMessage::schemaName(), ros, m_message->schema());
     m_nodes = m_writer->addChannel("/nodes", "ros1", "qtplc/Nodes", ros, nodesSchema());
@@ -102,6 +107,8 @@ bool PlantRecorder::begin(std::unique_ptr<mcap::FileSink> sink, QString *error)
     m_rosters = m_writer->addChannel("/rosters", "json");
     m_gaps = m_writer->addChannel("/gaps", "json");
     m_digests = m_writer->addChannel("/digest", "json");
+    for (const char *topic : {"/events", "/commands", "/leases", "/statistics"})
+        m_happenings[happening++] = m_writer->addChannel(topic, "json");
     if (m_next > 0)
         addDigest(",\"continues\":true");
     if (!m_roster.isEmpty())
@@ -120,6 +127,8 @@ PlantRecorder::Progress PlantRecorder::proceed(QString *error)
     for (bool any = false;;) {
         if (isChunkFull())
             return save(false, error) ? Recorded : Failed;
+        if (m_isOver && waitsForLastText())
+            return Waiting;
         if (m_isOver)
             return save(false, error) ? Ended : Failed;
         const RingReader::Result result = m_reader.next();
@@ -132,9 +141,13 @@ PlantRecorder::Progress PlantRecorder::proceed(QString *error)
             m_isDamaged = true;
             continue;
         }
+        if (m_next > 0)
+            addTexts(AllTexts);
         if (any)
             return Recorded;
         if (!hasWriter)  // and nothing has come since it was found to be gone
+            addLastTexts();
+        if (!hasWriter)
             return save(false, error) ? Abandoned : Failed;
         if (m_reader.hasWriter())
             return Waiting;
@@ -160,6 +173,12 @@ void PlantRecorder::add()
         isWhole = addRoster();
     } else if (m_reader.kind() == RecordKind::Join) {
         isWhole = addJoin();
+    } else if (m_reader.kind() == RecordKind::Settings) {
+        const auto settings = recordIn<RecordedSettings>(m_reader, &isWhole);
+        if (isWhole)
+            m_adoptions.push_back(settings);
+        if (m_adoptions.size() > MostAdoptions)
+            m_adoptions.pop_front();
     }
     m_isDamaged = m_isDamaged || !isWhole;
 }
@@ -177,6 +196,7 @@ void PlantRecorder::addCycle()
     const std::uint64_t next = cycle.number - cycle.skipped;
     if (next > m_next)  // they had been replaced before anybody recorded
         addGap({m_next, next - 1, next - m_next, 0, 0});
+    addTexts(cycle.number);
     m_time = timeOf(cycle.number);
     const auto published = cycle.wallTime != 0 ? std::uint64_t(cycle.wallTime) : m_time;
     const auto sequence = std::uint32_t(cycle.number);
@@ -280,6 +300,103 @@ bool PlantRecorder::addJoin()
                 .text(QByteArray(bytes + outputs, int(join.inputsSize)))
                 .bytes());
     return true;
+}
+
+// ---- what has happened ----
+
+/// Texts of before the cycle \a before. One that tells a value waits for the cycle that adopts it,
+/// and those behind it wait, too.
+void PlantRecorder::addTexts(std::uint64_t before)
+{
+    RegionReader &texts = m_reader.texts();
+    while (!m_hasLastText && !texts.isEmpty()) {
+        const RegionReader::Result result = texts.next();
+        if (result == RegionReader::Nothing)
+            return;
+        RecordedText text;
+        const bool isText = result == RegionReader::Found && texts.size() >= sizeof text;
+        if (isText)
+            std::memcpy(&text, texts.body(), sizeof text);
+        if (!isText || text.textSize > texts.size() - sizeof text)
+            continue;  // the numbers of others tell that it is missing
+        const bool isEarly = text.cycle == RecordedText::BeforePhase || text.cycle < before;
+        if (texts.kind() == RecordKind::Text && !m_isLast && (!isEarly || !isAdopted(text)))
+            return texts.putBack();
+        addLost(text.number);
+        m_hasLastText = texts.kind() == RecordKind::LastText;
+        if (texts.kind() == RecordKind::Text)
+            addHappening(text, std::min(cycleOf(text), before == AllTexts ? m_next : before),
+                         QByteArray(texts.body() + sizeof text, int(text.textSize)));
+    }
+}
+
+void PlantRecorder::addLastTexts()
+{
+    m_isLast = true;
+    addTexts(AllTexts);
+}
+
+bool PlantRecorder::isAdopted(const RecordedText &text) const
+{
+    return text.settings == 0 || (!m_adoptions.empty() && m_adoptions.back().adopted >= text.settings);
+}
+
+/// The cycle that has adopted a value, or in which something else has happened.
+std::uint64_t PlantRecorder::cycleOf(const RecordedText &text) const
+{
+    if (text.cycle == RecordedText::BeforePhase)
+        return 0;
+    if (text.settings == 0)
+        return text.cycle;
+    const auto found
+        = std::lower_bound(m_adoptions.begin(), m_adoptions.end(), text.settings,
+                           [](const RecordedSettings &each, std::uint64_t wanted) { return each.adopted < wanted; });
+    // What was adopted before the first record that is known, was adopted by the next cycle.
+    return found == m_adoptions.end()                                   ? m_next
+        : found == m_adoptions.begin() && found->cycle > text.cycle + 1 ? text.cycle + 1
+                                                                        : found->cycle;
+}
+
+void PlantRecorder::addHappening(const RecordedText &text, std::uint64_t cycle, QByteArray body)
+{
+    const auto topic = std::size_t(text.topic - RecordedText::Event);
+    if (topic >= std::size(m_happenings) || body.size() <= 2 || body.at(0) != '{')
+        return;
+    const QDateTime time = QDateTime::fromMSecsSinceEpoch(text.wallTime / 1'000'000, Qt::UTC);
+    QByteArray head = "{\"cycle\":" + QByteArray::number(qulonglong(cycle)) + ",\"utc\":\""
+        + time.toString(Qt::ISODateWithMs).toLatin1() + "\",";
+    if (text.cycle == RecordedText::BeforePhase)
+        head += "\"before\":true,";
+    if (!isAdopted(text))
+        head += "\"adopted\":false,";
+    body.replace(0, 1, head);
+    m_time = std::max(m_time, timeOf(cycle));
+    m_writer->addMessage(m_happenings[topic], std::uint32_t(text.number), m_time,
+                         m_startTime != 0 ? std::uint64_t(text.wallTime) : m_time, body.constData(),
+                         std::size_t(body.size()));
+}
+
+/// Texts between the last one and that of \a number have had no room.
+void PlantRecorder::addLost(std::uint64_t number)
+{
+    const std::uint64_t lost = number > m_lastText ? number - m_lastText - 1 : 0;
+    const bool isKnown = m_lastText > 0 || m_next == 0;  // else another file has those before
+    m_lastText = number;
+    if (lost == 0 || !isKnown)
+        return;
+    const QByteArray count = QByteArray::number(qulonglong(lost));
+    addText(m_happenings[0], std::uint32_t(number - 1),
+            "{\"cycle\":" + QByteArray::number(qulonglong(m_next)) + ",\"severity\":\"warning\",\"kind\":\"state\","
+                + "\"source\":\"recorder\",\"text\":\"" + count
+                + " events, commands or statistics before this one are missing: there was no room for them\",\"lost\":"
+                + count + '}');
+}
+
+/// The master tells some things when the last cycle has ended. One that hangs is not waited for.
+bool PlantRecorder::waitsForLastText()
+{
+    addLastTexts();
+    return !m_reader.texts().isEmpty() && !m_hasLastText && m_reader.hasWriter() && ++m_looksForText < MostLooksForText;
 }
 
 void PlantRecorder::addText(std::uint16_t channel, std::uint32_t sequence, const QByteArray &body)

@@ -7,6 +7,7 @@
 #include "node/cycle/RingDescription.h"
 #include "node/cycle/RingReader.h"
 
+#include <deque>
 #include <memory>
 #include <utility>
 
@@ -87,6 +88,13 @@ private:
     }
     bool addRoster();
     bool addJoin();
+    void addTexts(std::uint64_t before);
+    void addLastTexts();
+    void addHappening(const RecordedText &text, std::uint64_t cycle, QByteArray body);
+    void addLost(std::uint64_t number);
+    std::uint64_t cycleOf(const RecordedText &text) const;
+    bool isAdopted(const RecordedText &text) const;
+    bool waitsForLastText();
     void addText(std::uint16_t channel, std::uint32_t sequence, const QByteArray &body);
     void addGap(const RecordedGap &gap);
     void addEnd(const RecordedEnd &end);
@@ -109,10 +117,16 @@ private:
     std::uint16_t m_rosters = 0;
     std::uint16_t m_gaps = 0;
     std::uint16_t m_digests = 0;
+    std::uint16_t m_happenings[4] = {};  // by RecordedText::Topic
     QByteArray m_body;
     QByteArray m_exchange;  // of the newest message of /nodes
     QByteArray m_roster;    // newest message of /rosters
     std::uint32_t m_rosterNumber = 0;
+    std::deque<RecordedSettings> m_adoptions;  // the newest ones
+    std::uint64_t m_lastText = 0;              // number
+    bool m_hasLastText = false;
+    bool m_isLast = false;  // no other cycle will come
+    int m_looksForText = 0;
     std::uint64_t m_next = 0;    // cycle that comes next
     std::uint64_t m_digest = 0;  // after the newest cycle
     std::uint64_t m_cycles = 0;

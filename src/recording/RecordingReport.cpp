@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "RecordingReport.h"
 
+#include "Happenings.h"
 #include "RecordedRoster.h"
 #include "RecordingMessages.h"
 #include "ReportDrawing.h"
@@ -222,8 +223,9 @@ private:
             missing += gap.cycles;
             happened(RecordedTime(message.time),
                      QStringLiteral("%1 cycles are missing: %2 to %3").arg(gap.cycles).arg(gap.first).arg(gap.last));
-        } else if (topic == "/events") {
-            happened(RecordedTime(message.time), QString::fromUtf8(text));
+        } else if (Happening happening; readHappening(topic, message, &happening)) {
+            if (happening.topic != Happening::Statistics)
+                happened(happening.time, happening.sentence());
         }
     }
     /// A message of /nodes comes behind the cycle that it belongs to.

@@ -4,9 +4,11 @@
 #include "TerminalText.h"
 #include "node/statistics/EventFile.h"
 #include "protocol/messages/StoredEvent.h"
+#include "recording/Happenings.h"
 
 #include <QtCore/QDateTime>
 #include <QtCore/QFile>
+#include <QtCore/QFileInfo>
 
 namespace tools {
 
@@ -152,15 +154,71 @@ int showStored(const QString &path, bool isJson)
     return isReadable ? QPlcCoreApplication::Success : QPlcCoreApplication::Failure;
 }
 
+// ---- recordings ----
+
+bool isRecording(const QString &path)
+{
+    return QFileInfo(path).isDir() || path.endsWith(QLatin1String(".mcap"));
+}
+
+/// "12:00:00.123  1234  info     command  Anna  text"
+void printHappening(const qplc::Recording &recording, const qplc::Happening &happening)
+{
+    const QString gap = QStringLiteral("  ");
+    const QString when = recording.isTimed() ? QDateTime::fromMSecsSinceEpoch(happening.wallTime / 1'000'000)
+                                                   .toString(QStringLiteral("yyyy-MM-dd HH:mm:ss.zzz"))
+                                             : QString::number(double(happening.time) * 1e-9, 'f', 3).rightJustified(9);
+    const QString severity = padded(happening.severity(), 7);
+    const QString begin = when + gap + QString::number(happening.cycle()).rightJustified(8) + gap;
+    const QString rest = gap + padded(printable(happening.kind()), 8) + gap;
+    const Tone tone = happening.severity() == QLatin1String("error") ? Tone::Bad
+        : happening.severity() == QLatin1String("warning")           ? Tone::Caution
+                                                                     : Tone::Plain;
+    printWrapped(begin + toned(severity, tone) + rest, displayWidth(begin + severity + rest), happening.sentence());
+}
+
+/// What people and programs did, beside the events.
+int showRecorded(const CommandCall &call, const QString &path, const QString &signal)
+{
+    qplc::Recording recording;
+    QString error;
+    if (!recording.open({path}, &error))
+        return call.application.usageError(error);
+    if (!signal.isEmpty() && recording.indexOf(signal) < 0)
+        return call.application.usageError(recording.table().unknownSignalText(signal));
+    const int topics
+        = qplc::Happening::Command | qplc::Happening::Lease | (signal.isEmpty() ? qplc::Happening::Event : 0);
+    qplc::HappeningReader reader(recording, topics);
+    for (qplc::Happening happening; reader.next(&happening);) {
+        if (!signal.isEmpty() && !happening.isAbout(signal))
+            continue;
+        if (call.isJson())
+            printJson(QJsonDocument(happening.toJson()));
+        else
+            printHappening(recording, happening);
+    }
+    const int damages = reader.damages();
+    if (damages > 0)
+        QPlcCoreApplication::printError(
+            QStringLiteral("%1: %2 parts are damaged and were left out").arg(path).arg(damages));
+    return damages == 0 ? QPlcCoreApplication::Success : QPlcCoreApplication::Failure;
+}
+
 }  // namespace
 
 int showEvents(const CommandCall &call)
 {
     const bool isFollowing = call.application.isSet(QStringLiteral("follow"));
+    const QString file = call.application.value(QStringLiteral("file"));
+    const QString signal = call.application.value(QStringLiteral("signal"));
+    if (isFollowing && !file.isEmpty())
+        return call.application.usageError(
+            QStringLiteral("--follow needs a master, and --file none; use tail -F FILE"));
+    if (!signal.isEmpty() && !isRecording(file))
+        return call.application.usageError(
+            QStringLiteral("--signal needs a recording: qtplc events --file flight.mcap --signal %1").arg(signal));
     if (call.application.isSet(QStringLiteral("file")))
-        return isFollowing
-            ? call.application.usageError(QStringLiteral("--follow needs a master, and --file none; use tail -F FILE"))
-            : showStored(call.application.value(QStringLiteral("file")), call.isJson());
+        return isRecording(file) ? showRecorded(call, file, signal) : showStored(file, call.isJson());
     EventPrinter printer(call.isJson());
     if (isFollowing) {
         call.client.control().offer(messages::feature::events);

@@ -112,17 +112,23 @@ void readRing(fuzz::Input &input)
     static const QByteArray name = RingMemory::folder() + "/qtplc-fuzz-" + QByteArray::number(::getpid());
     RingMemory ring;
     QString error;
-    fuzz::check(ring.create(name, capacity, "x", &error), "memory has room");
-    ring.header()->head = input.number<std::uint64_t>();
-    ring.header()->oldest = input.number<std::uint64_t>();
-    ring.header()->read = input.number<std::uint64_t>();
-    ring.header()->isRead = input.number<std::uint8_t>() % 2;
+    fuzz::check(ring.create(name, capacity, "x", &error, capacity), "memory has room");
+    ring.header()->cycles.head = input.number<std::uint64_t>();
+    ring.header()->cycles.oldest = input.number<std::uint64_t>();
+    ring.header()->cycles.read = input.number<std::uint64_t>();
+    ring.header()->cycles.isRead = input.number<std::uint8_t>() % 2;
     const QByteArray records = input.bytes(page);
-    std::memcpy(ring.at(0), records.constData(), std::size_t(records.size()));
+    std::memcpy(ring.cycles().at(0), records.constData(), std::size_t(records.size()));
+    const bool isAttached = input.number<std::uint8_t>() == 0;
+    ring.header()->texts.head = input.number<std::uint64_t>();
+    ring.header()->texts.oldest = input.number<std::uint64_t>();
+    ring.header()->texts.read = input.number<std::uint64_t>();
+    const QByteArray texts = input.bytes(page);
+    std::memcpy(ring.texts().at(0), texts.constData(), std::size_t(texts.size()));
     RingReader reader;
     fuzz::check(reader.open(name, &error), "a ring can be opened");
     ring.remove();
-    if (input.number<std::uint8_t>() == 0)
+    if (isAttached)
         reader.attach();
     constexpr int most = 1000;  // more than there can be
     int found = 0;
@@ -137,6 +143,9 @@ void readRing(fuzz::Input &input)
         result = reader.next();
     }
     fuzz::check(found < most, "the reading of a ring ends");
+    for (found = 0; reader.texts().next() != RegionReader::Nothing && found < most;)
+        ++found;
+    fuzz::check(found < most, "the reading of texts ends");
 }
 
 }  // namespace

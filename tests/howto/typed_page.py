@@ -14,6 +14,7 @@ from pathlib import Path
 # What the page says of a command: its exit code, and what it shows.
 SAYS = {
     "qtplc verify flight.mcap": (0, r"as that of the flight: nothing is missing"),
+    "qtplc events --file flight.mcap": (0, r" state +\S"),
     "qtplc replay flight.mcap --node awe_autopilot --compare": (0, r" 0 differences"),
     "qtplc replay flight.mcap --node 'awe_autopilot --gains tuned' --compare": (1, r"first difference: \w+, cycle \d+"),
 }

@@ -13,13 +13,13 @@
 /// A ring with a file of its own, which is gone in the end.
 struct TestRing
 {
-    explicit TestRing(std::size_t capacity = 64 * 1024)
+    explicit TestRing(std::size_t capacity = 64 * 1024, std::size_t textCapacity = 0)
         : ring(std::make_shared<qplc::RecordRing>())
     {
         static int count = 0;
         file = qplc::RingMemory::folder() + "/qtplc-test-" + QByteArray::number(::getpid()) + '-'
             + QByteArray::number(++count);
-        isThere = ring->create(file, capacity, "a description", &error);
+        isThere = ring->create(file, capacity, "a description", &error, textCapacity);
     }
     ~TestRing() { QFile::remove(QFile::decodeName(file)); }
     TestRing(const TestRing &) = delete;

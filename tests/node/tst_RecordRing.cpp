@@ -34,7 +34,28 @@ private Q_SLOTS:
     void memoryThatIsNotThereIsAnError();
     void aRingHasItsSizeFromItsRecords();
     void theUseOfARingIsKnown();
+    void textsAreReadAsTheyWereWritten();
+    void withoutARecorderTheNewestTextsStay();
+    void textsWithoutRoomAreCounted();
+    void aTextThatIsPutBackIsReadAgain();
+    void aRingWithoutTextsTakesNone();
 };
+
+namespace {
+
+/// The number of the text that was found; 0: none was.
+quint64 numberOfText(RegionReader &texts, QByteArray *text = nullptr)
+{
+    if (texts.next() != RegionReader::Found || texts.size() < sizeof(RecordedText))
+        return 0;
+    RecordedText head;
+    std::memcpy(&head, texts.body(), sizeof head);
+    if (text)
+        *text = QByteArray(texts.body() + sizeof head, int(head.textSize));
+    return head.number;
+}
+
+}  // namespace
 
 void tst_RecordRing::aRecordIsReadAsItWasWritten()
 {
@@ -309,7 +330,7 @@ void tst_RecordRing::aDamagedRecordEndsTheReading()
     TestRing test;
     for (quint64 i = 0; i < 10; ++i)
         QVERIFY(test.write(i));
-    *test.ring->memory().at(TestRing::sizeOf(0)) ^= 1;
+    *test.ring->memory().cycles().at(TestRing::sizeOf(0)) ^= 1;
     RingReader reader;
     QString error;
     QVERIFY(reader.open(test.file, &error));
@@ -362,6 +383,107 @@ void tst_RecordRing::theUseOfARingIsKnown()
     QVERIFY(recorder.attach());
     recorder.detach();
     QCOMPARE(RingMemory::useOf(test.file), RingMemory::Dead);
+}
+
+void tst_RecordRing::textsAreReadAsTheyWereWritten()
+{
+    TestRing test(4096, 4096);
+    QVERIFY2(test.isThere, qPrintable(test.error));
+    RingReader reader;
+    QString error;
+    QVERIFY2(reader.open(test.file, &error), qPrintable(error));
+    QCOMPARE(reader.texts().next(), RegionReader::Nothing);
+    RecordedText head;
+    head.cycle = 7;
+    head.topic = RecordedText::Lease;
+    test.ring->addText(head, "{\"a\":1}");
+    test.ring->addText(head, "");
+    test.ring->endTexts();
+    QByteArray text;
+    QCOMPARE(numberOfText(reader.texts(), &text), quint64(1));
+    QCOMPARE(text, QByteArray("{\"a\":1}"));
+    QVERIFY(reader.texts().kind() == RecordKind::Text);
+    QCOMPARE(numberOfText(reader.texts(), &text), quint64(2));
+    QCOMPARE(text, QByteArray());
+    QCOMPARE(numberOfText(reader.texts()), quint64(3));
+    QVERIFY(reader.texts().kind() == RecordKind::LastText);
+    QCOMPARE(reader.next(), RingReader::Nothing);  // the cycles have a region of their own
+}
+
+void tst_RecordRing::withoutARecorderTheNewestTextsStay()
+{
+    TestRing test(4096, 4096);
+    for (int i = 0; i < 1000; ++i)
+        test.ring->addText({}, QByteArray(i % 100, 'x'));
+    RingReader reader;
+    QString error;
+    QVERIFY(reader.open(test.file, &error));
+    QCOMPARE(reader.texts().next(), RegionReader::Lost);
+    quint64 last = 0;
+    int count = 0;
+    for (quint64 number = numberOfText(reader.texts()); number != 0; number = numberOfText(reader.texts()), ++count) {
+        QVERIFY(last == 0 || number == last + 1);
+        last = number;
+    }
+    QCOMPARE(last, quint64(1000));
+    QVERIFY(count > 20);
+}
+
+void tst_RecordRing::textsWithoutRoomAreCounted()
+{
+    TestRing test(4096, 4096);
+    RingReader recorder;
+    QString error;
+    QVERIFY(recorder.open(test.file, &error));
+    QVERIFY(recorder.attach());
+    constexpr quint64 told = 500;
+    for (quint64 i = 0; i < told; ++i)
+        test.ring->addText({}, QByteArray(100, 'x'));
+    test.ring->addText({}, QByteArray(4096, 'x'));  // would replace all others
+    test.ring->leaveOutText();
+    test.ring->endTexts();  // has room
+    quint64 last = 0;
+    quint64 count = 0;
+    for (quint64 number = numberOfText(recorder.texts()); number != 0; number = numberOfText(recorder.texts())) {
+        ++count;
+        QVERIFY(number == last + 1 || recorder.texts().kind() == RecordKind::LastText);
+        last = number;
+    }
+    QVERIFY(count < told);
+    QCOMPARE(last, told + 3);
+    recorder.release();
+    test.ring->addText({}, QByteArray(100, 'x'));
+    QCOMPARE(numberOfText(recorder.texts()), told + 4);
+}
+
+void tst_RecordRing::aTextThatIsPutBackIsReadAgain()
+{
+    TestRing test(4096, 4096);
+    RingReader recorder;
+    QString error;
+    QVERIFY(recorder.open(test.file, &error));
+    QVERIFY(recorder.attach());
+    test.ring->addText({}, "{}");
+    QCOMPARE(numberOfText(recorder.texts()), quint64(1));
+    recorder.texts().putBack();
+    recorder.release();  // keeps it
+    QCOMPARE(numberOfText(recorder.texts()), quint64(1));
+    QCOMPARE(recorder.texts().next(), RegionReader::Nothing);
+}
+
+void tst_RecordRing::aRingWithoutTextsTakesNone()
+{
+    TestRing test;
+    test.ring->addText({}, "{}");
+    test.ring->endTexts();
+    RingReader recorder;
+    QString error;
+    QVERIFY(recorder.open(test.file, &error));
+    QVERIFY(recorder.attach());
+    QVERIFY(recorder.texts().isEmpty());
+    QCOMPARE(recorder.texts().next(), RegionReader::Nothing);
+    recorder.release();
+    recorder.detach();
 }
 
 QTEST_GUILESS_MAIN(tst_RecordRing)

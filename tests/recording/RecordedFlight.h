@@ -13,7 +13,7 @@
 /// A master without nodes, whose program turns the clock and sets the signals, and its recorder.
 struct RecordedFlight
 {
-    explicit RecordedFlight(std::size_t capacity = 1 << 20)
+    explicit RecordedFlight(std::size_t capacity = 1 << 20, std::size_t textCapacity = 0)
     {
         description.plant = "kite";
         description.version = "test";
@@ -26,8 +26,8 @@ struct RecordedFlight
         ringFile = qplc::RingMemory::folder() + "/qtplc-test-" + QByteArray::number(::getpid()) + "-flight-"
             + QByteArray::number(++count);
         ring = std::make_shared<qplc::RecordRing>();
-        if (!ring->create(ringFile, capacity, description.toText(), &error) || !recorder.attach(ringFile, &error)
-            || !folder.isValid())
+        if (!ring->create(ringFile, capacity, description.toText(), &error, textCapacity)
+            || !recorder.attach(ringFile, &error) || !folder.isValid())
             qFatal("%s", qPrintable(error));
         phase.period = std::chrono::milliseconds(10);
         phase.clock = QPlcClock::external();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "RecordedFlight.h"
+#include "recording/Happenings.h"
 #include "recording/McapReader.h"
 #include "recording/Verification.h"
 
@@ -41,6 +42,32 @@ VerifiedFile verified(const QString &file)
     return result;
 }
 
+/// What a file tells beside its cycles.
+std::vector<Happening> happeningsOf(const QString &file)
+{
+    std::vector<Happening> result;
+    Recording recording;
+    QString error;
+    if (!recording.open({file}, &error))
+        qFatal("%s", qPrintable(error));
+    HappeningReader reader(recording, ~0);
+    for (Happening happening; reader.next(&happening);)
+        result.push_back(happening);
+    return result;
+}
+
+RecordedText textOf(RecordedText::Topic topic, quint64 cycle, quint64 settings = 0)
+{
+    RecordedText text;
+    text.topic = topic;
+    text.cycle = cycle;
+    text.settings = settings;
+    text.wallTime = 1'700'000'000'123'000'000;
+    return text;
+}
+
+constexpr std::size_t TextCapacity = 1 << 16;
+
 }  // namespace
 
 // From the ring of a master into a file.
@@ -60,6 +87,12 @@ private Q_SLOTS:
     void aChangedImageIsFound();
     void aMissingCycleIsFound();
     void twoRecordersOfOneRingAreRefused();
+    void whatHasHappenedIsInTheFile();
+    void aValueHasTheCycleThatHasAdoptedIt();
+    void textsThatAreMissingAreTold();
+    void theLastTextIsWaitedForButNotForEver();
+    void whatTheMasterHasToldBeforeItWasKilledIsInTheFile();
+    void anotherFileGoesOnWithTheNextText();
 };
 
 void tst_PlantRecorder::theFileHasTheWholeFlight()
@@ -94,7 +127,7 @@ void tst_PlantRecorder::theRingKeepsWhatIsNotInTheFile()
     QCOMPARE(flight.recorder.proceed(&flight.error), PlantRecorder::Recorded);
     QCOMPARE(flight.ring->readPlace(), std::uint64_t(0));
     QVERIFY(flight.recorder.save(true, &flight.error));
-    QCOMPARE(flight.ring->readPlace(), std::uint64_t(flight.ring->memory().header()->head));
+    QCOMPARE(flight.ring->readPlace(), std::uint64_t(flight.ring->memory().header()->cycles.head));
 }
 
 void tst_PlantRecorder::cyclesWithoutARecordAreInTheFileAsAGap()
@@ -327,6 +360,153 @@ void tst_PlantRecorder::twoRecordersOfOneRingAreRefused()
     QString error;
     QVERIFY(!second.attach(flight.ringFile, &error));
     QVERIFY2(error.contains("another recorder"), qPrintable(error));
+}
+
+void tst_PlantRecorder::whatHasHappenedIsInTheFile()
+{
+    RecordedFlight flight(1 << 20, TextCapacity);
+    QVERIFY2(flight.begin(), qPrintable(flight.error));
+    flight.ring->addText(textOf(RecordedText::Event, RecordedText::BeforePhase), R"({"text":"armed"})");
+    QVERIFY(flight.start());
+    flight.step(10);
+    flight.ring->addText(textOf(RecordedText::Lease, 9), R"({"what":"taken","by":"Anna","signals":["on"]})");
+    flight.ring->addText(textOf(RecordedText::Statistics, 9), R"({"cycles":10})");
+    flight.ring->addText(textOf(RecordedText::Event, 9), "no JSON");
+    flight.ring->addText(textOf(RecordedText::Topic(77), 9), R"({"text":"of a later version"})");
+    flight.step(10);
+    flight.cycle.stop();
+    flight.ring->addText(textOf(RecordedText::Event, 19), R"({"text":"stopped"})");
+    flight.ring->endTexts();
+    QCOMPARE(flight.recorder.proceed(&flight.error), PlantRecorder::Ended);
+    QVERIFY2(flight.recorder.finish(&flight.error), qPrintable(flight.error));
+    QVERIFY(verified(flight.file).isComplete());
+
+    const std::vector<Happening> told = happeningsOf(flight.file);
+    QCOMPARE(told.size(), std::size_t(4));
+    QCOMPARE(told[0].text,
+             QJsonObject({{"text", "armed"}, {"cycle", 0}, {"before", true}, {"utc", "2023-11-14T22:13:20.123Z"}}));
+    QVERIFY(told[1].topic == Happening::Lease && told[1].isAbout("on") && !told[1].isAbout("force"));
+    QCOMPARE(told[1].cycle(), quint64(9));
+    QCOMPARE(told[1].time, RecordedTime(9) * 10'000'000);
+    QCOMPARE(told[1].sentence(), QString("'Anna' has taken the lease of on"));
+    QVERIFY(told[2].topic == Happening::Statistics);
+    QCOMPARE(told[3].sentence(), QString("stopped"));
+    QCOMPARE(told[3].cycle(), quint64(19));
+}
+
+void tst_PlantRecorder::aValueHasTheCycleThatHasAdoptedIt()
+{
+    RecordedFlight flight(1 << 20, TextCapacity);
+    QVERIFY(flight.begin());
+    QVERIFY(flight.start());
+    flight.step(5);
+    const QByteArray command = R"({"by":"Anna","signal":"on","from":"0","to":"1","how":"set"})";
+    // Told before the cycle has it: it waits, also for a recorder that is fast.
+    flight.ring->addText(textOf(RecordedText::Command, 4, flight.cycle.settingsGiven() + 1), command);
+    QCOMPARE(flight.recorder.proceed(&flight.error), PlantRecorder::Recorded);
+    flight.step(3);
+    // Told late: several values together, of which the last one was adopted by the cycle 6.
+    flight.ring->addText(textOf(RecordedText::Command, 7, flight.cycle.settingsGiven() - 3), command);
+    flight.step(2);
+    flight.cycle.setValues({{5, QPlcValue(quint8(1)), QPlcQuality::Good}});
+    flight.ring->addText(textOf(RecordedText::Command, 9, flight.cycle.settingsGiven()), command);
+    flight.cycle.stop();
+    flight.ring->endTexts();
+    QCOMPARE(flight.recorder.proceed(&flight.error), PlantRecorder::Ended);
+    QVERIFY(flight.recorder.finish(&flight.error));
+
+    const std::vector<Happening> told = happeningsOf(flight.file);
+    QCOMPARE(told.size(), std::size_t(3));
+    QCOMPARE(told[0].cycle(), quint64(5));
+    QCOMPARE(told[0].time, RecordedTime(5) * 10'000'000);
+    QCOMPARE(told[0].sentence(), QString("'Anna' has set on: 0 -> 1"));
+    QCOMPARE(told[1].cycle(), quint64(6));
+    QVERIFY(told[1].time >= told[0].time);
+    QCOMPARE(told[2].text.value("adopted"), QJsonValue(false));
+    QCOMPARE(told[2].sentence(), QString("'Anna' has set on: 0 -> 1; no cycle has adopted it"));
+}
+
+void tst_PlantRecorder::textsThatAreMissingAreTold()
+{
+    RecordedFlight flight(1 << 20, TextCapacity);
+    QVERIFY(flight.begin());
+    QVERIFY(flight.start());
+    flight.step();
+    flight.ring->addText(textOf(RecordedText::Event, 0), R"({"text":"first"})");
+    flight.ring->leaveOutText();
+    flight.ring->leaveOutText();
+    flight.ring->addText(textOf(RecordedText::Event, 0), R"({"text":"last"})");
+    flight.ring->leaveOutText();
+    flight.cycle.stop();
+    flight.ring->endTexts();
+    QCOMPARE(flight.recorder.proceed(&flight.error), PlantRecorder::Ended);
+    QVERIFY(flight.recorder.finish(&flight.error));
+    const std::vector<Happening> told = happeningsOf(flight.file);
+    QCOMPARE(told.size(), std::size_t(4));
+    QCOMPARE(told[1].text.value("lost"), QJsonValue(2));
+    QVERIFY2(told[1].sentence().startsWith("2 events, commands or"), qPrintable(told[1].sentence()));
+    QCOMPARE(told[2].sentence(), QString("last"));
+    QCOMPARE(told[3].text.value("lost"), QJsonValue(1));
+}
+
+void tst_PlantRecorder::theLastTextIsWaitedForButNotForEver()
+{
+    RecordedFlight flight(1 << 20, TextCapacity);
+    QVERIFY(flight.begin());
+    QVERIFY(flight.start());
+    flight.step(3);
+    flight.cycle.stop();
+    QCOMPARE(flight.recorder.proceed(&flight.error), PlantRecorder::Waiting);
+    int looks = 1;
+    while (flight.recorder.proceed(&flight.error) == PlantRecorder::Waiting)
+        ++looks;
+    QVERIFY(looks > 100 && looks < 1000);
+    QCOMPARE(flight.recorder.proceed(&flight.error), PlantRecorder::Ended);
+}
+
+void tst_PlantRecorder::whatTheMasterHasToldBeforeItWasKilledIsInTheFile()
+{
+    RecordedFlight flight(1 << 20, TextCapacity);
+    QVERIFY(flight.begin());
+    QVERIFY(flight.start());
+    flight.step(3);
+    flight.ring->addText(textOf(RecordedText::Event, 2), R"({"text":"it burns"})");
+    flight.ring->addText(textOf(RecordedText::Command, 2, flight.cycle.settingsGiven() + 1),
+                         R"({"by":"Anna","signal":"on","from":"0","to":"1"})");
+    flight.ring->memory().unlock(RingMemory::WriterLock);  // as the kernel does
+    PlantRecorder::Progress progress = PlantRecorder::Recorded;
+    while (progress == PlantRecorder::Recorded)
+        progress = flight.recorder.proceed(&flight.error);
+    QCOMPARE(progress, PlantRecorder::Abandoned);
+    QVERIFY(flight.recorder.finish(&flight.error));
+    const std::vector<Happening> told = happeningsOf(flight.file);
+    QCOMPARE(told.size(), std::size_t(2));
+    QCOMPARE(told[0].sentence(), QString("it burns"));
+    QCOMPARE(told[1].text.value("adopted"), QJsonValue(false));
+    flight.cycle.stop();
+}
+
+void tst_PlantRecorder::anotherFileGoesOnWithTheNextText()
+{
+    RecordedFlight flight(1 << 20, TextCapacity);
+    QVERIFY(flight.begin("first.mcap"));
+    const QString first = flight.file;
+    QVERIFY(flight.start());
+    flight.step(3);
+    flight.ring->addText(textOf(RecordedText::Event, 2), R"({"text":"first"})");
+    QCOMPARE(flight.recorder.proceed(&flight.error), PlantRecorder::Recorded);
+    QVERIFY(flight.recorder.finish(&flight.error));
+    QVERIFY(flight.begin("second.mcap"));
+    flight.step(3);
+    flight.ring->addText(textOf(RecordedText::Event, 5), R"({"text":"second"})");
+    flight.cycle.stop();
+    flight.ring->endTexts();
+    QCOMPARE(flight.recorder.proceed(&flight.error), PlantRecorder::Ended);
+    QVERIFY(flight.recorder.finish(&flight.error));
+    QCOMPARE(happeningsOf(first).size(), std::size_t(1));
+    const std::vector<Happening> told = happeningsOf(flight.file);
+    QCOMPARE(told.size(), std::size_t(1));
+    QCOMPARE(told[0].sentence(), QString("second"));
 }
 
 QTEST_GUILESS_MAIN(tst_PlantRecorder)

@@ -129,11 +129,11 @@ void tst_NodeReplay::aChangedBitOfAnInputIsFoundInItsCycle()
     RingReader reader;
     QVERIFY2(reader.open(master.ring, &master.error), qPrintable(master.error));
     const ProcessImage image(probeTable());
-    std::uint64_t place = reader.memory().header()->oldest;
+    std::uint64_t place = reader.memory().header()->cycles.oldest;
     for (bool isFound = false; !isFound;) {
         RecordHead head;
-        std::memcpy(&head, reader.memory().at(place), sizeof head);
-        char *body = reader.memory().at(place) + sizeof head;
+        std::memcpy(&head, reader.memory().cycles().at(place), sizeof head);
+        char *body = reader.memory().cycles().at(place) + sizeof head;
         CycleView view;
         QVERIFY(head.size > 0);
         if (head.kind == RecordKind::Cycle && CycleView::read(body, head.size - std::uint32_t(sizeof head), &view)

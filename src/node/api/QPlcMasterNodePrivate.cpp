@@ -70,6 +70,19 @@ qplc::ProfileFacts factsOf(const QPlcMasterNodePrivate &master)
     return facts;
 }
 
+/// What a recording tells of a master: nothing secret.
+QMap<QString, QString> parametersOf(const QPlcMasterNodePrivate &master)
+{
+    QMap<QString, QString> parameters{{QStringLiteral("program"), QCoreApplication::applicationName()},
+                                      {QStringLiteral("program_version"), QCoreApplication::applicationVersion()},
+                                      {QStringLiteral("qt_version"), QString::fromLatin1(qVersion())},
+                                      {QStringLiteral("security"), master.networkSecurity},
+                                      {QStringLiteral("profile_reason"), master.profile().reason}};
+    if (!master.serverSettings.faultPlan.isEmpty())
+        parameters.insert(QStringLiteral("fault_plan"), master.serverSettings.faultPlan);
+    return parameters;
+}
+
 /// Name of a node of this process with real devices; empty: there is none.
 QString localDevice(const NodeRegistry &registry)
 {
@@ -164,6 +177,7 @@ QPlcMasterNodePrivate::Parts::Parts(QPlcMasterNodePrivate &master)
     , audit(server, master.journal, phase)
     , evictions(master.evictions, server, master.nodes, master.needed, master.journal, phase)
     , viewers(server, master.journal, settings, leases, phase, master.table)
+    , texts(server, master.journal, settings, leases, phase, cycle, registry)
     , values(cycle, registry, master.leaseBooks, ownSignals.statistics())
     , starts(master.phaseSettings, master.phaseProfile, phase, master.hub, master.session)
     , step(master.stepTimer)
@@ -408,6 +422,7 @@ bool QPlcMasterNodePrivate::startRealTime(quint64 cycles, quint64 token)
     const QString plant
         = serverSettings.localName.isEmpty() ? QCoreApplication::applicationName() : serverSettings.localName;
     parts->phase.ring().setPlant(plant.isEmpty() ? QStringLiteral("master") : plant, session);
+    parts->phase.ring().setParameters(parametersOf(*this));
     parts->phase.ring().setCallback([this](const QString &file) { Q_EMIT q->ringIsReady(file); });
     const quint64 cyclesOfThisPhase = std::exchange(phaseSettings.cyclesWanted, cycles);
     const bool isArmed = arming.permitsStart(token, qplc::monotonicNow(), serverSettings.isArmingRequired());
@@ -560,6 +575,7 @@ void QPlcMasterNodePrivate::carryOut(Action action, const QString &reason)
         for (const auto &node : nodes.all())
             journal.nodeReturned(node->name());
         parts->reports.takeLast();
+        parts->texts.close();
         Q_EMIT q->realTimeHasStopped();
         break;
     case Action::MakeCyclesSafe:

@@ -13,6 +13,7 @@
 #include "node/session/MasterReports.h"
 #include "node/session/MasterViewers.h"
 #include "node/session/NeededNodes.h"
+#include "node/session/PhaseTexts.h"
 #include "node/session/SequenceAsker.h"
 #include "node/session/ServerSettings.h"
 #include "node/session/StartSequence.h"
@@ -77,6 +78,7 @@ public:
         qplc::MasterAudit audit;
         qplc::MasterEvictions evictions;
         qplc::MasterViewers viewers;
+        qplc::PhaseTexts texts;
         qplc::InitialValues values;
         qplc::StartMessages starts;
         qplc::SequenceStep step;

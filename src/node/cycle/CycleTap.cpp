@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::uint32_t GapSize = sizeof(RecordHead) + sizeof(RecordedGap);
 constexpr std::uint32_t EndSize = sizeof(RecordHead) + sizeof(RecordedEnd);
+constexpr std::uint32_t SettingsSize = sizeof(RecordHead) + sizeof(RecordedSettings);
 constexpr std::int64_t LookAfter = 200'000;  // [ns] between two looks for room
 
 const char *rawOutputs(const NodeSlot &slot)
@@ -66,6 +67,7 @@ void CycleTap::start(std::shared_ptr<RecordRing> ring, bool waits, std::int64_t 
     m_rosterText = nullptr;
     m_roster = {};
     m_hasNewRoster = false;
+    m_hasNewSettings = false;
     m_gap = {};
     m_end = {};
     m_missing.set(0);
@@ -86,7 +88,7 @@ void CycleTap::setRoster(const QByteArray *text, std::uint64_t first) noexcept
 /// A recorder that comes later finds one, whatever has been replaced.
 bool CycleTap::wantsRoster() const noexcept
 {
-    const std::uint64_t head = m_ring->memory().header()->head.load(std::memory_order_relaxed);
+    const std::uint64_t head = m_ring->head();
     return m_hasNewRoster || (m_roster.number > 0 && head - m_rosterPlace > m_ring->memory().capacity() / 8);
 }
 
@@ -102,8 +104,15 @@ void CycleTap::writeRoster() noexcept
     if (m_roster.textSize > 0)
         append(to, m_rosterText->constData(), m_roster.textSize);
     m_ring->commit(RecordKind::Roster, size);
-    m_rosterPlace = m_ring->memory().header()->head.load(std::memory_order_relaxed);
+    m_rosterPlace = m_ring->head();
     m_hasNewRoster = false;
+}
+
+void CycleTap::writeSettings() noexcept
+{
+    append(m_ring->begin(SettingsSize), &m_settings, sizeof m_settings);
+    m_ring->commit(RecordKind::Settings, SettingsSize);
+    m_hasNewSettings = false;
 }
 
 /// A recorder that leaves no room for it gets a recording from which this node cannot be replayed.
@@ -147,6 +156,10 @@ void CycleTap::record(const Cycle &cycle, const Roster &roster, const std::atomi
     ++m_end.cycles;
     m_end.last = cycle.number;
     m_end.digest = cycle.digest;
+    if (cycle.settings != m_settings.adopted) {
+        m_settings = {cycle.number, cycle.settings};
+        m_hasNewSettings = true;
+    }
     RecordedCycle record{cycle.number, cycle.wallTime, cycle.lateness, cycle.skipped, cycle.digest, cycle.flags};
     record.nodes = std::uint32_t(roster.nodes.size());
     record.imageSize = m_image.totalSize();
@@ -162,12 +175,14 @@ void CycleTap::record(const Cycle &cycle, const Roster &roster, const std::atomi
     const std::uint32_t size = std::uint32_t(sizeof(RecordHead) + sizeof record + record.nodes * sizeof(RecordedNode))
         + image + (record.beforeSize > 0 ? image : 0) + record.rawSize;
     const bool hasRoster = wantsRoster();
-    if (!makeRoom(size + (hasRoster ? rosterSize() : 0), stop, guard)) {
+    if (!makeRoom(size + (hasRoster ? rosterSize() : 0) + (m_hasNewSettings ? SettingsSize : 0), stop, guard)) {
         noteGap(cycle);
         return;
     }
     if (hasRoster)
         writeRoster();
+    if (m_hasNewSettings)
+        writeSettings();
     char *to = append(m_ring->begin(size), &record, sizeof record);
     to = writeNodes(roster, to);
     to = append(to, m_image.data(), record.imageSize);

@@ -30,7 +30,8 @@ public:
         std::int64_t lateness = 0;  // [ns]
         std::uint32_t flags = 0;    // of RecordedCycle::Flag
         std::uint64_t digest = 0;
-        std::int64_t wallTime = 0;  // [ns since 1970]
+        std::int64_t wallTime = 0;   // [ns since 1970]
+        std::uint64_t settings = 0;  // number of the newest value from outside that was adopted
     };
 
     /// A recorder that puts nothing to safety for so long is not waited for until it does [ns].
@@ -68,6 +69,7 @@ private:
     bool wantsRoster() const noexcept;
     std::uint32_t rosterSize() const noexcept;
     void writeRoster() noexcept;
+    void writeSettings() noexcept;
     char *writeNodes(const Roster &roster, char *to) const noexcept;
     char *writeRaw(const Roster &roster, char *to) const noexcept;
 
@@ -82,6 +84,8 @@ private:
     RecordedRoster m_roster;
     bool m_hasNewRoster = false;      // it is not in the ring
     std::uint64_t m_rosterPlace = 0;  // behind the newest one in the ring
+    RecordedSettings m_settings;
+    bool m_hasNewSettings = false;  // they are not in the ring
     RecordedGap m_gap;
     RecordedEnd m_end;
     Counter m_missing;

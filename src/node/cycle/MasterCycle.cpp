@@ -561,6 +561,7 @@ void MasterCycle::record(const CycleClock::Tick &tick) noexcept
         | flag(m_hasSetValues, RecordedCycle::SetValues);
     cycle.digest = m_digest.load(std::memory_order_relaxed);
     cycle.wallTime = isTimed ? wallClockNow() : 0;
+    cycle.settings = m_setsTaken.load(std::memory_order_relaxed);
     m_tap.record(cycle, *m_roster, m_stop, m_guard);
 }
 

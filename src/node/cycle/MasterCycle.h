@@ -119,6 +119,9 @@ public:
     bool endWays(const std::vector<QPlcSignalIndex> &indices);
     /// Whether a value that is set moves \a signal with a slope.
     bool hasSlope(QPlcSignalIndex signal) const { return m_slopes.isLimited(signal); }
+    /// How many values setValues() and endWays() have been given for cycles that run: what they are
+    /// given next has the numbers behind it, as RecordedSettings says.
+    std::uint64_t settingsGiven() const { return m_setsGiven; }
     /// Whether setValues() and endWays() would take so many now.
     bool hasRoomFor(std::size_t settings) const;
     const QPlcSignalTable &table() const { return m_image.table(); }

@@ -8,6 +8,9 @@ namespace qplc {
 /// What the records of a RecordRing look like: numbers of this machine, each record as long as a
 /// multiple of 8 bytes.
 ///
+/// A ring has two regions. That of the cycles is written by their thread, that of the texts by the
+/// thread of the master: what people and programs did, and what happened.
+///
 /// A record of a cycle is: RecordHead, RecordedCycle, a RecordedNode for each node, the process
 /// image (ProcessImage::totalSize() bytes: values, padding, qualities), and then, where they are
 /// not empty, the image before and the raw outputs, each padded to 8 bytes.
@@ -19,11 +22,14 @@ namespace qplc {
 /// as in the record k-1. Inputs of the same cycle are as in the record k, unless the record has raw
 /// inputs of the node: then these are what was sent.
 enum class RecordKind : std::uint16_t {
-    Cycle = 1,   ///< RecordedCycle and what follows it
-    Gap = 2,     ///< RecordedGap: cycles without a record
-    End = 3,     ///< RecordedEnd: the phase is over, and nothing follows
-    Roster = 4,  ///< RecordedRoster and its text: the nodes of the cycles from `first` on
-    Join = 5     ///< RecordedJoin, initial outputs and inputs: a node takes part from `first` on
+    Cycle = 1,     ///< RecordedCycle and what follows it
+    Gap = 2,       ///< RecordedGap: cycles without a record
+    End = 3,       ///< RecordedEnd: the phase is over, and nothing follows
+    Roster = 4,    ///< RecordedRoster and its text: the nodes of the cycles from `first` on
+    Join = 5,      ///< RecordedJoin, initial outputs and inputs: a node takes part from `first` on
+    Settings = 6,  ///< RecordedSettings: values from outside that the next cycle has adopted
+    Text = 7,      ///< RecordedText and its text, in the region of the texts
+    LastText = 8   ///< RecordedText without a text: no other one belongs to this phase
 };
 
 struct RecordHead
@@ -129,6 +135,33 @@ struct RecordedJoin
     std::uint16_t reserved[3] = {};
 };
 
+/// Values that were set from outside are numbered by the master, from 1. It comes right before the
+/// record of the cycle that has adopted them.
+struct RecordedSettings
+{
+    std::uint64_t cycle = 0;
+    std::uint64_t adopted = 0;  ///< number of the newest value that this cycle has adopted
+};
+
+/// What has happened, as one object of JSON, which follows.
+struct RecordedText
+{
+    /// Where it belongs: the channel of a recording.
+    enum Topic : std::uint16_t { Event = 1, Command = 2, Lease = 3, Statistics = 4 };
+
+    std::uint64_t number = 0;    ///< of all texts of this phase, from 1; those between two that follow one another
+                                 ///< had no room, or have been replaced
+    std::uint64_t cycle = 0;     ///< newest one when it happened; BeforePhase: that was before the phase
+    std::uint64_t settings = 0;  ///< number of the value that it tells, see RecordedSettings; 0: it tells none
+    std::int64_t wallTime = 0;   ///< [ns since 1970-01-01 UTC]
+    std::uint32_t textSize = 0;  ///< [byte]
+    std::uint16_t topic = Event;
+    std::uint16_t reserved = 0;
+
+    static constexpr std::uint64_t BeforePhase = ~std::uint64_t(0);
+};
+
+static_assert(sizeof(RecordedSettings) == 16 && sizeof(RecordedText) == 40);
 static_assert(sizeof(RecordHead) == 16 && sizeof(RecordedCycle) == 64 && sizeof(RecordedNode) == 40
               && sizeof(RecordedGap) == 40 && sizeof(RecordedEnd) == 32 && sizeof(RecordedRoster) == 16
               && sizeof(RecordedJoin) == 24);

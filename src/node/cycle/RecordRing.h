@@ -8,23 +8,21 @@
 
 namespace qplc {
 
-/// Writes the records of a phase into a RingMemory.
+/// Writes records into a region of a ring.
 ///
-/// While nobody records, a new record replaces the oldest ones: the ring shows the last seconds.
+/// While nobody records, a new record replaces the oldest ones: the region shows the last seconds.
 /// While somebody records, records that it has not put to safety stay, and a new one may find no
 /// room. Neither allocates, locks, or calls the system.
 ///
 /// The functions that write are for one thread.
-class RecordRing
+class RegionWriter
 {
 public:
-    /// See RingMemory::create().
-    bool create(const QByteArray &file, std::size_t capacity, const QByteArray &description, QString *error)
+    RegionWriter() = default;
+    explicit RegionWriter(const RingRegion &region)
+        : m_region(region)
     {
-        return m_memory.create(file, capacity, description, error);
     }
-    RingMemory &memory() { return m_memory; }
-    const RingMemory &memory() const { return m_memory; }
 
     /// The place of the next record, behind its head. Null: there is no room.
     /// \param size [byte] of the record with its head, a multiple of 8
@@ -33,11 +31,40 @@ public:
     /// The record at the place of begin() is complete.
     void commit(RecordKind kind, std::uint32_t size) noexcept;
     /// Whether begin() finds room.
-    bool hasRoomFor(std::uint32_t size) const noexcept { return m_memory.capacity() - unread() >= size; }
+    bool hasRoomFor(std::uint32_t size) const noexcept { return m_region.capacity - unread() >= size; }
+    /// [byte] of all that was written
+    std::uint64_t head() const noexcept { return m_region.marks->head.load(std::memory_order_relaxed); }
+    std::uint64_t capacity() const noexcept { return m_region.capacity; }
     /// Whether somebody records, and so limits the room. \threadsafe yes
-    bool isRead() const noexcept { return m_memory.header()->isRead.load(std::memory_order_acquire) != 0; }
+    bool isRead() const noexcept { return m_region.marks->isRead.load(std::memory_order_acquire) != 0; }
     /// How far it has put records to safety; grows. \threadsafe yes
-    std::uint64_t readPlace() const noexcept { return m_memory.header()->read.load(std::memory_order_acquire); }
+    std::uint64_t readPlace() const noexcept { return m_region.marks->read.load(std::memory_order_acquire); }
+
+private:
+    std::uint64_t unread() const noexcept;
+
+    RingRegion m_region;
+};
+
+/// Writes what happens in a phase into a RingMemory: the records of its cycles, for the cycle
+/// thread, and texts, for the thread of the master.
+class RecordRing : public RegionWriter
+{
+public:
+    /// See RingMemory::create().
+    bool create(const QByteArray &file, std::size_t capacity, const QByteArray &description, QString *error,
+                std::size_t textCapacity = 0);
+    RingMemory &memory() { return m_memory; }
+    const RingMemory &memory() const { return m_memory; }
+
+    /// Writes a text, and counts it. Without room it is counted only, and the numbers of the others
+    /// tell it.
+    /// \param head  number and size come from here
+    void addText(RecordedText head, const QByteArray &text);
+    /// A text that is not told is counted.
+    void leaveOutText() { ++m_lastText; }
+    /// No text follows.
+    void endTexts();
 
     /// A size of a ring [byte] that holds \a seconds of records of \a recordSize bytes, in the
     /// limits of smallest and largest ring and of what the file system of \a folder has free.
@@ -45,9 +72,9 @@ public:
                                    const QByteArray &folder);
 
 private:
-    std::uint64_t unread() const noexcept;
-
     RingMemory m_memory;
+    RegionWriter m_texts;
+    std::uint64_t m_lastText = 0;  // number
 };
 
 }  // namespace qplc

@@ -9,6 +9,7 @@ namespace qplc {
 
 namespace {
 
+const QByteArray ParameterPrefix = QByteArrayLiteral("parameter.");
 const QByteArray format = QByteArrayLiteral("qtplc-ring-1");
 
 /// On one line.
@@ -22,7 +23,7 @@ QByteArray textOf(const QString &value)
 QByteArray RingDescription::toText() const
 {
     QByteArray text = "format: " + format + '\n';
-    const auto add = [&text](const char *key, const QByteArray &value) {
+    const auto add = [&text](const QByteArray &key, const QByteArray &value) {
         text.append(key).append(": ").append(value).append('\n');
     };
     add("plant", textOf(plant));
@@ -33,6 +34,10 @@ QByteArray RingDescription::toText() const
     add("clock", textOf(clock));
     add("scale", QByteArray::number(scale, 'g', 17));
     add("own_signals", rangesText(ownSignals));
+    if (!profile.isEmpty())
+        add("profile", textOf(profile));
+    for (auto parameter = parameters.begin(); parameter != parameters.end(); ++parameter)
+        add(ParameterPrefix + parameter.key().toLatin1(), textOf(parameter.value()));
     return text + '\n' + table;
 }
 
@@ -57,6 +62,12 @@ bool RingDescription::fromText(const QByteArray &text, RingDescription *descript
     description->clock = QString::fromUtf8(values.value("clock"));
     description->scale = values.value("scale").toDouble();
     description->ownSignals = signalsIn(values.value("own_signals"));
+    description->profile = QString::fromUtf8(values.value("profile"));
+    for (auto value = values.lowerBound(ParameterPrefix); value != values.end(); ++value) {
+        if (value.key().startsWith(ParameterPrefix))
+            description->parameters.insert(QString::fromLatin1(value.key().mid(ParameterPrefix.size())),
+                                           QString::fromUtf8(value.value()));
+    }
     description->table = text.mid(end + 2);
     return values.value("format") == format && description->period > 0;
 }

@@ -4,6 +4,7 @@
 #include "QPlcGlobal.h"
 
 #include <QtCore/QByteArray>
+#include <QtCore/QMap>
 #include <QtCore/QString>
 #include <QtCore/QVector>
 
@@ -20,6 +21,8 @@ struct RingDescription
     QString clock;                        // "real-time", "scaled", "lockstep" or "external"
     double scale = 1.0;                   // simulated seconds per second; 0: not timed
     QVector<QPlcSignalIndex> ownSignals;  // that the master writes in each cycle
+    QString profile;                      // "Simulation" or "Plant"; empty: of a version that did not tell it
+    QMap<QString, QString> parameters;    // of the master, by name: for people
     QByteArray table;                     // signal table, INI
 
     /// "key: value" lines, an empty line, and the table.

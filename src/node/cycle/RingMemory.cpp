@@ -49,11 +49,13 @@ RingMemory::~RingMemory()
 
 void RingMemory::close()
 {
-    if (m_bytes)
-        ::munmap(m_bytes, std::size_t(2 * m_capacity));
+    if (m_cycles)
+        ::munmap(m_cycles, std::size_t(2 * m_capacity));
+    if (m_texts)
+        ::munmap(m_texts, std::size_t(2 * m_textCapacity));
     if (m_header)
         ::munmap(m_header, m_headerSize);
-    m_bytes = nullptr;
+    m_cycles = m_texts = nullptr;
     m_header = nullptr;
     m_descriptor = Descriptor();
     m_file.clear();
@@ -65,20 +67,22 @@ QByteArray RingMemory::folder()
     return folder.isEmpty() ? QByteArrayLiteral("/dev/shm") : folder;
 }
 
-bool RingMemory::create(const QByteArray &file, std::size_t capacity, const QByteArray &description, QString *error)
+bool RingMemory::create(const QByteArray &file, std::size_t capacity, const QByteArray &description, QString *error,
+                        std::size_t textCapacity)
 {
     close();
     m_capacity = capacity;
+    m_textCapacity = textCapacity;
     m_headerSize = wholePages(sizeof(Header) + std::size_t(description.size()));
     const QByteArray folder = file.left(file.lastIndexOf('/'));
     m_descriptor = Descriptor(file.isEmpty() ? ::memfd_create("qtplc-ring", MFD_CLOEXEC)
                                              : ::open(folder.constData(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600));
     // Taken now: a write into memory that a full file system cannot give would end the process.
-    const int taken
-        = m_descriptor.isOpen() ? ::posix_fallocate(m_descriptor.number(), 0, off_t(m_headerSize + capacity)) : errno;
+    const std::size_t size = m_headerSize + capacity + textCapacity;
+    const int taken = m_descriptor.isOpen() ? ::posix_fallocate(m_descriptor.number(), 0, off_t(size)) : errno;
     if (taken != 0) {
         errno = taken;
-        *error = fileError(QStringLiteral("take %1 bytes of memory for").arg(m_headerSize + capacity), file);
+        *error = fileError(QStringLiteral("take %1 bytes of memory for").arg(size), file);
         close();
         return false;
     }
@@ -94,8 +98,7 @@ bool RingMemory::describe(const QByteArray &description, QString *error)
     m_header->capacity = m_capacity;
     m_header->bytesAt = std::uint32_t(m_headerSize);
     m_header->descriptionSize = std::uint32_t(description.size());
-    m_header->head = m_header->oldest = m_header->read = 0;
-    m_header->isRead = 0;
+    m_header->textCapacity = m_textCapacity;
     std::memcpy(reinterpret_cast<char *>(m_header) + sizeof(Header), description.constData(),
                 std::size_t(description.size()));
     m_header->magic = Header::Magic;
@@ -116,27 +119,37 @@ bool RingMemory::publish(const QByteArray &file, QString *error)
     return true;
 }
 
-/// Both halves of the address range show the same bytes.
+/// Both halves of the address range show the same bytes of the file. \return null when there is no
+/// memory
+char *RingMemory::mapTwice(std::uint64_t place, std::uint64_t size) const
+{
+    void *range = ::mmap(nullptr, 2 * size, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (range == MAP_FAILED)
+        return nullptr;
+    char *bytes = static_cast<char *>(range);
+    for (int half = 0; half < 2; ++half) {
+        if (::mmap(bytes + std::size_t(half) * size, size, PROT_READ | PROT_WRITE,
+                   MAP_SHARED | MAP_FIXED | MAP_POPULATE, m_descriptor.number(), off_t(place))
+            == MAP_FAILED) {
+            ::munmap(range, 2 * size);
+            return nullptr;
+        }
+    }
+    return bytes;
+}
+
 bool RingMemory::map(QString *error)
 {
-    constexpr int access = PROT_READ | PROT_WRITE;
-    const auto size = std::size_t(m_capacity);
-    const int number = m_descriptor.number();
-    void *header = ::mmap(nullptr, m_headerSize, access, MAP_SHARED | MAP_POPULATE, number, 0);
+    void *header
+        = ::mmap(nullptr, m_headerSize, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_POPULATE, m_descriptor.number(), 0);
     if (header != MAP_FAILED)
         m_header = static_cast<Header *>(header);
-    void *range = ::mmap(nullptr, 2 * size, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-    if (range != MAP_FAILED)
-        m_bytes = static_cast<char *>(range);
-    bool isMapped = m_header && m_bytes;
-    for (int half = 0; isMapped && half < 2; ++half) {
-        isMapped = ::mmap(m_bytes + std::size_t(half) * size, size, access, MAP_SHARED | MAP_FIXED | MAP_POPULATE,
-                          number, off_t(m_headerSize))
-            != MAP_FAILED;
-    }
-    if (!isMapped)
-        *error = fileError(QStringLiteral("map %1 bytes of").arg(2 * size), m_file);
-    return isMapped;
+    m_cycles = mapTwice(m_headerSize, m_capacity);
+    m_texts = m_textCapacity > 0 ? mapTwice(m_headerSize + m_capacity, m_textCapacity) : nullptr;
+    if (m_header && m_cycles && (m_texts || m_textCapacity == 0))
+        return true;
+    *error = fileError(QStringLiteral("map %1 bytes of").arg(2 * (m_capacity + m_textCapacity)), m_file);
+    return false;
 }
 
 /// Nothing that is not checked here is relied on later.
@@ -151,10 +164,13 @@ bool RingMemory::openFile(const QByteArray &file, Header *start, QString *error)
     }
     const bool isWhole = S_ISREG(status.st_mode) && status.st_uid == ::getuid()
         && ::pread(m_descriptor.number(), static_cast<void *>(start), sizeof *start, 0) == ssize_t(sizeof *start);
-    if (isWhole && start->magic == Header::Magic && start->capacity <= LargestCapacity && start->capacity >= 4096
-        && (start->capacity & (start->capacity - 1)) == 0 && start->descriptionSize <= LargestDescription
+    const auto isCapacity = [](std::uint64_t capacity) {
+        return capacity <= LargestCapacity && capacity >= 4096 && (capacity & (capacity - 1)) == 0;
+    };
+    if (isWhole && start->magic == Header::Magic && isCapacity(start->capacity)
+        && (start->textCapacity == 0 || isCapacity(start->textCapacity)) && start->descriptionSize <= LargestDescription
         && start->bytesAt == wholePages(sizeof(Header) + start->descriptionSize)
-        && std::uint64_t(status.st_size) == start->bytesAt + start->capacity)
+        && std::uint64_t(status.st_size) == start->bytesAt + start->capacity + start->textCapacity)
         return true;
     *error = QStringLiteral("'%1' is not a ring of this version of QtPLC and of this user; delete it")
                  .arg(QFile::decodeName(file));
@@ -166,6 +182,7 @@ bool RingMemory::open(const QByteArray &file, QString *error)
     Header start;
     if (openFile(file, &start, error)) {
         m_capacity = start.capacity;
+        m_textCapacity = start.textCapacity;
         m_headerSize = start.bytesAt;
         m_file = file;
         if (map(error))
@@ -186,7 +203,7 @@ RingMemory::Use RingMemory::useOf(const QByteArray &file)
         return Alive;
     if (memory.isLocked(RecorderLock))
         return BeingRead;
-    return start.isRead.load() != 0 ? DeadAndRecorded : Dead;
+    return start.cycles.isRead.load() != 0 ? DeadAndRecorded : Dead;
 }
 
 QByteArray RingMemory::description() const

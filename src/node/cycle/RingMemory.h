@@ -11,8 +11,30 @@
 
 namespace qplc {
 
+/// How far records are written and read.
+struct RingMarks
+{
+    alignas(64) std::atomic<std::uint64_t> head{0};  // writer: end of the newest record
+    std::atomic<std::uint64_t> oldest{0};            // writer: begin of the oldest record that is whole
+    alignas(64) std::atomic<std::uint64_t> read{0};  // recorder: end of what it has put to safety
+    std::atomic<std::uint32_t> isRead{0};            // 1: somebody records
+};
+static_assert(sizeof(RingMarks) == 128);
+
+/// Bytes of records, and how far they are written and read. It belongs to a RingMemory.
+struct RingRegion
+{
+    RingMarks *marks = nullptr;
+    char *bytes = nullptr;
+    std::uint64_t capacity = 0;  // [byte], a power of two; 0: there are none
+
+    /// Byte \a place of all that was written; behind it, one capacity of bytes may be read.
+    char *at(std::uint64_t place) const { return bytes + (place & (capacity - 1)); }
+};
+
 /// The memory of a RecordRing, which outlives the process that writes it: a file of mode 0600 in
-/// memory (/dev/shm), a page that says what it is, a description, and the bytes of the records.
+/// memory (/dev/shm), a page that says what it is, a description, the bytes of the records of
+/// cycles, and those of the texts.
 ///
 /// The bytes are mapped twice, one behind the other, so that a record never has to be cut. The
 /// writer holds a lock on the file, and a recorder another one: the kernel releases them when
@@ -22,19 +44,18 @@ class RingMemory
 public:
     struct Header
     {
-        static constexpr std::uint64_t Magic = 0x31474e4952504c51;  // "QLPRING1"
+        static constexpr std::uint64_t Magic = 0x32474e4952504c51;  // "QLPRING2"
 
         std::uint64_t magic = 0;
-        std::uint64_t capacity = 0;                   // [byte] of records, a power of two
-        std::uint32_t bytesAt = 0;                    // [byte] where these begin in the file
-        std::uint32_t descriptionSize = 0;            // [byte], right behind this header
-        alignas(64) std::atomic<std::uint64_t> head;  // writer: end of the newest record
-        std::atomic<std::uint64_t> oldest;            // writer: begin of the oldest record that is whole
-        alignas(64) std::atomic<std::uint64_t> read;  // recorder: end of what it has put to safety
-        std::atomic<std::uint32_t> isRead;            // 1: somebody records
-        std::int64_t startTime = 0;                   // cycle 0 [ns since 1970]; 0: the clock is not timed
+        std::uint64_t capacity = 0;         // [byte] of records of cycles, a power of two
+        std::uint32_t bytesAt = 0;          // [byte] where these begin in the file
+        std::uint32_t descriptionSize = 0;  // [byte], right behind this header
+        std::uint64_t textCapacity = 0;     // [byte] of texts, behind the records; a power of two, or 0: there are none
+        std::int64_t startTime = 0;         // cycle 0 [ns since 1970]; 0: the clock is not timed
+        RingMarks cycles;
+        RingMarks texts;
     };
-    static_assert(sizeof(Header) == 192);
+    static_assert(sizeof(Header) == 320);
     static_assert(std::atomic<std::uint64_t>::is_always_lock_free);
 
     enum Lock : std::uint8_t { WriterLock = 0, RecorderLock = 1 };
@@ -56,15 +77,17 @@ public:
     /// is there afterwards, so that no write meets a page for the first time.
     /// \param file  path; empty: memory without a file, which ends with this object
     /// \param capacity [byte], a power of two of at least a page
-    bool create(const QByteArray &file, std::size_t capacity, const QByteArray &description, QString *error);
+    /// \param textCapacity [byte], the same, or 0
+    bool create(const QByteArray &file, std::size_t capacity, const QByteArray &description, QString *error,
+                std::size_t textCapacity = 0);
     /// Opens a file that create() has made. Nothing in it is trusted.
     bool open(const QByteArray &file, QString *error);
     void close();
 
     Header *header() const { return m_header; }
-    /// Byte \a place of the ring; behind it, one capacity of bytes may be read.
-    char *at(std::uint64_t place) const { return m_bytes + (place & (m_capacity - 1)); }
-    std::uint64_t capacity() const { return m_capacity; }
+    RingRegion cycles() const { return {&m_header->cycles, m_cycles, m_capacity}; }
+    RingRegion texts() const { return {&m_header->texts, m_texts, m_textCapacity}; }
+    std::uint64_t capacity() const { return m_capacity; }  // of the cycles
     QByteArray description() const;
     /// Where the file is; empty: there is none.
     QByteArray file() const { return m_file; }
@@ -83,13 +106,16 @@ public:
 private:
     bool openFile(const QByteArray &file, Header *start, QString *error);
     bool map(QString *error);
+    char *mapTwice(std::uint64_t place, std::uint64_t size) const;
     bool describe(const QByteArray &description, QString *error);
     bool publish(const QByteArray &file, QString *error);
 
     Descriptor m_descriptor;
     Header *m_header = nullptr;
-    char *m_bytes = nullptr;
+    char *m_cycles = nullptr;
+    char *m_texts = nullptr;
     std::uint64_t m_capacity = 0;
+    std::uint64_t m_textCapacity = 0;
     std::size_t m_headerSize = 0;
     QByteArray m_file;
 };

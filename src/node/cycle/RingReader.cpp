@@ -5,11 +5,94 @@
 
 namespace qplc {
 
+// ---- a region ----
+
+void RegionReader::open(const RingRegion &region)
+{
+    m_region = region;
+    m_place = 0;
+    m_isAttached = false;
+}
+
+void RegionReader::attach()
+{
+    if (isEmpty())
+        return;
+    RingMarks &marks = *m_region.marks;
+    const bool isGoingOn = marks.isRead.load() != 0;
+    m_place = isGoingOn ? marks.read.load() : marks.oldest.load();
+    if (!isGoingOn)
+        leaveRoom();
+    marks.read.store(m_place);
+    marks.isRead.store(1);
+    m_isAttached = true;
+}
+
+/// A region that nobody has recorded is full: without the oldest records, the writer has room.
+void RegionReader::leaveRoom()
+{
+    const std::uint64_t most = m_region.capacity / 8 * 7;
+    const std::uint64_t head = m_region.marks->head.load(std::memory_order_acquire);
+    while (m_place < head && head - m_place > most) {
+        RecordHead record;
+        std::memcpy(&record, m_region.at(m_place), sizeof record);
+        if (record.commit != m_place || record.size < sizeof record || record.size > head - m_place)
+            break;  // replaced meanwhile, or damaged: next() sees it
+        m_place += record.size;
+    }
+}
+
+void RegionReader::detach()
+{
+    if (m_isAttached)
+        m_region.marks->isRead.store(0);
+    m_isAttached = false;
+}
+
+RegionReader::Result RegionReader::next()
+{
+    const RingMarks &marks = *m_region.marks;
+    const std::uint64_t head = marks.head.load(std::memory_order_acquire);
+    const auto jumpTo = [this](std::uint64_t place, Result result) {
+        m_place = place;
+        return result;
+    };
+    if (m_place == head)
+        return Nothing;
+    if (m_place < marks.oldest.load(std::memory_order_acquire))
+        return jumpTo(marks.oldest.load(std::memory_order_acquire), Lost);
+    // Without bytes, or with a head before its end, nothing can be read.
+    const bool isPlace = m_place < head && m_region.capacity > 0;
+    if (isPlace)
+        std::memcpy(&m_head, m_region.at(m_place), sizeof m_head);
+    // What is written does not end beyond the head, and is not longer than the ring.
+    const bool isRecord = isPlace && head - m_place <= m_region.capacity && m_head.commit == m_place
+        && m_head.size >= sizeof m_head && m_head.size % 8 == 0 && m_head.size <= head - m_place;
+    if (isRecord)
+        m_body.assign(m_region.at(m_place) + sizeof m_head, m_region.at(m_place) + m_head.size);
+    std::atomic_thread_fence(std::memory_order_acquire);
+    const std::uint64_t oldest = marks.oldest.load(std::memory_order_relaxed);
+    if (m_place < oldest)
+        return jumpTo(oldest, Lost);
+    return isRecord ? jumpTo(m_place + m_head.size, Found) : jumpTo(head, Damaged);
+}
+
+void RegionReader::release()
+{
+    if (m_isAttached)
+        m_region.marks->read.store(m_place, std::memory_order_release);
+}
+
+// ---- a ring ----
+
 bool RingReader::open(const QByteArray &file, QString *error)
 {
     detach();
-    m_place = 0;
-    return m_memory.open(file, error);
+    if (!m_memory.open(file, error))
+        return false;
+    RegionReader::open(m_memory.cycles());
+    m_texts.open(m_memory.texts());
+    return true;
 }
 
 bool RingReader::attach()
@@ -18,69 +101,26 @@ bool RingReader::attach()
         return true;
     if (!m_memory.lock(RingMemory::RecorderLock))
         return false;
-    RingMemory::Header &header = *m_memory.header();
-    const bool isGoingOn = header.isRead.load() != 0;
-    m_place = isGoingOn ? header.read.load() : header.oldest.load();
-    if (!isGoingOn)
-        leaveRoom();
-    header.read.store(m_place);
-    header.isRead.store(1);
+    m_texts.attach();
+    RegionReader::attach();
     m_isAttached = true;
     return true;
-}
-
-/// A ring that nobody has recorded is full: without the oldest records, the writer has room.
-void RingReader::leaveRoom()
-{
-    const std::uint64_t most = m_memory.capacity() / 8 * 7;
-    const std::uint64_t head = m_memory.header()->head.load(std::memory_order_acquire);
-    while (m_place < head && head - m_place > most) {
-        RecordHead record;
-        std::memcpy(&record, m_memory.at(m_place), sizeof record);
-        if (record.commit != m_place || record.size < sizeof record || record.size > head - m_place)
-            break;  // replaced meanwhile, or damaged: next() sees it
-        m_place += record.size;
-    }
 }
 
 void RingReader::detach()
 {
     if (!m_isAttached)
         return;
-    m_memory.header()->isRead.store(0);
+    RegionReader::detach();
+    m_texts.detach();
     m_memory.unlock(RingMemory::RecorderLock);
     m_isAttached = false;
 }
 
-RingReader::Result RingReader::next()
-{
-    const RingMemory::Header &header = *m_memory.header();
-    const std::uint64_t head = header.head.load(std::memory_order_acquire);
-    const auto jumpTo = [this](std::uint64_t place, Result result) {
-        m_place = place;
-        return result;
-    };
-    if (m_place == head)
-        return Nothing;
-    if (m_place < header.oldest.load(std::memory_order_acquire))
-        return jumpTo(header.oldest.load(std::memory_order_acquire), Lost);
-    std::memcpy(&m_head, m_memory.at(m_place), sizeof m_head);
-    // What is written does not end beyond the head, and is not longer than the ring.
-    const bool isRecord = m_place < head && head - m_place <= m_memory.capacity() && m_head.commit == m_place
-        && m_head.size >= sizeof m_head && m_head.size % 8 == 0 && m_head.size <= head - m_place;
-    if (isRecord)
-        m_body.assign(m_memory.at(m_place) + sizeof m_head, m_memory.at(m_place) + m_head.size);
-    std::atomic_thread_fence(std::memory_order_acquire);
-    const std::uint64_t oldest = header.oldest.load(std::memory_order_relaxed);
-    if (m_place < oldest)
-        return jumpTo(oldest, Lost);
-    return isRecord ? jumpTo(m_place + m_head.size, Found) : jumpTo(head, Damaged);
-}
-
 void RingReader::release()
 {
-    if (m_isAttached)
-        m_memory.header()->read.store(m_place, std::memory_order_release);
+    m_texts.release();
+    RegionReader::release();
 }
 
 RecordedNode CycleView::node(std::uint32_t number) const noexcept

@@ -8,9 +8,8 @@
 
 namespace qplc {
 
-/// Reads the records of a ring, of this process or another one, while they are written or after
-/// their writer has ended.
-class RingReader
+/// Reads the records of a region of a ring, while they are written or after their writer has ended.
+class RegionReader
 {
 public:
     enum Result : std::uint8_t {
@@ -21,12 +20,9 @@ public:
     };
 
     /// Begins with the oldest record.
-    bool open(const QByteArray &file, QString *error);
-    /// Records from now on: the writer keeps every record that has not been released. Goes on where
-    /// a recorder has stopped that has ended without detach().
-    /// \return false when there is another recorder
-    bool attach();
-    /// Records no more.
+    void open(const RingRegion &region);
+    /// See RingReader::attach(). \pre no other one records
+    void attach();
     void detach();
 
     Result next();
@@ -34,20 +30,48 @@ public:
     /// What follows the head, until the next call of next().
     const char *body() const { return m_body.data(); }
     std::uint32_t size() const { return m_head.size - std::uint32_t(sizeof(RecordHead)); }
+    /// next() finds the record again that it has found last.
+    void putBack() { m_place -= m_head.size; }
     /// All records that next() has found are in safety: the writer may replace them.
     void release();
+    bool isEmpty() const { return m_region.capacity == 0; }
+
+protected:
+    RingRegion m_region;
+
+private:
+    void leaveRoom();
+
+    std::uint64_t m_place = 0;
+    RecordHead m_head;
+    std::vector<char> m_body;
+    bool m_isAttached = false;
+};
+
+/// Reads a ring, of this process or another one. Its own functions read the records of cycles.
+class RingReader : public RegionReader
+{
+public:
+    /// Begins with the oldest record.
+    bool open(const QByteArray &file, QString *error);
+    /// Records from now on: the writer keeps every record that has not been released. Goes on where
+    /// a recorder has stopped that has ended without detach().
+    /// \return false when there is another recorder
+    bool attach();
+    /// Records no more.
+    void detach();
+    /// All records and texts that next() has found are in safety.
+    void release();
+    /// Those of the texts.
+    RegionReader &texts() { return m_texts; }
 
     /// Whether the process that writes the ring is there, and has not ended the phase.
     bool hasWriter() const { return m_memory.isLocked(RingMemory::WriterLock); }
     RingMemory &memory() { return m_memory; }
 
 private:
-    void leaveRoom();
-
     RingMemory m_memory;
-    std::uint64_t m_place = 0;
-    RecordHead m_head;
-    std::vector<char> m_body;
+    RegionReader m_texts;
     bool m_isAttached = false;
 };
 

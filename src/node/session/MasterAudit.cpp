@@ -38,6 +38,8 @@ MasterAudit::MasterAudit(const MasterServer &server, Journal &journal, const Rea
             });
     connect(&server, &MasterServer::commanded, this,
             [&](const MasterConnection *connection, const QPlcMessage &message) {
+                if (!connection->peer.isSecured)
+                    return;
                 journal.commanded(connection->peer.identity, connection->socket->peerName(), message.kindName(),
                                   QStringLiteral("%1 from %2%3")
                                       .arg(signalsText(message), connection->socket->peerName(), phase.cycleText()));

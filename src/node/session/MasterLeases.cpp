@@ -57,16 +57,19 @@ bool MasterLeases::take(const MasterConnection &asker, const messages::TakeLease
         return false;
     }
     wish.name = shownName(asker.peer, wish.name.isEmpty() ? asker.name : wish.name);
-    const QString from = othersText(holder, wish.indices);
+    const QStringList from = others(holder, wish.indices);
     m_leases.take(wish.indices, holder, wish.name, wish.timeout, monotonicNow());
     m_settings.keepPresent(wish.indices);
     listenToTheEndOf(holder);
     Q_EMIT heldSignalsChanged();
-    m_settings.setLeased(wish.settings, refusal);  // there is room, also for the next line
+    m_settings.setLeased(holder, wish.settings, refusal);  // there is room, also for the next line
     m_settings.endWays(kept);
     waitForNext();
+    const QString fromText
+        = from.isEmpty() ? QString() : QStringLiteral(" from '%1'").arg(from.join(QStringLiteral("', '")));
     Q_EMIT changed(JournalEvent::Info,
-                   QStringLiteral("'%1' has taken over %2%3").arg(wish.name, names(wish.indices), from));
+                   QStringLiteral("'%1' has taken over %2%3").arg(wish.name, names(wish.indices), fromText));
+    Q_EMIT told({LeaseNews::Taken, holder, wish.name, wish.indices, from});
     return true;
 }
 
@@ -139,16 +142,16 @@ bool MasterLeases::mayTake(const QObject *holder, const Leases::Signals &indices
     return refusal->error.isEmpty();
 }
 
-/// " from 'Anna', 'Bert'"; empty when nobody loses anything.
-QString MasterLeases::othersText(const QObject *holder, const Leases::Signals &indices) const
+/// Who loses something.
+QStringList MasterLeases::others(const QObject *holder, const Leases::Signals &indices) const
 {
     QStringList others;
     for (const QPlcSignalIndex signal : indices) {
         if (m_leases.isHeldByOther(signal, holder))
-            others << QStringLiteral("'%1'").arg(m_leases.find(signal)->name);
+            others << m_leases.find(signal)->name;
     }
     others.removeDuplicates();
-    return others.isEmpty() ? QString() : QStringLiteral(" from %1").arg(others.join(QStringLiteral(", ")));
+    return others;
 }
 
 // ---- ending ----
@@ -176,6 +179,7 @@ bool MasterLeases::release(const MasterConnection &asker, const messages::Releas
     Q_EMIT heldSignalsChanged();
     waitForNext();
     Q_EMIT changed(JournalEvent::Info, QStringLiteral("'%1' has released %2").arg(asker.shownName(), names(indices)));
+    Q_EMIT told({LeaseNews::Released, asker.socket, asker.shownName(), indices});
     return true;
 }
 
@@ -214,7 +218,7 @@ void MasterLeases::lose(const Leases::Signals &indices, const QString &why)
         byHolder[m_leases.find(signal)->name].push_back(signal);
     }
     m_settings.keepPresent(indices);
-    m_settings.setSoon(neutral);
+    m_settings.setSoon(SettingCause::Lost, neutral);
     waitForNext();
     for (const auto &[name, lost] : byHolder)
         tellLost(name, lost, why);
@@ -228,6 +232,7 @@ void MasterLeases::tellLost(const QString &name, const Leases::Signals &indices,
     Q_EMIT changed(JournalEvent::Warning,
                    QStringLiteral("'%1' %2: %3, until somebody takes or releases the lease")
                        .arg(name, why, texts.join(QStringLiteral(", "))));
+    Q_EMIT told({LeaseNews::Lost, nullptr, name, indices, {}, why});
 }
 
 void MasterLeases::waitForNext()

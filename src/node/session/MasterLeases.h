@@ -15,6 +15,18 @@
 
 namespace qplc {
 
+/// Who holds what has changed.
+struct LeaseNews
+{
+    enum Kind : std::uint8_t { Taken, Released, Lost };
+    Kind kind = Taken;
+    const QObject *holder = nullptr;  // null: it is lost
+    QString name;                     // of the holder
+    std::vector<QPlcSignalIndex> indices;
+    QStringList from{};  // who had them, if others had
+    QString reason{};    // of a loss
+};
+
 /// The leases of a master: carries out TakeLease and ReleaseLease, and brings the signals of a lost
 /// holder to their neutral values.
 ///
@@ -42,6 +54,8 @@ public:
     std::vector<messages::LeaseEntry> entries() const;
 
 Q_SIGNALS:
+    /// The same as changed(), for those who write it down.
+    void told(const qplc::LeaseNews &news);
     /// From the next cycle on, other signals than before are to keep the values that they are
     /// given. Comes before those values.
     void heldSignalsChanged();
@@ -64,7 +78,7 @@ private:
     void loseSilent();
     void lose(const Leases::Signals &indices, const QString &why);
     void tellLost(const QString &name, const Leases::Signals &indices, const QString &why);
-    QString othersText(const QObject *holder, const Leases::Signals &indices) const;
+    QStringList others(const QObject *holder, const Leases::Signals &indices) const;
     void listenToTheEndOf(const QObject *holder);
     void waitForNext();
     QString names(const Leases::Signals &indices) const;

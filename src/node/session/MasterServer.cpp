@@ -571,7 +571,7 @@ void MasterServer::carryOut(MasterConnection *connection, const Message &message
         deny(connection, refusal, message.kind() == Message::Register);
         return;
     }
-    if (connection->peer.isSecured && messages::isCommand(message.kind()))
+    if (messages::isCommand(message.kind()))
         Q_EMIT commanded(connection, message);
     const bool begins = message.kind() == Message::Hello || message.kind() == Message::AttachCyclicChannel;
     if (connection->stage == MasterConnection::Silent && !begins) {

@@ -76,7 +76,7 @@ Q_SIGNALS:
     void refused(const QString &name, const QString &address, const QString &reason);
     /// Somebody did not get as far as a message. \param identity  as claimed; empty: none
     void strangerRefused(const QString &identity, const QString &address, const QString &reason);
-    /// A message of somebody proven that others may not send is carried out.
+    /// A message that not everybody may send is about to be carried out.
     void commanded(qplc::MasterConnection *connection, const QPlcMessage &message);
     /// Somebody has proven who it is.
     void authenticated(qplc::MasterConnection *connection);

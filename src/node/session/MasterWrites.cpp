@@ -46,7 +46,7 @@ bool MasterWrites::setSignals(const QObject *owner, const messages::SetSignals &
     std::vector<QPlcValue> former;
     for (const SignalSetting &setting : settings)
         former.push_back(presentValue(setting.signal));
-    if (!give(settings, refusal))
+    if (!give({SettingCause::Asked, owner}, settings, refusal))
         return false;
     if (wish.duration) {
         keepFor(owner, settings, former, monotonicNow() + wish.duration->count());
@@ -67,16 +67,16 @@ bool MasterWrites::setSignal(const QString &name, const QPlcValue &value, Refusa
     if (!isSettable(nullptr, name, &index, refusal) || !checkValue(index, value, &setting, refusal))
         return false;
     const QPlcValue former = presentValue(index);
-    if (!give({setting}, refusal))
+    if (!give({}, {setting}, refusal))
         return false;
     m_temporary.forget(index);
     Q_EMIT valueSet(nullptr, index, former, setting.value);
     return true;
 }
 
-bool MasterWrites::setLeased(const std::vector<SignalSetting> &settings, Refusal *refusal)
+bool MasterWrites::setLeased(const QObject *holder, const std::vector<SignalSetting> &settings, Refusal *refusal)
 {
-    return give(settings, refusal);
+    return give({SettingCause::Taken, holder}, settings, refusal);
 }
 
 void MasterWrites::endWays(const std::vector<QPlcSignalIndex> &indices)
@@ -92,10 +92,10 @@ void MasterWrites::endWays(const std::vector<QPlcSignalIndex> &indices)
     m_cycle.endWays(moving);
 }
 
-void MasterWrites::setSoon(const std::vector<SignalSetting> &settings)
+void MasterWrites::setSoon(SettingCause::Kind cause, const std::vector<SignalSetting> &settings)
 {
     for (const SignalSetting &setting : settings)
-        m_debts[setting.signal] = setting;
+        m_debts[setting.signal] = {cause, setting};
     payDebts();
     waitForNext();
 }
@@ -192,14 +192,20 @@ bool MasterWrites::readValue(QPlcSignalIndex signal, const QString &text, Signal
 
 // ---- setting ----
 
-bool MasterWrites::give(const std::vector<SignalSetting> &settings, Refusal *refusal)
+bool MasterWrites::give(const SettingCause &cause, const std::vector<SignalSetting> &settings, Refusal *refusal)
 {
-    if (!m_cycle.setValues(settings)) {
+    if (!m_cycle.hasRoomFor(settings.size())) {
         *refusal = {messages::errorWord::wrongState,
                     QStringLiteral("%1 changes are too many between two cycles; send them in smaller groups")
                         .arg(settings.size())};
         return false;
     }
+    quint64 number = m_cycle.isRunning() ? m_cycle.settingsGiven() : 0;
+    for (const SignalSetting &setting : settings) {
+        number += m_cycle.isRunning() ? 1 : 0;
+        Q_EMIT giving(cause, setting.signal, formerValue(setting.signal), setting.value, number);
+    }
+    m_cycle.setValues(settings);
     for (const SignalSetting &setting : settings) {
         m_given[setting.signal] = setting.value;
         m_debts.erase(setting.signal);
@@ -224,14 +230,20 @@ QPlcValue MasterWrites::presentValue(QPlcSignalIndex signal) const
 {
     const auto debt = m_debts.find(signal);
     if (debt != m_debts.end())
-        return debt->second.value;
+        return debt->second.setting.value;
+    return formerValue(signal);
+}
+
+/// What the cycle has, or was given.
+QPlcValue MasterWrites::formerValue(QPlcSignalIndex signal) const
+{
     const auto given = m_given.find(signal);
     return given != m_given.end() ? given->second : m_cycle.value(signal);
 }
 
 void MasterWrites::bringBack(const std::vector<SignalSetting> &settings)
 {
-    setSoon(settings);
+    setSoon(SettingCause::CameBack, settings);
     for (const SignalSetting &setting : settings)
         Q_EMIT valueCameBack(setting.signal, setting.value);
 }
@@ -241,8 +253,8 @@ void MasterWrites::payDebts()
 {
     while (!m_debts.empty()) {
         Refusal refusal;
-        const SignalSetting setting = m_debts.begin()->second;
-        if (!give({setting}, &refusal))  // erases what it could give
+        const Debt debt = m_debts.begin()->second;
+        if (!give({debt.cause, nullptr}, {debt.setting}, &refusal))  // erases what it could give
             return;
     }
 }

@@ -17,6 +17,19 @@ namespace qplc {
 /// Why a signal cannot be set or taken: \a lease says who has it.
 Refusal leaseRefusal(const QString &signal, const Leases::Lease &lease);
 
+/// Why a value is set.
+struct SettingCause
+{
+    enum Kind : std::uint8_t {
+        Asked,     ///< somebody has asked for it
+        Taken,     ///< with the lease that somebody has taken
+        CameBack,  ///< the time of another value is over, or who had set it is gone
+        Lost       ///< the lease of the signal was lost: its neutral value
+    };
+    Kind kind = Asked;
+    const QObject *owner = nullptr;  // who asked; null: the program of the master, or nobody
+};
+
 /// Values from outside, for signals that no node writes, or that the asker holds by a lease: checks
 /// them, sets them, and brings the former ones back where they were set for a while only.
 ///
@@ -42,29 +55,40 @@ public:
     bool readValue(QPlcSignalIndex signal, const QString &text, SignalSetting *setting, Refusal *refusal) const;
     /// Sets values for good. \return false, and none is set, when the cycle has no room for them
     /// now
-    bool setLeased(const std::vector<SignalSetting> &settings, Refusal *refusal);
+    /// \param holder  of the lease
+    bool setLeased(const QObject *holder, const std::vector<SignalSetting> &settings, Refusal *refusal);
     /// What was set before moves \a indices no further. \pre the cycle has room for them
     void endWays(const std::vector<QPlcSignalIndex> &indices);
     /// Sets values for good, as soon as the cycle has room.
-    void setSoon(const std::vector<SignalSetting> &settings);
+    void setSoon(SettingCause::Kind cause, const std::vector<SignalSetting> &settings);
     /// The values that signals have now stay, also where they were set for a while only.
     void keepPresent(const std::vector<QPlcSignalIndex> &indices);
 
 Q_SIGNALS:
+    /// A value is about to be given to the cycle, which has room for it.
+    /// \param number  that it will have: MasterCycle::settingsGiven(); 0: no cycle runs
+    void giving(const qplc::SettingCause &cause, QPlcSignalIndex signal, const QPlcValue &former,
+                const QPlcValue &value, quint64 number);
     /// \param owner  who asked; null: the program of the master
     void valueSet(const QObject *owner, QPlcSignalIndex signal, const QPlcValue &former, const QPlcValue &value);
     /// The time of a value is over, or who had set it is gone.
     void valueCameBack(QPlcSignalIndex signal, const QPlcValue &value);
 
 private:
+    struct Debt
+    {
+        SettingCause::Kind cause;
+        SignalSetting setting;
+    };
     bool isSettable(const QObject *owner, const QString &name, QPlcSignalIndex *signal, Refusal *refusal) const;
     bool checkValue(QPlcSignalIndex signal, const QPlcValue &value, SignalSetting *setting, Refusal *refusal) const;
     bool readValues(const QObject *owner, const QMap<QString, QString> &texts, std::vector<SignalSetting> *settings,
                     Refusal *refusal) const;
-    bool give(const std::vector<SignalSetting> &settings, Refusal *refusal);
+    bool give(const SettingCause &cause, const std::vector<SignalSetting> &settings, Refusal *refusal);
     void keepFor(const QObject *owner, const std::vector<SignalSetting> &settings, const std::vector<QPlcValue> &former,
                  std::int64_t deadline);
     QPlcValue presentValue(QPlcSignalIndex signal) const;
+    QPlcValue formerValue(QPlcSignalIndex signal) const;
     void bringBack(const std::vector<SignalSetting> &settings);
     bool isOfWriter(QPlcSignalIndex signal) const;
     void payDebts();
@@ -75,9 +99,9 @@ private:
     const Leases &m_leases;
     const QPlcSignalTable &m_table;
     TemporaryValues m_temporary;
-    std::map<QPlcSignalIndex, QPlcValue> m_given;      // newest values; the cycle may not have taken them yet
-    std::map<QPlcSignalIndex, SignalSetting> m_debts;  // values to come back that the cycle had no room for
-    std::set<const QObject *> m_owners;                // whose end is listened to
+    std::map<QPlcSignalIndex, QPlcValue> m_given;  // newest values; the cycle may not have taken them yet
+    std::map<QPlcSignalIndex, Debt> m_debts;       // values to come back that the cycle had no room for
+    std::set<const QObject *> m_owners;            // whose end is listened to
     QTimer m_timer;
 };
 

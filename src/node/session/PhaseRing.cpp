@@ -3,19 +3,22 @@
 
 #include "node/cycle/NodeRegistry.h"
 #include "realtime/Host.h"
+#include "realtime/TimeSource.h"
 
 #include <QtCore/QDir>
 #include <QtCore/QFile>
 #include <QtCore/QFileInfo>
 
 #include <unistd.h>
+#include <utility>
 
 namespace qplc {
 
 namespace {
 
 constexpr double SecondsToKeep = 60.0;
-constexpr int MostDeadOnes = 4;  // of masters that were killed: a recorder will drain them
+constexpr std::size_t TextCapacity = std::size_t(1) << 20;  // [byte]
+constexpr int MostDeadOnes = 4;                             // of masters that were killed: a recorder will drain them
 
 QString prefix()
 {
@@ -53,6 +56,7 @@ void PhaseRing::setPlant(const QString &plant, quint64 session)
 /// The ring of the last phase: somebody who records still needs it, and deletes it then.
 void PhaseRing::leave()
 {
+    close();
     if (m_ring && !m_ring->isRead())
         m_ring->memory().remove();
     m_ring.reset();
@@ -69,21 +73,38 @@ std::shared_ptr<RecordRing> PhaseRing::make(RingDescription description, std::si
     description.version = QStringLiteral(QTPLC_VERSION);
     description.session = m_session;
     description.phase = ++m_phase;
+    for (auto parameter = m_parameters.begin(); parameter != m_parameters.end(); ++parameter)
+        description.parameters.insert(parameter.key(), parameter.value());
     const QByteArray folder = RingMemory::folder();
     const double rate = 1e9 / double(description.period) * (description.scale > 0.0 ? description.scale : 1.0);
     const std::size_t capacity = RecordRing::capacityFor(rate, SecondsToKeep, recordSize, folder);
     auto ring = std::make_shared<RecordRing>();
     QString error;
     if (!ring->create(folder + '/' + QFile::encodeName(fileName(m_plant, m_session, m_phase)), capacity,
-                      description.toText(), &error)) {
+                      description.toText(), &error, TextCapacity)) {
         m_journal.tell(JournalEvent::Warning, JournalEvent::State, NodeRegistry::masterName(),
                        QStringLiteral("the cycles of this phase cannot be recorded: ") + error);
         return nullptr;
     }
     m_ring = ring;
+    m_isOpen = true;
+    if (m_begins)
+        m_begins();
     if (m_isReady)
         m_isReady(file());
     return ring;
+}
+
+void PhaseRing::tell(RecordedText head, const QByteArray &text)
+{
+    head.wallTime = head.wallTime != 0 ? head.wallTime : wallClockNow();
+    m_ring->addText(head, text);
+}
+
+void PhaseRing::close()
+{
+    if (std::exchange(m_isOpen, false))
+        m_ring->endTexts();
 }
 
 QString PhaseRing::file() const

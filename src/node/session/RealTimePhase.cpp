@@ -5,6 +5,22 @@
 
 namespace qplc {
 
+namespace {
+
+/// Those that a phase was computed with, for people who read a recording of it.
+QMap<QString, QString> parametersOf(const MasterCycle::Phase &phase)
+{
+    const auto duration = [](std::chrono::nanoseconds value) { return QString::number(value.count()); };
+    return {{QStringLiteral("hold_cycles"), QString::number(phase.usualHold)},
+            {QStringLiteral("longest_wait_ns"), duration(phase.longestWait)},
+            {QStringLiteral("gap_limit_ns"), duration(phase.gapLimit)},
+            {QStringLiteral("overrun_policy"), phase.overrunPolicy.toString()},
+            {QStringLiteral("overrun_limit"), QString::number(phase.overrunLimit)},
+            {QStringLiteral("cycle_limit"), QString::number(phase.cycleLimit)}};
+}
+
+}  // namespace
+
 RealTimePhase::RealTimePhase(MasterCycle &cycle, const NodeRegistry &registry, RosterMaker &rosters,
                              OwnSignals &ownSignals, const PhaseSettings &settings, const PhaseProfile &profile,
                              Journal &journal)
@@ -54,6 +70,8 @@ std::shared_ptr<RecordRing> RealTimePhase::makeRing()
         if (m_ownSignals.index(role) != QPlcInvalidSignalIndex)
             description.ownSignals.append(m_ownSignals.index(role));
     }
+    description.profile = QPlcProfile::name(m_profile.fixed().value);
+    description.parameters = parametersOf(settingsOfCycles());
     description.table = m_cycle.table().toIni();
     return m_ring.make(description, CycleTap::usualSize(m_cycle.image(), m_registry.nodes().size()));
 }
