@@ -76,11 +76,18 @@ void QPlcTimePlot::Private::findRuns()
     runs.bind(settings, *context());
     if (!settings.runs.isOn)
         return;
-    const int count = int(runs.all().size());
-    const QString found = count == 1 ? QPlcTimePlot::tr("1 run") : QPlcTimePlot::tr("%1 runs").arg(count);
-    runBar->showState(runs.problem().isEmpty() ? found : runs.problem(), !runs.problem().isEmpty(), runs.reference());
     runBar->showUnit(settings.runs.signal.isEmpty() ? QString() : context()->past(settings.runs.signal).unit);
     showLaps();
+}
+
+void QPlcTimePlot::Private::showRunState()
+{
+    const int count = int(runs.all().size());
+    QString text = count == 1 ? QPlcTimePlot::tr("1 run") : QPlcTimePlot::tr("%1 runs").arg(count);
+    if (curves.areDifferencesCut())
+        text = QPlcTimePlot::tr("%1, differences of their newest cycles only").arg(text);
+    const bool isProblem = !runs.problem().isEmpty();
+    runBar->showState(isProblem ? runs.problem() : text, isProblem, runs.reference());
 }
 
 /// New edges, and runs that go on.
@@ -91,6 +98,7 @@ void QPlcTimePlot::Private::takeRuns()
     if (runs.update())
         bind();
     showLaps();
+    curves.advanceDifferences();
     if (const QPlcPast::Row rows = curves.endOfFurtherRows(); rows != furtherRows) {
         furtherRows = rows;
         change();

@@ -23,6 +23,9 @@ constexpr double laneMargin = 3.0;                // [px] between bands and line
 constexpr int digitsOfLine = 6;
 constexpr double opacityOfNextRun = 0.8;  // of the one before
 constexpr double leastOpacity = 0.35;
+constexpr std::size_t rowsOfDifferences = 4'000'000;  // of all curves together: some 54 MB
+constexpr std::size_t fewestRows = 1024;
+constexpr int rowsOfTurn = 200'000;  // of differences, of all curves together: some milliseconds
 constexpr double limitDepth = 15.0;  // below the curves, above the grid
 
 }  // namespace
@@ -46,7 +49,8 @@ double PlotCurve::value(std::optional<QPlcPast::Time> time) const
 
 QString PlotCurve::text() const
 {
-    return run.name.isEmpty() ? settings.text() : settings.text() + QStringLiteral(" · ") + run.name;
+    const QString text = run.name.isEmpty() ? settings.text() : settings.text() + QStringLiteral(" · ") + run.name;
+    return difference ? QStringLiteral("Δ ") + text : text;
 }
 
 std::pair<QPlcPast::Time, QPlcPast::Time> PlotCurve::ownTimes(QPlcPast::Time begin, QPlcPast::Time end) const
@@ -99,6 +103,8 @@ void PlotCurves::bind(const PlotSettings &settings, const QPlcPanelContext &cont
         m_curves.push_back(std::move(curve));
     }
     addFurther(context, runs);
+    if (settings.runs.hasDifferences() && runs.size() > 1)
+        makeDifferences(std::size_t(settings.curves.size()));
     m_plot->setAxes(m_axes);
     for (PlotCurve &curve : m_curves) {
         if (curve.isSeen())
@@ -142,6 +148,55 @@ void PlotCurves::addFurther(const QPlcPanelContext &context, const std::vector<P
             m_curves.push_back(std::move(curve));
         }
     }
+}
+
+/// Of the curves behind the first \a bases; those are no longer drawn.
+void PlotCurves::makeDifferences(std::size_t bases)
+{
+    const std::size_t count = std::max<std::size_t>(m_curves.size() - bases, 1);
+    const int most = int(std::max<std::size_t>(rowsOfDifferences / count, fewestRows));
+    for (std::size_t i = bases; i < m_curves.size(); ++i) {
+        PlotCurve &curve = m_curves[i];
+        const auto base = std::find_if(m_curves.begin(), m_curves.end(), [&](const PlotCurve &each) {
+            return !each.isFurther && each.settings.signal == curve.settings.signal;
+        });
+        if (curve.isMissing())
+            continue;
+        const PastRows under = PastRows::of(base->source);
+        const PastRows over = PastRows::of(curve.source);
+        curve.runPasts = {base->source, curve.source};
+        curve.difference = std::make_unique<RunDifference>(
+            RunDifference::Reference{under.store, under.channel},
+            RunDifference::Run{over.store, over.channel, curve.run.shift, curve.run.begin, curve.run.end},
+            curve.source.isStepped, most);
+        QPlcPast past = PastRows::past(curve.difference->store(), 0);
+        past.expression = curve.source.expression;
+        past.plant = curve.source.plant;
+        past.unit = curve.source.unit;
+        past.isStepped = curve.source.isStepped;
+        curve.source = past;
+        curve.settings.offset = 0.0;
+        const QString name = curve.run.name;
+        curve.run = PlotRun();  // its rows are those of the reference
+        curve.run.name = name;
+    }
+    for (std::size_t i = 0; i < bases; ++i)
+        m_curves[i].isReplaced = !m_curves[i].isDrawnAsBands();
+    advanceDifferences();
+}
+
+void PlotCurves::advanceDifferences()
+{
+    for (const PlotCurve &curve : m_curves) {
+        if (curve.difference)
+            curve.difference->advance(std::max(rowsOfTurn / size(), 1));
+    }
+}
+
+bool PlotCurves::areDifferencesCut() const
+{
+    return std::any_of(m_curves.begin(), m_curves.end(),
+                       [](const PlotCurve &each) { return each.difference && each.difference->isCut(); });
 }
 
 bool PlotCurves::hasRuns() const

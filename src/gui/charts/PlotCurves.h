@@ -7,6 +7,7 @@
 #include "QPlcTheme.h"
 #include "StateBands.h"
 #include "gui/plot/CursorStatistics.h"
+#include "gui/plot/RunDifference.h"
 #include "gui/plot/StoreCurve.h"
 
 #include <memory>
@@ -31,22 +32,25 @@ struct PlotCurve
     std::unique_ptr<StoreCurve> item;   // of a line
     std::unique_ptr<StateBands> bands;  // of what is drawn as bands
     std::vector<std::unique_ptr<QwtPlotMarker>> limits;
-    PlotRun run;             // of the plot; without runs, what its own plant has
-    bool isFurther = false;  // lies over the curve of the settings
+    PlotRun run;                                // of the plot; without runs, what its own plant has
+    bool isFurther = false;                     // lies over the curve of the settings
+    bool isReplaced = false;                    // by differences
+    std::unique_ptr<RunDifference> difference;  // what the source has
+    std::vector<QPlcPast> runPasts;             // that the difference reads
 
     PlotCurve();
     PlotCurve(PlotCurve &&) noexcept;
     ~PlotCurve();
 
     bool isMissing() const { return !source; }
-    bool isSeen() const { return settings.isVisible && !isMissing(); }
+    bool isSeen() const { return settings.isVisible && !isReplaced && !isMissing(); }
     /// Whether it is a line, with values on an axis.
     bool isLine() const { return isSeen() && !isDrawnAsBands(); }
     bool canBeBands() const { return source.isStepped && !settings.isScaled() && !isFurther; }
     bool isDrawnAsBands() const { return settings.isBands && canBeBands(); }
     /// Of the values that are drawn; empty: none.
     QPlcValueNames names() const { return settings.isScaled() ? QPlcValueNames() : source.names; }
-    bool isStale() const { return source && run.isWhole() && !source.isCurrent(); }
+    bool isStale() const { return source && run.isWhole() && !difference && !source.isCurrent(); }
     /// What legends and tables call it: "power · flight2".
     QString text() const;
     /// The piece of its run that is in \a begin to \a end of the plot, in times of the run; in any
@@ -77,6 +81,10 @@ public:
     bool isEmpty() const { return m_curves.empty(); }
     /// Whether runs lie over each other.
     bool hasRuns() const;
+    /// Calculates some more rows of differences.
+    void advanceDifferences();
+    /// Whether differences are only those of the newest rows.
+    bool areDifferencesCut() const;
     /// Changes when a run that lies over the curves goes on.
     QPlcPast::Row endOfFurtherRows() const;
     const PlotCurve &at(int place) const { return m_curves[std::size_t(place)]; }
@@ -115,6 +123,7 @@ public:
 
 private:
     void addFurther(const QPlcPanelContext &context, const std::vector<PlotRun> &runs);
+    void makeDifferences(std::size_t bases);
     void show(PlotCurve *curve, bool showsLimits, const QPlcTheme &theme);
     void showBands(PlotCurve *curve, const QPlcTheme &theme);
     void placeBands();

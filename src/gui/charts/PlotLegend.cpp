@@ -100,7 +100,7 @@ void PlotLegend::show(const PlotCurves &curves, std::optional<QPlcPast::Time> ti
         entry.hint = hintOf(curve);
         entry.color = curve.swatchColor(curve.value(time));
         entry.penStyle = curve.isDrawnAsBands() ? Qt::SolidLine : curve.penStyle;
-        entry.isVisible = curve.settings.isVisible;
+        entry.isVisible = curve.settings.isVisible && !curve.isReplaced;
         const bool isOld = curve.isStale() && !time;
         entry.doubt = isOld ? ageText(curve.source.age()) : markText(curve.mark(time));
         entry.isTrusted = !curve.isMissing() && !isOld && entry.doubt.isEmpty();

@@ -15,8 +15,8 @@ namespace qplc {
 
 namespace {
 
-constexpr PlotRuns::Time second = 1'000'000'000;  // [ns]
-constexpr PlotRuns::Time millisecond = 1'000'000;
+constexpr PlotRuns::Time aSecond = 1'000'000'000;  // [ns]
+constexpr PlotRuns::Time aMillisecond = 1'000'000;
 
 /// The plant whose times the plot has: that of the first curve that is there.
 QString referenceOf(const PlotSettings &settings, const QPlcPanelContext &context)
@@ -80,7 +80,7 @@ void PlotRuns::findEdges(const QPlcPanelContext &context)
         source.plant = plant;
         source.past = plantPast(context, m_settings.signal, m_reference, plant);
         if (const PastRows rows = PastRows::of(source.past); rows.store) {
-            const Time apart = std::llround(std::min(m_settings.apart, 1e6) * double(second));
+            const Time apart = std::llround(std::min(m_settings.apart, 1e6) * double(aSecond));
             source.edges.emplace(rows.store, rows.channel, m_settings.level, m_settings.last, apart);
             source.edges->update();
         }
@@ -125,13 +125,13 @@ void PlotRuns::addLaps(const Source &source, Time zero, bool isReference)
     if (!source.edges)
         return;
     const std::deque<RisingEdges::Time> &times = source.edges->times();
-    Time shortest = second;
+    Time shortest = aSecond;
     for (std::size_t i = 1; i < times.size(); ++i)
         shortest = std::min<Time>(shortest, times[i] - times[i - 1]);
     for (std::size_t i = times.size(); i-- > 0;) {
         PlotRun run;
         run.plant = isReference ? QString() : source.plant;
-        run.name = TimeTicks::clockText(times[i], shortest < second ? millisecond : second);
+        run.name = TimeTicks::clockText(times[i], shortest < aSecond ? aMillisecond : aSecond);
         if (m_sources.size() > 1)
             run.name.prepend(source.plant + QLatin1Char(' '));
         run.shift = zero - times[i];

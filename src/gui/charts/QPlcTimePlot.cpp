@@ -118,6 +118,7 @@ void QPlcTimePlot::Private::bind()
     findRuns();
     curves.bind(settings, *context(), runs.all());
     furtherRows = curves.endOfFurtherRows();
+    showRunState();
     curves.setOrigin(canvas->origin());
     statistics->reset();
     redraw.assign(std::max<std::size_t>(1, curves.pasts().size()), RedrawRule());

@@ -69,7 +69,11 @@ public:
         takeRuns();
         change();
     }
-    void tick() override { showNumbers(); }
+    void tick() override
+    {
+        takeRuns();
+        showNumbers();
+    }
     void resized() override { arrange(); }
     void showNumbers();
     void showLiveButton();
@@ -115,6 +119,7 @@ public:
     void showRuns();
     /// Finds the runs, and moves the view to them.
     void findRuns();
+    void showRunState();
     void takeRuns();
     void showLaps();
     qplc::RunSettings usualRuns() const;

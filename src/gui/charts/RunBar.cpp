@@ -21,9 +21,9 @@ namespace qplc {
 
 namespace {
 
-constexpr double largest = 1e12;
+constexpr double largestLevel = 1e12;
 constexpr double longestApart = 86400.0;  // [s]
-constexpr int leastWideBar = 900;         // [px]: with less, there are two lines
+constexpr int leastWideRunBar = 900;      // [px]: with less, there are two lines
 constexpr int leastBarWithAll = 480;      // [px]
 constexpr int widthOfLevel = 90;          // [px]
 constexpr int widthOfApart = 64;
@@ -55,7 +55,7 @@ void RunBar::makeControls()
     m_signal->setAccessibleName(tr("Signal whose edges begin a run"));
     m_signal->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
     m_signal->setMinimumContentsLength(8);
-    m_level = new NumberBox(-largest, largest, m_edges);
+    m_level = new NumberBox(-largestLevel, largestLevel, m_edges);
     m_level->setAccessibleName(tr("Level that it rises to"));
     m_level->setFixedWidth(widthOfLevel);
     m_last = new QSpinBox(m_edges);
@@ -70,6 +70,12 @@ void RunBar::makeControls()
         box->setButtonSymbols(QAbstractSpinBox::NoButtons);
     for (QWidget *control : std::initializer_list<QWidget *>{m_alignment, m_signal, m_level, m_last, m_apart})
         control->setToolTip(control->accessibleName());
+    m_difference = new QToolButton(this);
+    m_difference->setText(tr("Differences"));
+    m_difference->setCheckable(true);
+    m_difference->setToolTip(tr("Shows each run minus the one below"));
+    connect(m_difference, &QToolButton::toggled, this,
+            [this](bool isChecked) { edit(&RunSettings::isDifference, isChecked); });
     m_apartLabel = new QLabel(tr("apart"), m_edges);
     m_state = new QLabel(this);
     m_state->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
@@ -109,16 +115,17 @@ void RunBar::arrange()
     m_grid->addWidget(m_plants, 0, 0);
     m_grid->addWidget(m_alignment, 0, 1);
     m_grid->addWidget(m_edges, 0, 2);
-    m_grid->addWidget(m_state, 0, 3);
-    m_grid->addWidget(m_close, 0, 4);
-    m_grid->setColumnStretch(3, 1);
+    m_grid->addWidget(m_difference, 0, 3);
+    m_grid->addWidget(m_state, 0, 4);
+    m_grid->addWidget(m_close, 0, 5);
+    m_grid->setColumnStretch(4, 1);
 }
 
 /// In narrow plots, what is for edges is below, and has no room for their distance.
 void RunBar::resizeEvent(QResizeEvent *event)
 {
     QWidget::resizeEvent(event);
-    const bool isWide = width() >= leastWideBar;
+    const bool isWide = width() >= leastWideRunBar;
     m_apart->setVisible(width() >= leastBarWithAll);
     m_apartLabel->setVisible(width() >= leastBarWithAll);
     if (isWide == m_isWide)
@@ -128,7 +135,7 @@ void RunBar::resizeEvent(QResizeEvent *event)
     if (isWide)
         m_grid->addWidget(m_edges, 0, 2);
     else
-        m_grid->addWidget(m_edges, 1, 0, 1, 5);
+        m_grid->addWidget(m_edges, 1, 0, 1, 6);
 }
 
 /// All plants but that of the curves.
@@ -182,6 +189,7 @@ void RunBar::showSettings(const RunSettings &settings, const QStringList &expres
     m_level->setValue(settings.level);
     m_last->setValue(settings.last);
     m_apart->setValue(settings.apart);
+    m_difference->setChecked(settings.isDifference);
     m_edges->setVisible(settings.alignment == RunSettings::RisingEdges);
     m_plants->setText(settings.plants.isEmpty()         ? tr("This run")
                           : settings.plants.size() == 1 ? tr("Over it: %1").arg(settings.plants.first())

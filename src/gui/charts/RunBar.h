@@ -68,6 +68,7 @@ private:
     QSpinBox *m_last = nullptr;
     QLabel *m_apartLabel = nullptr;
     NumberBox *m_apart = nullptr;
+    QToolButton *m_difference = nullptr;
     QLabel *m_state = nullptr;
     QToolButton *m_close = nullptr;
     QGridLayout *m_grid = nullptr;

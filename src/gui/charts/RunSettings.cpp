@@ -9,15 +9,16 @@ namespace qplc {
 
 namespace {
 
-const QString onKey = QStringLiteral("on");
-const QString plantsKey = QStringLiteral("plants");
-const QString alignKey = QStringLiteral("align");
-const QString signalKey = QStringLiteral("signal");
-const QString levelKey = QStringLiteral("level");
-const QString lastKey = QStringLiteral("last");
-const QString apartKey = QStringLiteral("apart");
-const QString clockText = QStringLiteral("clock");
-const QString edgeText = QStringLiteral("edge");
+const QString onRunKey = QStringLiteral("on");
+const QString plantsRunKey = QStringLiteral("plants");
+const QString alignRunKey = QStringLiteral("align");
+const QString signalRunKey = QStringLiteral("signal");
+const QString levelRunKey = QStringLiteral("level");
+const QString lastRunKey = QStringLiteral("last");
+const QString apartRunKey = QStringLiteral("apart");
+const QString differencesRunKey = QStringLiteral("differences");
+const QString clockAlignment = QStringLiteral("clock");
+const QString edgeAlignment = QStringLiteral("edge");
 
 constexpr int usualLast = 10;
 
@@ -27,16 +28,17 @@ RunSettings RunSettings::fromJson(const QJsonObject &json)
 {
     RunSettings settings;
     settings.others = json;
-    settings.isOn = settings.others.take(onKey).toBool();
-    const QJsonArray plants = settings.others.take(plantsKey).toArray();
+    settings.isOn = settings.others.take(onRunKey).toBool();
+    const QJsonArray plants = settings.others.take(plantsRunKey).toArray();
     for (const QJsonValue &plant : plants)
         settings.plants << plant.toString();
-    const QString align = settings.others.take(alignKey).toString();
-    settings.alignment = align == clockText ? Clock : align == edgeText ? RisingEdges : Begins;
-    settings.signal = settings.others.take(signalKey).toString();
-    settings.level = settings.others.take(levelKey).toDouble();
-    settings.last = std::clamp(settings.others.take(lastKey).toInt(usualLast), 1, MostLast);
-    settings.apart = std::max(settings.others.take(apartKey).toDouble(), 0.0);
+    const QString align = settings.others.take(alignRunKey).toString();
+    settings.alignment = align == clockAlignment ? Clock : align == edgeAlignment ? RisingEdges : Begins;
+    settings.signal = settings.others.take(signalRunKey).toString();
+    settings.level = settings.others.take(levelRunKey).toDouble();
+    settings.last = std::clamp(settings.others.take(lastRunKey).toInt(usualLast), 1, MostLast);
+    settings.apart = std::max(settings.others.take(apartRunKey).toDouble(), 0.0);
+    settings.isDifference = settings.others.take(differencesRunKey).toBool();
     return settings;
 }
 
@@ -44,19 +46,21 @@ QJsonObject RunSettings::toJson() const
 {
     QJsonObject json = others;
     if (isOn)
-        json.insert(onKey, true);
+        json.insert(onRunKey, true);
     if (!plants.isEmpty())
-        json.insert(plantsKey, QJsonArray::fromStringList(plants));
+        json.insert(plantsRunKey, QJsonArray::fromStringList(plants));
     if (alignment != Begins)
-        json.insert(alignKey, alignment == Clock ? clockText : edgeText);
+        json.insert(alignRunKey, alignment == Clock ? clockAlignment : edgeAlignment);
     if (!signal.isEmpty())
-        json.insert(signalKey, signal);
+        json.insert(signalRunKey, signal);
     if (level != 0.0)
-        json.insert(levelKey, level);
+        json.insert(levelRunKey, level);
     if (last != usualLast)
-        json.insert(lastKey, last);
+        json.insert(lastRunKey, last);
     if (apart != 0.0)
-        json.insert(apartKey, apart);
+        json.insert(apartRunKey, apart);
+    if (isDifference)
+        json.insert(differencesRunKey, true);
     return json;
 }
 

@@ -13,7 +13,7 @@ namespace qplc {
 ///
 /// ```json
 /// {"on": true, "plants": ["flight2"], "align": "edge", "signal": "reelOut", "level": 0.5,
-///  "last": 10, "apart": 2}
+///  "last": 10, "apart": 2, "differences": true}
 /// ```
 struct RunSettings
 {
@@ -28,13 +28,15 @@ struct RunSettings
     bool isOn = false;
     QStringList plants;  // over those of the curves: recordings, or plants that run
     Alignment alignment = Begins;
-    QString signal;        // that rises: an expression as that of a curve
-    double level = 0.0;    // [unit of the signal]
-    int last = 10;         // of its edges, 1 to MostLast
-    double apart = 0.0;    // of edges, at least [s]
-    QJsonObject others{};  // keys that nobody knows
+    QString signal;             // that rises: an expression as that of a curve
+    double level = 0.0;         // [unit of the signal]
+    int last = 10;              // of its edges, 1 to MostLast
+    double apart = 0.0;         // of edges, at least [s]
+    bool isDifference = false;  // each run minus the one below, in place of all of them
+    QJsonObject others{};       // keys that nobody knows
 
     bool hasEdges() const { return isOn && alignment == RisingEdges; }
+    bool hasDifferences() const { return isOn && isDifference; }
     static RunSettings fromJson(const QJsonObject &json);
     QJsonObject toJson() const;
     friend bool operator==(const RunSettings &a, const RunSettings &b) { return a.toJson() == b.toJson(); }

@@ -25,9 +25,9 @@ namespace {
 constexpr double largest = 1e12;
 constexpr double percent = 100.0;
 constexpr int leastWideBar = 520;  // [px]: with less, controls are in the menu
-const QString signalKey = QStringLiteral("signal");
-const QString linkedKey = QStringLiteral("linked");
-const QString saveKey = QStringLiteral("save");
+const QString triggerSignalKey = QStringLiteral("signal");
+const QString triggerLinkedKey = QStringLiteral("linked");
+const QString triggerSaveKey = QStringLiteral("save");
 
 QString stateText(Trigger::State state)
 {
@@ -208,18 +208,18 @@ QJsonObject TriggerBar::settings() const
 {
     QJsonObject settings = m_trigger.settings().toJson();
     if (!m_wanted.isEmpty())
-        settings.insert(signalKey, m_wanted);
+        settings.insert(triggerSignalKey, m_wanted);
     if (m_isLinked)
-        settings.insert(linkedKey, true);
+        settings.insert(triggerLinkedKey, true);
     const QJsonObject save = m_files->settings().toJson();
     if (!save.isEmpty())
-        settings.insert(saveKey, save);
+        settings.insert(triggerSaveKey, save);
     return settings;
 }
 
 QStringList TriggerBar::keys()
 {
-    return Trigger::Settings::keys() + QStringList{signalKey, linkedKey, saveKey};
+    return Trigger::Settings::keys() + QStringList{triggerSignalKey, triggerLinkedKey, triggerSaveKey};
 }
 
 QPlcTimeAxis *TriggerBar::time() const
@@ -251,9 +251,9 @@ bool TriggerBar::showsEvent() const
 void TriggerBar::applySettings(const QJsonObject &settings)
 {
     m_trigger.setSettings(Trigger::Settings::fromJson(settings));
-    m_wanted = settings.value(signalKey).toString();
-    link(settings.value(linkedKey).toBool());
-    m_files->show(EventFileSettings::fromJson(settings.value(saveKey).toObject()));
+    m_wanted = settings.value(triggerSignalKey).toString();
+    link(settings.value(triggerLinkedKey).toBool());
+    m_files->show(EventFileSettings::fromJson(settings.value(triggerSaveKey).toObject()));
     if (!m_wanted.isEmpty() && m_signal->findText(m_wanted) < 0)
         m_signal->addItem(m_wanted);
     showSettings();

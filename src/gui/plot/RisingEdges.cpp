@@ -8,7 +8,7 @@ namespace qplc {
 
 namespace {
 
-constexpr RisingEdges::Row rowsOfPiece = 512;  // a bin of the store
+constexpr RisingEdges::Row rowsOfLook = 512;  // a bin of the store
 
 }  // namespace
 
@@ -29,7 +29,7 @@ bool RisingEdges::update()
         m_isBelow = false;
     }
     while (m_next < m_store->endRow()) {
-        const Row end = std::min((m_next / rowsOfPiece + 1) * rowsOfPiece, m_store->endRow());
+        const Row end = std::min((m_next / rowsOfLook + 1) * rowsOfLook, m_store->endRow());
         if (isSame(m_next, end)) {
             m_isBelow = double(m_store->value(m_channel, end - 1)) < m_level;
             m_next = end;

@@ -28,6 +28,8 @@ private Q_SLOTS:
     void aSingleCurveHasAColorForEachRun();
     void ofSeveralCurvesEachKeepsItsColor();
     void tablesHaveAColumnForEachRun();
+    void differencesAreDrawnInPlaceOfTheRuns();
+    void differencesGoOnWithTheNewestRun();
     void settingsAreReadAsTheyWereWritten();
     void theKeyComparesWithTheOtherPlant();
     void withoutAnotherPlantTheKeyComparesEdges();
@@ -278,10 +280,45 @@ void tst_PlotRuns::tablesHaveAColumnForEachRun()
     QCOMPARE(fields.mid(2), (QList<QByteArray>{"1", "0"}));
 }
 
+void tst_PlotRuns::differencesAreDrawnInPlaceOfTheRuns()
+{
+    ThreeRises window("{}");
+    window.apply(
+        R"json({"curves":[{"signal":"power","offset":7}],"runs":{"on":true,"align":"edge","signal":"power",)json"
+        R"json("level":100,"differences":true}})json");
+    QVERIFY(window.show());
+    QCOMPARE(window.drawn().size(), 1);  // the first rise was another one, from 709 kW on
+    QTRY_COMPARE(window.legend()->entries().size(), 2);
+    QCOMPARE(window.legend()->entries().at(0).isVisible, false);
+    QVERIFY(window.legend()->entries().at(1).name.startsWith(QStringLiteral("Δ power · ")));
+    const SignalStore &store = *window.drawn().at(0)->store();
+    QCOMPARE(store.channels(), 1);
+    QVERIFY(store.endRow() > 190);
+    QCOMPARE(store.range(0, 0, store.endRow()).minimum, 0.0F);  // the same rise: exactly nothing
+    QCOMPARE(store.range(0, 0, store.endRow()).maximum, 0.0F);
+}
+
+void tst_PlotRuns::differencesGoOnWithTheNewestRun()
+{
+    ThreeRises window;
+    window.apply(
+        R"json({"curves":[{"signal":"speed"}],"runs":{"on":true,"align":"edge","signal":"speed","level":100,)json"
+        R"json("last":2,"differences":true}})json");
+    QVERIFY(window.show());
+    QCOMPARE(window.drawn().size(), 1);
+    const SignalStore::Row before = window.drawn().at(0)->store()->endRow();
+    QPlcSignalList values = valueOf("speed", QPlcValue(500.0F));
+    window.take(values);
+    window.take(values);
+    QTRY_VERIFY(window.drawn().at(0)->store()->endRow() > before);
+    QTRY_VERIFY(window.figure(0, "min").toDouble() < -150.0);
+}
+
 void tst_PlotRuns::settingsAreReadAsTheyWereWritten()
 {
-    const QByteArray written = R"json({"curves":[{"signal":"speed"}],"runs":{"align":"edge","apart":2.5,"last":3,)json"
-                               R"json("level":100,"on":true,"others":1,"plants":["boat"],"signal":"speed"}})json";
+    const QByteArray written
+        = R"json({"curves":[{"signal":"speed"}],"runs":{"align":"edge","apart":2.5,"differences":true,"last":3,)json"
+          R"json("level":100,"on":true,"others":1,"plants":["boat"],"signal":"speed"}})json";
     const FedPlotWindow window(written);
     QCOMPARE(window.settings(), written);
     const QJsonObject extreme{{QStringLiteral("last"), 1'000'000}, {QStringLiteral("apart"), -1.0}};
