@@ -18,14 +18,15 @@ constexpr int driveStepsInCycle = 10;
 
 }  // namespace
 
-ExtendedPlant::ExtendedPlant(const ExtendedParameters &parameters)
+ExtendedPlant::ExtendedPlant(const PlantParameters &parameters, const PlantOptions &options)
     : m_parameters(parameters)
-    , m_isThesis(parameters.isThesis())
-    , m_points(parameters.tether.kind == TetherKind::Segments ? parameters.tether.segments : 1)
-    , m_thesis(parameters.kite)
-    , m_aerodynamics(parameters.kite.dragFactor, parameters.kite.angleOfAttackRange)
-    , m_air(parameters.air, parameters.kite.airDensity)
-    , m_machine(parameters.machine)
+    , m_options(options)
+    , m_isThesis(options.isThesis())
+    , m_points(options.tether.kind == TetherKind::Segments ? options.tether.segments : 1)
+    , m_thesis(parameters)
+    , m_aerodynamics(parameters.dragFactor, parameters.angleOfAttackRange)
+    , m_air(options.air, parameters.airDensity)
+    , m_machine(options.machine)
 {
     reset();
 }
@@ -35,7 +36,7 @@ void ExtendedPlant::reset()
     m_thesis.reset();
     m_machine.reset();
     m_crashed = false;
-    const PlantState &start = m_parameters.kite.initialState;
+    const PlantState &start = m_parameters.initialState;
     m_state.setZero(6 * m_points + SingleCount);
     for (int point = 1; point <= m_points; ++point) {
         const double share = double(point) / m_points;
@@ -93,7 +94,7 @@ ExtendedPlant::Sample ExtendedPlant::sampled(const PlantInputs &inputs) const
     double lower = 0.0;
     for (int segment = 0; segment < m_points; ++segment) {
         const double upper = pointIn(m_state, segment + 1).z();
-        if (m_parameters.tether.kind == TetherKind::Segments)
+        if (m_options.tether.kind == TetherKind::Segments)
             sample.segments[std::size_t(segment)] = airAt(0.5 * (lower + upper), inputs);
         lower = upper;
     }
@@ -118,10 +119,10 @@ double ExtendedPlant::tension(const State &state, int number, const Segment &seg
     const double stretch = segment.length - unstretched;
     if (!(stretch > 0.0))
         return 0.0;
-    const TetherParameters &tether = m_parameters.tether;
+    const TetherParameters &tether = m_options.tether;
     const bool isSpring = tether.kind != TetherKind::Segments;
-    const double stiffness = isSpring ? m_parameters.kite.tetherStiffness : tether.axialStiffness / unstretched;
-    const double damping = isSpring ? m_parameters.kite.tetherDamping
+    const double stiffness = isSpring ? m_parameters.tetherStiffness : tether.axialStiffness / unstretched;
+    const double damping = isSpring ? m_parameters.tetherDamping
                                     : tether.segmentDamping * std::min(1.0, stretch / (dampingRamp * unstretched));
     if (damping == 0.0)
         return stiffness * stretch;
@@ -134,19 +135,19 @@ Eigen::Vector3d ExtendedPlant::drag(const State &state, int number, const Segmen
 {
     const Eigen::Vector3d flow = air.wind - 0.5 * (velocityIn(state, number) + velocityIn(state, number + 1));
     const Eigen::Vector3d across = flow - flow.dot(segment.along) * segment.along;
-    return m_parameters.tether.drag(across, segment.length, air.density);
+    return m_options.tether.drag(across, segment.length, air.density);
 }
 
 ExtendedPlant::Wing ExtendedPlant::wing(const State &state, const AirAt &air, const PlantInputs &inputs) const
 {
-    const PlantParameters &kite = m_parameters.kite;
+    const PlantParameters &kite = m_parameters;
     const Sphere sphere(pointIn(state, m_points) - pointIn(state, m_points - 1));
     const WingFrame frame(sphere, Attitude::of(single(state, PitchAngle), single(state, YawAngle)));
     Aerodynamics::MoreDrag moreDrag;
-    if (m_parameters.steering.kind == SteeringKind::TurnRate)
-        moreDrag.factor = 1.0 + m_parameters.steering.steeringDrag * std::abs(single(state, Steering));
-    if (m_parameters.tether.kind == TetherKind::Straight)
-        moreDrag.coefficient = m_parameters.tether.dragCoefficient * m_parameters.tether.diameter
+    if (m_options.steering.kind == SteeringKind::TurnRate)
+        moreDrag.factor = 1.0 + m_options.steering.steeringDrag * std::abs(single(state, Steering));
+    if (m_options.tether.kind == TetherKind::Straight)
+        moreDrag.coefficient = m_options.tether.dragCoefficient * m_options.tether.diameter
             * single(state, TetherLength) / (4.0 * kite.area);
     const Eigen::Vector3d relativeWind = air.wind - velocityIn(state, m_points);
     const double dynamicArea = 0.5 * air.density * kite.area;
@@ -154,7 +155,7 @@ ExtendedPlant::Wing ExtendedPlant::wing(const State &state, const AirAt &air, co
     wing.air
         = m_aerodynamics.airflow(relativeWind, frame.tailwards, frame.sideways, frame.topwards, dynamicArea, moreDrag);
     wing.airspeed = relativeWind.norm();
-    if (m_parameters.hasTurbines) {
+    if (m_options.hasTurbines) {
         const double drag = dynamicArea * inputs.turbineCoefficient * wing.airspeed;
         wing.turbines = drag * relativeWind;
         wing.turbinePower = drag * wing.airspeed * wing.airspeed;
@@ -168,11 +169,11 @@ ExtendedPlant::Wing ExtendedPlant::wing(const State &state, const AirAt &air, co
 void ExtendedPlant::turn(const State &state, double airspeed, const PlantInputs &inputs, State *rates) const
 {
     single(*rates, PitchAngle) = inputs.pitchSpeed;
-    if (m_parameters.steering.kind == SteeringKind::Kinematic) {
+    if (m_options.steering.kind == SteeringKind::Kinematic) {
         single(*rates, YawAngle) = inputs.yawSpeed;
         return;
     }
-    const SteeringParameters &law = m_parameters.steering;
+    const SteeringParameters &law = m_options.steering;
     const Eigen::Vector3d r = pointIn(state, m_points), v = velocityIn(state, m_points);
     const Sphere sphere(r);
     const double course = -single(state, YawAngle) * radiansPerDegree;
@@ -190,8 +191,8 @@ void ExtendedPlant::turn(const State &state, double airspeed, const PlantInputs 
 ExtendedPlant::State ExtendedPlant::rates(const State &state, const Sample &air, double tetherSpeed,
                                           const PlantInputs &inputs) const
 {
-    const PlantParameters &kite = m_parameters.kite;
-    const TetherParameters &tether = m_parameters.tether;
+    const PlantParameters &kite = m_parameters;
+    const TetherParameters &tether = m_options.tether;
     const double tetherLength = single(state, TetherLength);
     const bool hasSegments = tether.kind == TetherKind::Segments;
     const double nodeMass = hasSegments ? tether.massPerLength() * tetherLength / m_points : 0.0;
@@ -235,16 +236,16 @@ ExtendedPlant::State ExtendedPlant::rates(const State &state, const Sample &air,
 
 int ExtendedPlant::substeps() const
 {
-    if (m_parameters.tether.kind == TetherKind::Segments) {
+    if (m_options.tether.kind == TetherKind::Segments) {
         const double length = single(m_state, TetherLength) / m_points;
         return std::max(machineSubsteps, int(std::ceil(longestSubstepLength / length)));
     }
-    return m_parameters.hasMachine ? machineSubsteps : 1;
+    return m_options.hasMachine ? machineSubsteps : 1;
 }
 
 double ExtendedPlant::drumSpeed(const PlantInputs &inputs) const
 {
-    return m_parameters.hasMachine ? m_machine.speed() * m_parameters.machine.leverage() : inputs.tetherSpeed;
+    return m_options.hasMachine ? m_machine.speed() * m_options.machine.leverage() : inputs.tetherSpeed;
 }
 
 double ExtendedPlant::tensionNow(int number, double tetherSpeed) const
@@ -255,7 +256,7 @@ double ExtendedPlant::tensionNow(int number, double tetherSpeed) const
 /// Moves the machine \a time on, in \a driveSteps steps. \return the mean speed of the drum [m/s]
 double ExtendedPlant::driven(double time, int driveSteps, const PlantInputs &inputs)
 {
-    const double leverage = m_parameters.machine.leverage();
+    const double leverage = m_options.machine.leverage();
     WinchDriveInputs drive;
     drive.hasCommand = true;
     drive.enable = true;
@@ -275,10 +276,10 @@ void ExtendedPlant::step(const PlantInputs &inputs)
         return;
     const Sample air = sampled(inputs);
     const int count = substeps();
-    const double h = m_parameters.kite.step / count;
+    const double h = m_parameters.step / count;
     const int driveSteps = driveStepsInCycle % count == 0 ? driveStepsInCycle / count : 1;
     for (int i = 0; i < count; ++i) {
-        const double tetherSpeed = m_parameters.hasMachine ? driven(h, driveSteps, inputs) : inputs.tetherSpeed;
+        const double tetherSpeed = m_options.hasMachine ? driven(h, driveSteps, inputs) : inputs.tetherSpeed;
         const State k1 = rates(m_state, air, tetherSpeed, inputs);
         const State k2 = rates(m_state + 0.5 * h * k1, air, tetherSpeed, inputs);
         const State k3 = rates(m_state + 0.5 * h * k2, air, tetherSpeed, inputs);
@@ -293,7 +294,7 @@ void ExtendedPlant::noticeGround()
     if (m_isThesis || m_crashed || pointIn(m_state, m_points).z() > 0.0)
         return;
     m_crashed = true;
-    if (m_parameters.kite.groundContact == GroundContact::Hold)
+    if (m_parameters.groundContact == GroundContact::Hold)
         m_state.segment(3 * m_points, 3 * m_points).setZero();
 }
 
@@ -319,7 +320,7 @@ PlantOutputs ExtendedPlant::outputs(const PlantInputs &inputs) const
     y.dragCoefficient = wing.air.drag;
     y.liftCoefficient = wing.air.lift;
     y.aweCoefficient = m_aerodynamics.coefficients(wing.air.angleOfAttack).awe;
-    y.gravitationalForce = {0.0, 0.0, -m_parameters.kite.mass * m_parameters.kite.gravity};
+    y.gravitationalForce = {0.0, 0.0, -m_parameters.mass * m_parameters.gravity};
     y.tetherLength = single(m_state, TetherLength);
     y.averagePower = single(m_state, AveragePower);
     y.energy = single(m_state, Energy);

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "Air.h"
-#include "ExtendedParameters.h"
 #include "KitePlant.h"
+#include "PlantOptions.h"
 #include "WinchDrive.h"
 
 #include <Eigen/Core>
@@ -31,7 +31,7 @@ struct PlantDetails
 
 /// The plant of the thesis, and what its outlook asks for: wind that grows with the height, a
 /// tether with mass and drag, an electrical machine at the winch, a wing that the air turns, and
-/// turbines on board. Each is an option of ExtendedParameters. Without any it is KitePlant, bit for
+/// turbines on board. Each is one of the PlantOptions. Without any it is KitePlant, bit for
 /// bit.
 ///
 /// Points: 0 is the winch, N the wing; between them are the nodes of the tether, if it has
@@ -56,8 +56,10 @@ struct PlantDetails
 class ExtendedPlant
 {
 public:
-    /// \pre parameters.validate() is empty
-    explicit ExtendedPlant(const ExtendedParameters &parameters = ExtendedParameters());
+    /// \param parameters  wing, ground, initial state, and the spring of the tether
+    /// \pre parameters.validate() and options.validate() are empty
+    explicit ExtendedPlant(const PlantParameters &parameters = PlantParameters(),
+                           const PlantOptions &options = PlantOptions());
 
     /// Goes back to the initial state, exactly; also forgets a crash.
     void reset();
@@ -67,10 +69,11 @@ public:
     /// The same for what only this plant has.
     PlantDetails details(const PlantInputs &inputs) const;
 
-    /// Moves the state one step of parameters().kite.step seconds on.
+    /// Moves the state one step of parameters().step seconds on.
     void step(const PlantInputs &inputs);
 
-    const ExtendedParameters &parameters() const { return m_parameters; }
+    const PlantParameters &parameters() const { return m_parameters; }
+    const PlantOptions &options() const { return m_options; }
 
     /// true since the wing first was at z <= 0, until reset()
     bool hasCrashed() const { return m_thesis.hasCrashed() || m_crashed; }
@@ -131,9 +134,10 @@ private:
     double drumSpeed(const PlantInputs &inputs) const;
     double driven(double time, int driveSteps, const PlantInputs &inputs);
     void noticeGround();
-    bool isHeld() const { return m_crashed && m_parameters.kite.groundContact == GroundContact::Hold; }
+    bool isHeld() const { return m_crashed && m_parameters.groundContact == GroundContact::Hold; }
 
-    ExtendedParameters m_parameters;
+    PlantParameters m_parameters;
+    PlantOptions m_options;
     bool m_isThesis;
     int m_points;  // N
     KitePlant m_thesis;

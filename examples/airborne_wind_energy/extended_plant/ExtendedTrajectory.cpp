@@ -50,28 +50,28 @@ std::string taken(const QJsonValue &value, double *number)
 }
 
 /// Sets one of the `parameters`. \return empty, or the remedy
-std::string setParameter(const QString &key, const QJsonValue &value, ExtendedParameters *parameters)
+std::string setParameter(const QString &key, const QJsonValue &value, PlantOptions *options)
 {
     if (key == QLatin1String("tether"))
-        return chosen(value, {"spring", "straight", "segments"}, &parameters->tether.kind);
+        return chosen(value, {"spring", "straight", "segments"}, &options->tether.kind);
     if (key == QLatin1String("profile"))
-        return chosen(value, {"uniform", "power", "log"}, &parameters->air.profile);
+        return chosen(value, {"uniform", "power", "log"}, &options->air.profile);
     if (key == QLatin1String("density"))
-        return chosen(value, {"constant", "falling"}, &parameters->air.isThinner);
+        return chosen(value, {"constant", "falling"}, &options->air.isThinner);
     if (key == QLatin1String("steering"))
-        return chosen(value, {"kinematic", "turn_rate"}, &parameters->steering.kind);
+        return chosen(value, {"kinematic", "turn_rate"}, &options->steering.kind);
     if (key == QLatin1String("hRef"))
-        return taken(value, &parameters->air.referenceHeight);
+        return taken(value, &options->air.referenceHeight);
     if (key == QLatin1String("p"))
-        return taken(value, &parameters->air.exponent);
+        return taken(value, &options->air.exponent);
     if (key == QLatin1String("z0"))
-        return taken(value, &parameters->air.roughness);
+        return taken(value, &options->air.roughness);
     if (key == QLatin1String("c1"))
-        return taken(value, &parameters->steering.turnRateFactor);
+        return taken(value, &options->steering.turnRateFactor);
     if (key == QLatin1String("c2"))
-        return taken(value, &parameters->steering.weightFactor);
+        return taken(value, &options->steering.weightFactor);
     if (key == QLatin1String("segments")) {
-        parameters->tether.segments = value.toInt();
+        options->tether.segments = value.toInt();
         return {};
     }
     return "it is not known; use tether, segments, profile, hRef, p, z0, density, steering, c1 or c2";
@@ -200,7 +200,7 @@ std::string ExtendedTrajectory::readHeader(const std::string &json)
         return "the header is not JSON: " + error.errorString().toStdString() + "; correct it";
     const QJsonObject parameters = header.value(QLatin1String("parameters")).toObject();
     for (auto it = parameters.begin(); it != parameters.end(); ++it) {
-        const std::string remedy = setParameter(it.key(), it.value(), &m_parameters);
+        const std::string remedy = setParameter(it.key(), it.value(), &m_options);
         if (!remedy.empty())
             return "parameter '" + it.key().toStdString() + "' of the header: " + remedy;
     }
@@ -209,7 +209,7 @@ std::string ExtendedTrajectory::readHeader(const std::string &json)
         return "the header has no wind; write \"wind_m_s\": [x, y, z]";
     m_wind = {wind[0].toDouble(), wind[1].toDouble(), wind[2].toDouble()};
     const std::string remedy
-        = chosen(header.value(QLatin1String("winch")), {"ideal", "machine"}, &m_parameters.hasMachine);
+        = chosen(header.value(QLatin1String("winch")), {"ideal", "machine"}, &m_options.hasMachine);
     return remedy.empty() ? remedy : "winch of the header: " + remedy;
 }
 
@@ -217,16 +217,17 @@ std::string ExtendedTrajectory::readHeader(const std::string &json)
 std::string ExtendedTrajectory::checkStart()
 {
     const Row &row = m_rows.front();
-    PlantState &start = m_parameters.kite.initialState;
+    PlantState &start = m_parameters.initialState;
     start.position = vectorAt(row, X);
     start.velocity = vectorAt(row, velocityColumn);
     start.pitchAngle = row[PitchAngle];
     start.yawAngle = row[YawAngle];
     start.tetherLength = row[tetherLengthColumn];
-    if (m_parameters.tether.kind == TetherKind::Segments && m_parameters.tether.segments != nodesInFile + 1)
-        return "the tether has " + std::to_string(m_parameters.tether.segments) + " segments; the table has room for "
+    if (m_options.tether.kind == TetherKind::Segments && m_options.tether.segments != nodesInFile + 1)
+        return "the tether has " + std::to_string(m_options.tether.segments) + " segments; the table has room for "
             + std::to_string(nodesInFile + 1);
-    return m_parameters.validate();
+    const std::string wrong = m_options.validate();
+    return wrong.empty() ? m_parameters.validate() : wrong;
 }
 
 std::string ExtendedTrajectory::save(const std::string &path) const
@@ -288,10 +289,10 @@ ExtendedTrajectory::Row rowOf(const ExtendedPlant &plant, const PlantInputs &inp
 
 ExtendedTrajectory ExtendedTrajectory::replayed() const
 {
-    ExtendedParameters parameters = m_parameters;
-    parameters.hasTurbines
+    PlantOptions options = m_options;
+    options.hasTurbines
         = std::any_of(m_rows.begin(), m_rows.end(), [](const Row &row) { return row[TurbineCoefficient] != 0.0; });
-    ExtendedPlant plant(parameters);
+    ExtendedPlant plant(m_parameters, options);
     if (plant.segmentCount() > 1) {
         for (int node = 1; node <= nodesInFile; ++node)
             plant.setPoint(node, vectorAt(m_rows.front(), nodeColumn + 3 * std::size_t(node - 1)),

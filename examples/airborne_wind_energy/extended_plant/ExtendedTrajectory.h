@@ -46,7 +46,7 @@ public:
     /// Writes a file, as Trajectory does.
     std::string save(const std::string &path) const;
 
-    const ExtendedParameters &parameters() const { return m_parameters; }
+    const PlantOptions &options() const { return m_options; }
     const std::vector<Row> &rows() const { return m_rows; }
 
     /// The plant of the header, started in the state of the first row and driven by the inputs of
@@ -59,7 +59,8 @@ private:
     std::string checkStart();
 
     std::vector<std::string> m_comments;
-    ExtendedParameters m_parameters;
+    PlantParameters m_parameters;
+    PlantOptions m_options;
     Eigen::Vector3d m_wind = Eigen::Vector3d::Zero();  // w_ref [m/s]
     std::vector<Row> m_rows;
 };

@@ -143,12 +143,12 @@ void tst_Allocations::winchDriveAllocatesNoMemory()
 
 void tst_Allocations::plantWithAllOptionsAllocatesNoMemory()
 {
-    ExtendedParameters parameters;
-    parameters.air.profile = WindProfile::Log;
-    parameters.tether.kind = TetherKind::Segments;
-    parameters.steering.kind = SteeringKind::TurnRate;
-    parameters.hasMachine = parameters.hasTurbines = true;
-    ExtendedPlant plant(parameters);
+    PlantOptions options;
+    options.air.profile = WindProfile::Log;
+    options.tether.kind = TetherKind::Segments;
+    options.steering.kind = SteeringKind::TurnRate;
+    options.hasMachine = options.hasTurbines = true;
+    ExtendedPlant plant(PlantParameters(), options);
     PlantInputs inputs;
     inputs.windVelocity = {5.0, 3.0, 0.0};
     const long before = allocations;

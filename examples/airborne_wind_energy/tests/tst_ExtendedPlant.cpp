@@ -12,27 +12,36 @@
 
 using namespace awe;
 
-Q_DECLARE_METATYPE(awe::ExtendedParameters)
+Q_DECLARE_METATYPE(awe::PlantOptions)
 
 namespace {
 
-/// Options that change nothing, so that no shortcut to KitePlant is taken.
-ExtendedParameters neutralOptions()
+/// A kite with its options.
+struct Example
 {
-    ExtendedParameters parameters;
-    parameters.air.profile = WindProfile::Power;
-    parameters.air.exponent = 0.0;
+    PlantParameters kite;
+    PlantOptions options;
+
+    ExtendedPlant plant() const { return ExtendedPlant(kite, options); }
+};
+
+/// Options that change nothing, so that no shortcut to KitePlant is taken.
+Example neutralOptions()
+{
+    Example parameters;
+    parameters.options.air.profile = WindProfile::Power;
+    parameters.options.air.exponent = 0.0;
     return parameters;
 }
 
-ExtendedParameters everything()
+Example everything()
 {
-    ExtendedParameters parameters;
-    parameters.air.profile = WindProfile::Log;
-    parameters.air.isThinner = true;
-    parameters.tether.kind = TetherKind::Segments;
-    parameters.steering.kind = SteeringKind::TurnRate;
-    parameters.hasMachine = parameters.hasTurbines = true;
+    Example parameters;
+    parameters.options.air.profile = WindProfile::Log;
+    parameters.options.air.isThinner = true;
+    parameters.options.tether.kind = TetherKind::Segments;
+    parameters.options.steering.kind = SteeringKind::TurnRate;
+    parameters.options.hasMachine = parameters.options.hasTurbines = true;
     return parameters;
 }
 
@@ -63,30 +72,29 @@ private:
 };
 
 /// The wing hangs below the winch, without wind: the tether stretches under all that is below.
-ExtendedParameters hanging()
+Example hanging()
 {
-    ExtendedParameters parameters;
-    parameters.tether.kind = TetherKind::Segments;
+    Example parameters;
+    parameters.options.tether.kind = TetherKind::Segments;
     parameters.kite.initialState.velocity.setZero();
     parameters.kite.initialState.tetherLength = 100.0;
     parameters.kite.initialState.position = {0.0, 0.0, -100.0};
     return parameters;
 }
 
-double tensionOfHanging(const ExtendedParameters &parameters, int segment)
+double tensionOfHanging(const ExtendedPlant &plant, int segment)
 {
-    const TetherParameters &tether = parameters.tether;
+    const TetherParameters &tether = plant.options().tether;
     const double node = tether.massPerLength() * 100.0 / tether.segments;
-    return parameters.kite.gravity * (parameters.kite.mass + 0.5 * node + node * (tether.segments - 1 - segment));
+    return plant.parameters().gravity * (plant.parameters().mass + 0.5 * node + node * (tether.segments - 1 - segment));
 }
 
 void hang(ExtendedPlant *plant)
 {
-    const TetherParameters &tether = plant->parameters().tether;
+    const TetherParameters &tether = plant->options().tether;
     double depth = 0.0;
     for (int segment = 0; segment < tether.segments; ++segment) {
-        depth
-            += 100.0 / tether.segments * (1.0 + tensionOfHanging(plant->parameters(), segment) / tether.axialStiffness);
+        depth += 100.0 / tether.segments * (1.0 + tensionOfHanging(*plant, segment) / tether.axialStiffness);
         plant->setPoint(segment + 1, {0.0, 0.0, -depth}, Eigen::Vector3d::Zero());
     }
 }
@@ -128,9 +136,9 @@ private Q_SLOTS:
 
 void tst_ExtendedPlant::withoutOptionsItIsThePlantOfTheThesisBitForBit()
 {
-    const ExtendedParameters parameters;
+    const Example parameters;
     QVERIFY(parameters.isThesis());
-    ExtendedPlant plant(parameters);
+    ExtendedPlant plant = parameters.plant();
     KitePlant thesis(parameters.kite);
     Commands commands;
     for (int cycle = 0; cycle < 2000; ++cycle) {
@@ -147,9 +155,9 @@ void tst_ExtendedPlant::withoutOptionsItIsThePlantOfTheThesisBitForBit()
 
 void tst_ExtendedPlant::withOptionsThatChangeNothingItIsThePlantOfTheThesis()
 {
-    const ExtendedParameters parameters = neutralOptions();
+    const Example parameters = neutralOptions();
     QVERIFY(!parameters.isThesis());
-    ExtendedPlant plant(parameters);
+    ExtendedPlant plant = parameters.plant();
     KitePlant thesis(parameters.kite);
     Commands commands;
     for (int cycle = 0; cycle < 500; ++cycle) {
@@ -167,12 +175,14 @@ void tst_ExtendedPlant::withOptionsThatChangeNothingItIsThePlantOfTheThesis()
 
 void tst_ExtendedPlant::oneSegmentWithoutMassIsTheSpringTether()
 {
-    ExtendedParameters parameters;
-    parameters.tether.kind = TetherKind::Segments;
-    parameters.tether.segments = 1;
-    parameters.tether.density = parameters.tether.dragCoefficient = parameters.tether.segmentDamping = 0.0;
-    parameters.tether.axialStiffness = parameters.kite.tetherStiffness * parameters.kite.initialState.tetherLength;
-    ExtendedPlant plant(parameters);
+    Example parameters;
+    parameters.options.tether.kind = TetherKind::Segments;
+    parameters.options.tether.segments = 1;
+    parameters.options.tether.density = parameters.options.tether.dragCoefficient
+        = parameters.options.tether.segmentDamping = 0.0;
+    parameters.options.tether.axialStiffness
+        = parameters.kite.tetherStiffness * parameters.kite.initialState.tetherLength;
+    ExtendedPlant plant = parameters.plant();
     PlantParameters fine = parameters.kite;
     fine.step /= 5.0;  // the plant with segments has five substeps at this length
     KitePlant thesis(fine);
@@ -253,9 +263,9 @@ void tst_ExtendedPlant::windBelowTwoMetresIsThatOfTwoMetres()
 
 void tst_ExtendedPlant::turbulenceIsTheSameAtEveryHeight()
 {
-    ExtendedParameters parameters;
-    parameters.air.profile = WindProfile::Power;
-    const ExtendedPlant plant(parameters);
+    Example parameters;
+    parameters.options.air.profile = WindProfile::Power;
+    const ExtendedPlant plant = parameters.plant();
     PlantInputs inputs;
     inputs.turbulence = {0.3, -0.2, 0.1};
     inputs.windVelocity = inputs.turbulence;  // no mean wind
@@ -277,7 +287,7 @@ void tst_ExtendedPlant::dragOfTheTetherIsThatPublished()
 
 void tst_ExtendedPlant::hangingTetherCarriesWhatIsBelow()
 {
-    ExtendedPlant plant(hanging());
+    ExtendedPlant plant = hanging().plant();
     hang(&plant);
     const PlantDetails details = plant.details(PlantInputs());
     COMPARE_NEAR(details.groundTension, 57.2314235531, 1e-7);
@@ -286,7 +296,7 @@ void tst_ExtendedPlant::hangingTetherCarriesWhatIsBelow()
 
 void tst_ExtendedPlant::hangingTetherStaysAtRest()
 {
-    ExtendedPlant plant(hanging());
+    ExtendedPlant plant = hanging().plant();
     hang(&plant);
     std::array<Eigen::Vector3d, 6> start;
     for (int point = 1; point <= 6; ++point)
@@ -299,10 +309,10 @@ void tst_ExtendedPlant::hangingTetherStaysAtRest()
 
 void tst_ExtendedPlant::hangingTetherSwingsInItsFirstMode()
 {
-    ExtendedParameters parameters = hanging();
-    parameters.tether.segmentDamping = 0.0;
-    const double node = parameters.tether.massPerLength() * 100.0 / 6.0;
-    const double spring = parameters.tether.axialStiffness * 6.0 / 100.0;
+    Example parameters = hanging();
+    parameters.options.tether.segmentDamping = 0.0;
+    const double node = parameters.options.tether.massPerLength() * 100.0 / 6.0;
+    const double spring = parameters.options.tether.axialStiffness * 6.0 / 100.0;
     Eigen::Matrix<double, 6, 1> mass = Eigen::Matrix<double, 6, 1>::Constant(node);
     mass[5] = parameters.kite.mass + 0.5 * node;
     Eigen::Matrix<double, 6, 6> stiffness = Eigen::Matrix<double, 6, 6>::Zero();
@@ -317,7 +327,7 @@ void tst_ExtendedPlant::hangingTetherSwingsInItsFirstMode()
     const double frequency = std::sqrt(modes.eigenvalues()[0]);
     COMPARE_NEAR(frequency, 34.0183, 5e-5);
 
-    ExtendedPlant plant(parameters);
+    ExtendedPlant plant = parameters.plant();
     hang(&plant);
     const double rest = plant.position(6).z();
     const Eigen::Matrix<double, 6, 1> shape = root.cwiseProduct(modes.eigenvectors().col(0));
@@ -349,8 +359,8 @@ void tst_ExtendedPlant::dragModeIsInBalanceAtTheOptimumOfTheThesis()
     COMPARE_NEAR(airspeed, 17.256, 5e-4);
 
     // Level flight across the wind at the horizon, without weight: the wing flies in +y.
-    ExtendedParameters parameters;
-    parameters.hasTurbines = true;
+    Example parameters;
+    parameters.options.hasTurbines = true;
     parameters.kite.gravity = 0.0;
     PlantState &start = parameters.kite.initialState;
     const double flight = std::sqrt(airspeed * airspeed - windSpeed * windSpeed);
@@ -358,7 +368,7 @@ void tst_ExtendedPlant::dragModeIsInBalanceAtTheOptimumOfTheThesis()
     start.velocity = {0.0, flight, 0.0};
     start.yawAngle = -90.0;
     start.pitchAngle = alpha - std::atan2(windSpeed, flight) * degreesPerRadian;
-    const ExtendedPlant plant(parameters);
+    const ExtendedPlant plant = parameters.plant();
     PlantInputs inputs = windAlone({windSpeed, 0.0, 0.0});
     inputs.turbineCoefficient = turbines;
     const PlantOutputs y = plant.outputs(inputs);
@@ -399,16 +409,16 @@ void tst_ExtendedPlant::machineAtTheOptimumIsThatOfItsEquations()
 
 void tst_ExtendedPlant::straightTetherAddsDragAndMass()
 {
-    ExtendedParameters parameters;
-    parameters.tether.kind = TetherKind::Straight;
-    const ExtendedPlant straight(parameters);
+    Example parameters;
+    parameters.options.tether.kind = TetherKind::Straight;
+    const ExtendedPlant straight = parameters.plant();
     const KitePlant spring(parameters.kite);
     const PlantInputs inputs = windAlone({5.0, 3.0, 0.0});
     // c_dT d l_t / (4 A)
     COMPARE_NEAR(straight.outputs(inputs).dragCoefficient - spring.outputs(inputs).dragCoefficient,
                  0.958 * 0.004 * 100.0 / 40.0, 1e-12);
     // In calm air the wing falls freely: a heavier one as fast. With a force it moves less.
-    ExtendedPlant pulled(parameters);
+    ExtendedPlant pulled = parameters.plant();
     KitePlant light(parameters.kite);
     PlantInputs reelIn = inputs;
     reelIn.tetherSpeed = -50.0;
@@ -419,9 +429,9 @@ void tst_ExtendedPlant::straightTetherAddsDragAndMass()
 
 void tst_ExtendedPlant::steeringFollowsItsActuator()
 {
-    ExtendedParameters parameters;
-    parameters.steering.kind = SteeringKind::TurnRate;
-    ExtendedPlant plant(parameters);
+    Example parameters;
+    parameters.options.steering.kind = SteeringKind::TurnRate;
+    ExtendedPlant plant = parameters.plant();
     PlantInputs inputs = windAlone({5.0, 3.0, 0.0});
     inputs.steering = 5.0;  // more than there is
     double last = 0.0;
@@ -436,12 +446,12 @@ void tst_ExtendedPlant::steeringFollowsItsActuator()
 
 void tst_ExtendedPlant::weightTurnsTheNoseDown()
 {
-    ExtendedParameters parameters;
-    parameters.steering.kind = SteeringKind::TurnRate;
+    Example parameters;
+    parameters.options.steering.kind = SteeringKind::TurnRate;
     parameters.kite.initialState.yawAngle = -90.0;  // nose to larger azimuth
     parameters.kite.mass = 1e6;                     // it stays where it is
     parameters.kite.gravity = 0.0;
-    ExtendedPlant plant(parameters);
+    ExtendedPlant plant = parameters.plant();
     const PlantInputs inputs = windAlone({5.0, 3.0, 0.0});
     const double airspeed = std::sqrt(34.0), elevation = 30.0 * radiansPerDegree;
     plant.step(inputs);
@@ -451,9 +461,9 @@ void tst_ExtendedPlant::weightTurnsTheNoseDown()
 
 void tst_ExtendedPlant::energiesOfTheWinchBalance()
 {
-    ExtendedParameters parameters;
-    parameters.hasMachine = true;
-    ExtendedPlant plant(parameters);
+    Example parameters;
+    parameters.options.hasMachine = true;
+    ExtendedPlant plant = parameters.plant();
     PlantInputs inputs = windAlone({5.0, 3.0, 0.0});
     inputs.tetherSpeed = 2.0;
     for (int cycle = 0; cycle < 1000; ++cycle)
@@ -461,14 +471,14 @@ void tst_ExtendedPlant::energiesOfTheWinchBalance()
     const PlantDetails details = plant.details(inputs);
     const WinchEnergies &e = details.energies;
     COMPARE_NEAR(plant.outputs(inputs).energy, e.tether, 1e-2 * e.tether);
-    const double kinetic = 0.5 * parameters.machine.inertia() * details.machineSpeed * details.machineSpeed;
+    const double kinetic = 0.5 * parameters.options.machine.inertia() * details.machineSpeed * details.machineSpeed;
     COMPARE_NEAR(e.tether, e.electrical + e.copper + e.converter + e.friction + e.brake + kinetic, 1e-6 * e.tether);
     COMPARE_NEAR(details.tetherSpeed, 2.0, 0.05);
 }
 
 void tst_ExtendedPlant::resetBeginsTheSameFlight()
 {
-    ExtendedPlant plant(everything());
+    ExtendedPlant plant = everything().plant();
     const auto fly = [&plant] {
         Commands commands;
         for (int cycle = 0; cycle < 300; ++cycle)
@@ -482,11 +492,11 @@ void tst_ExtendedPlant::resetBeginsTheSameFlight()
 
 void tst_ExtendedPlant::groundHoldsTheWing()
 {
-    ExtendedParameters parameters = everything();
+    Example parameters = everything();
     parameters.kite.groundContact = GroundContact::Hold;
     parameters.kite.initialState.position = {90.0, 0.0, 0.5};
     parameters.kite.initialState.velocity = {0.0, 0.0, -5.0};
-    ExtendedPlant plant(parameters);
+    ExtendedPlant plant = parameters.plant();
     const PlantInputs inputs;
     for (int cycle = 0; cycle < 100; ++cycle)
         plant.step(inputs);
@@ -501,28 +511,28 @@ void tst_ExtendedPlant::groundHoldsTheWing()
 
 void tst_ExtendedPlant::invalidParametersAreRefused_data()
 {
-    QTest::addColumn<ExtendedParameters>("parameters");
+    QTest::addColumn<PlantOptions>("parameters");
     QTest::addColumn<QString>("message");
-    ExtendedParameters parameters;
+    PlantOptions parameters;
     parameters.tether.segments = 21;
     QTest::newRow("segments") << parameters << "segments is 21; choose a value from 1 to 20";
-    parameters = ExtendedParameters();
+    parameters = PlantOptions();
     parameters.tether.diameter = 1.0;
     QTest::newRow("tether") << parameters << "diameter is 1 m; choose a value from 0.0001 to 0.1 m";
-    parameters = ExtendedParameters();
+    parameters = PlantOptions();
     parameters.air.roughness = 0.0;
     QTest::newRow("air") << parameters << "roughness is 0 m; choose a value from 1e-06 to 1 m";
-    parameters = ExtendedParameters();
+    parameters = PlantOptions();
     parameters.steering.turnRateFactor = std::nan("");
     QTest::newRow("steering") << parameters << "turnRateFactor is nan rad/m; choose a value from 0.001 to 100 rad/m";
-    parameters = ExtendedParameters();
+    parameters = PlantOptions();
     parameters.machine.drumRadius = 0.0;
     QTest::newRow("machine") << parameters << "drumRadius is 0 m; choose a value from 0.001 to 100 m";
 }
 
 void tst_ExtendedPlant::invalidParametersAreRefused()
 {
-    QFETCH(ExtendedParameters, parameters);
+    QFETCH(PlantOptions, parameters);
     QFETCH(QString, message);
     QCOMPARE(QString::fromStdString(parameters.validate()), message);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ExtendedParameters.h"
+#include "PlantOptions.h"
 
 #include "RangeCheck.h"
 
@@ -32,16 +32,15 @@ std::string SteeringParameters::validate() const
     return check.message();
 }
 
-bool ExtendedParameters::isThesis() const
+bool PlantOptions::isThesis() const
 {
     return air.profile == WindProfile::Uniform && !air.isThinner && tether.kind == TetherKind::Spring
         && steering.kind == SteeringKind::Kinematic && !hasMachine && !hasTurbines;
 }
 
-std::string ExtendedParameters::validate() const
+std::string PlantOptions::validate() const
 {
-    for (const std::string &complaint :
-         {kite.validate(), air.validate(), tether.validate(), steering.validate(), machine.validate()}) {
+    for (const std::string &complaint : {air.validate(), tether.validate(), steering.validate(), machine.validate()}) {
         if (!complaint.empty())
             return complaint;
     }

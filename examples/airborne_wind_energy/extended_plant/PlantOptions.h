@@ -2,7 +2,6 @@
 #pragma once
 
 #include "AirParameters.h"
-#include "PlantParameters.h"
 #include "SteeringParameters.h"
 #include "TetherParameters.h"
 #include "WinchDriveParameters.h"
@@ -11,10 +10,9 @@
 
 namespace awe {
 
-/// A plant with options. The values here are the plant of the thesis: no option is on.
-struct ExtendedParameters
+/// What a plant has beyond that of the thesis. The values here are the latter: no option is on.
+struct PlantOptions
 {
-    PlantParameters kite;  // wing, ground, initial state, and the spring of the tether
     AirParameters air;
     TetherParameters tether;
     SteeringParameters steering;
