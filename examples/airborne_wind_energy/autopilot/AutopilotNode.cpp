@@ -43,6 +43,7 @@ FlightMeasurements AutopilotNode::measurements() const
     measured.angleOfAttack = m_angleOfAttack;
     measured.tetherLength = m_tetherLength;
     measured.tetherForce = m_tetherForce.value().norm();
+    measured.airspeed = (m_windVelocity.value() - m_velocity.value()).norm();
     measured.windDirection = std::atan2(m_windVelocity.value().y(), m_windVelocity.value().x()) * degreesPerRadian;
     return measured;
 }

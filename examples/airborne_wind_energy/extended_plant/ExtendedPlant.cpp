@@ -300,19 +300,35 @@ void ExtendedPlant::noticeGround()
 
 // ---- what it tells ----
 
+PlantState ExtendedPlant::state() const
+{
+    if (m_isThesis)
+        return m_thesis.state();
+    PlantState state;
+    state.position = pointIn(m_state, m_points);
+    state.velocity = velocityIn(m_state, m_points);
+    state.pitchAngle = single(m_state, PitchAngle);
+    state.yawAngle = single(m_state, YawAngle);
+    state.tetherLength = single(m_state, TetherLength);
+    state.averagePower = single(m_state, AveragePower);
+    state.energy = single(m_state, Energy);
+    return state;
+}
+
 PlantOutputs ExtendedPlant::outputs(const PlantInputs &inputs) const
 {
     if (m_isThesis)
         return m_thesis.outputs(inputs);
-    const Eigen::Vector3d r = pointIn(m_state, m_points);
+    const PlantState state = this->state();
+    const Eigen::Vector3d &r = state.position;
     const Sphere sphere(r);
     const AirAt air = airAt(r.z(), inputs);
     PlantOutputs y;
     y.inputs = inputs;
     y.inputs.windVelocity = air.wind;
     y.position = r;
-    y.velocity = velocityIn(m_state, m_points);
-    y.bodyControlOrientation = {0.0, single(m_state, PitchAngle), single(m_state, YawAngle)};
+    y.velocity = state.velocity;
+    y.bodyControlOrientation = {0.0, state.pitchAngle, state.yawAngle};
     y.bodyPositionOrientation = {0.0, 90.0 - std::atan2(r.z(), sphere.horizontal) * degreesPerRadian,
                                  std::atan2(r.y(), r.x()) * degreesPerRadian};
     const Wing wing = this->wing(m_state, air, inputs);
@@ -321,9 +337,9 @@ PlantOutputs ExtendedPlant::outputs(const PlantInputs &inputs) const
     y.liftCoefficient = wing.air.lift;
     y.aweCoefficient = m_aerodynamics.coefficients(wing.air.angleOfAttack).awe;
     y.gravitationalForce = {0.0, 0.0, -m_parameters.mass * m_parameters.gravity};
-    y.tetherLength = single(m_state, TetherLength);
-    y.averagePower = single(m_state, AveragePower);
-    y.energy = single(m_state, Energy);
+    y.tetherLength = state.tetherLength;
+    y.averagePower = state.averagePower;
+    y.energy = state.energy;
     y.crashed = m_crashed;
     if (isHeld())
         return y;

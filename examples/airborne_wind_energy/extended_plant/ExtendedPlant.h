@@ -75,6 +75,9 @@ public:
     const PlantParameters &parameters() const { return m_parameters; }
     const PlantOptions &options() const { return m_options; }
 
+    /// Wing, tether and energy of the tether.
+    PlantState state() const;
+
     /// true since the wing first was at z <= 0, until reset()
     bool hasCrashed() const { return m_thesis.hasCrashed() || m_crashed; }
 

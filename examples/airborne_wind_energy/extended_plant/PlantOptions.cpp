@@ -32,6 +32,23 @@ std::string SteeringParameters::validate() const
     return check.message();
 }
 
+PlantOptions PlantOptions::realistic()
+{
+    PlantOptions options;
+    options.air.profile = WindProfile::Log;
+    options.tether.kind = TetherKind::Segments;
+    options.steering.kind = SteeringKind::TurnRate;
+    options.hasMachine = true;
+    return options;
+}
+
+PlantOptions PlantOptions::drag()
+{
+    PlantOptions options;
+    options.hasTurbines = true;
+    return options;
+}
+
 bool PlantOptions::isThesis() const
 {
     return air.profile == WindProfile::Uniform && !air.isThinner && tether.kind == TetherKind::Spring

@@ -10,6 +10,7 @@ namespace awe {
 Autopilot::Autopilot(const AutopilotGains &gains)
     : m_gains(gains)
     , m_orientation(gains)
+    , m_steering(gains)
     , m_course(gains)
     , m_power(gains)
     , m_flightSpeed(gains.speedFilterTime, gains.step, gains.startSpeed)
@@ -39,7 +40,7 @@ void Autopilot::filterWindDirection(double direction)
 bool Autopilot::isUsable(const FlightMeasurements &m)
 {
     const double sum = m.position.sum() + m.velocity.sum() + m.pitchAngle + m.yawAngle + m.angleOfAttack
-        + m.tetherLength + m.tetherForce + m.windDirection;  // not finite when one of them is not
+        + m.tetherLength + m.tetherForce + m.airspeed + m.windDirection;  // not finite when one of them is not
     return std::isfinite(sum) && m.position.squaredNorm() > 0.0;
 }
 
@@ -65,6 +66,9 @@ AutopilotOutputs Autopilot::step(const FlightMeasurements &measurements)
     outputs.tetherSpeed = references.tetherSpeed;
     outputs.pitchSpeed = m_orientation.pitchSpeed(references.pitch, measurements);
     outputs.yawSpeed = m_orientation.yawSpeed(yawReference, measurements.yawAngle, m_flightSpeed.value());
+    outputs.steering = m_steering.steering(outputs.yawSpeed, measurements, geometry);
+    if (references.course == PowerController::Course::FigureEight)
+        outputs.turbineCoefficient = m_gains.turbineCoefficient;
     return outputs;
 }
 

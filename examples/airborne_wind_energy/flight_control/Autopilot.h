@@ -8,6 +8,7 @@
 #include "LowPass.h"
 #include "OrientationController.h"
 #include "PowerController.h"
+#include "SteeringController.h"
 
 namespace awe {
 
@@ -52,6 +53,7 @@ private:
 
     AutopilotGains m_gains;
     OrientationController m_orientation;
+    SteeringController m_steering;
     CourseController m_course;
     PowerController m_power;
     LowPass m_flightSpeed;

@@ -16,6 +16,9 @@ void checkOrientation(const AutopilotGains &g, RangeCheck &check)
     check.within("referenceSpeed", g.referenceSpeed, 0.1, 1000.0, "m/s");
     check.within("pitchGain", g.pitchGain, 0.0, 100.0, "1/s");
     check.within("largestPitchSpeed", g.largestPitchSpeed, 1.0, 1000.0, "deg/s");
+    check.within("turnRateFactor", g.turnRateFactor, 0.0, 100.0, "rad/m");
+    check.within("weightFactor", g.weightFactor, 0.0, 100.0, "m/s²");
+    check.within("slowestSteeringSpeed", g.slowestSteeringSpeed, 0.1, 100.0, "m/s");
     check.within("lowestPitch", g.lowestPitch, -180.0, g.reelOutPitch, "deg");
 }
 
@@ -77,6 +80,9 @@ void checkRecovery(const AutopilotGains &g, RangeCheck &check)
     check.within("recoverTargetHeight", g.recoverTargetHeight, g.recoverHeight, 1000.0, "m");
     check.within("recoverWinchGain", g.recoverWinchGain, 0.0, 100.0, "1/s");
     check.within("recoverReelIn", g.recoverReelIn, 0.0, 100.0, "m/s");
+    check.within("constantTether", g.constantTether, 0.0, 1e5, "m");
+    check.within("constantTetherGain", g.constantTetherGain, 0.0, 100.0, "1/s");
+    check.within("turbineCoefficient", g.turbineCoefficient, 0.0, 10.0, "");
     check.within("recoverShortestTether", g.recoverShortestTether, 1.0, g.longestTether, "m");
 }
 
@@ -114,6 +120,26 @@ AutopilotGains AutopilotGains::tuned()
     gains.reelInWindFactor = 1.4;
     gains.reelInElevation = 12.0;
     gains.reelInForceFactor = 0.375;
+    return gains;
+}
+
+AutopilotGains AutopilotGains::steered()
+{
+    AutopilotGains gains;
+    gains.turnRateFactor = 0.31;
+    gains.yawGain = 4.0;
+    gains.eightHalfWidth = 40.0;
+    gains.eightHalfHeight = 12.0;
+    gains.lookAhead = 18.0;
+    return gains;
+}
+
+AutopilotGains AutopilotGains::drag()
+{
+    AutopilotGains gains;
+    gains.constantTether = 150.0;
+    gains.reelOutPitch = 2.5;
+    gains.turbineCoefficient = 0.1106;  // half of c_d at the best angle of attack (thesis, equation 2.16)
     return gains;
 }
 

@@ -22,6 +22,11 @@ struct AutopilotGains
     double largestPitchSpeed = 60.0;   // [deg/s]
     double lowestPitch = -110.0;       // [deg]
 
+    // Steering of a wing that the air turns
+    double turnRateFactor = 0.0;        // c_1 of the wing [rad/m]; 0: the yaw speed itself is the command
+    double weightFactor = 0.076;        // c_2 of the wing [m/s^2]
+    double slowestSteeringSpeed = 5.0;  // below it the command does not grow any more [m/s]
+
     // Course controller
     double eightHalfWidth = 27.0;         // W [m]
     double eightHalfHeight = 6.5;         // H [m]
@@ -75,6 +80,11 @@ struct AutopilotGains
     double recoverReelIn = 8.0;           // [m/s]
     double recoverShortestTether = 50.0;  // [m]
 
+    // Drag mode
+    double constantTether = 0.0;      // tether length to hold while on the eight [m]; 0: pumping cycles
+    double constantTetherGain = 0.5;  // [1/s]
+    double turbineCoefficient = 0.0;  // c_dt while on the eight [-]
+
     // Filters
     double forceFilterTime = 0.25;          // [s]
     double speedFilterTime = 3.0;           // [s]
@@ -94,6 +104,11 @@ struct AutopilotGains
     /// More power, less height: the lower edge of the eight at 18 m instead of 30 m. For every dead
     /// time; docs/figures.md says how they were found.
     static AutopilotGains tuned();
+
+    /// For a wing that the air turns (SteeringController): a wider eight, which it can follow.
+    static AutopilotGains steered();
+    /// For turbines on board: a tether of 150 m that stays as it is.
+    static AutopilotGains drag();
 
     /// \return empty when all is well, otherwise one sentence with the gain, its value and the
     ///         remedy

@@ -49,7 +49,8 @@ PlantOutputs rounded(const PlantOutputs &outputs)
 
 AutopilotOutputs rounded(AutopilotOutputs outputs)
 {
-    for (double *value : {&outputs.pitchSpeed, &outputs.yawSpeed, &outputs.tetherSpeed})
+    for (double *value :
+         {&outputs.pitchSpeed, &outputs.yawSpeed, &outputs.tetherSpeed, &outputs.steering, &outputs.turbineCoefficient})
         *value = rounded(*value);
     return outputs;
 }
@@ -65,7 +66,7 @@ PlantParameters ClosedLoopParameters::groundedPlant()
 
 std::string ClosedLoopParameters::validate() const
 {
-    for (const std::string &complaint : {plant.validate(), wind.validate(), gains.validate()}) {
+    for (const std::string &complaint : {plant.validate(), options.validate(), wind.validate(), gains.validate()}) {
         if (!complaint.empty())
             return complaint;
     }
@@ -78,7 +79,7 @@ std::string ClosedLoopParameters::validate() const
 
 ClosedLoopFlight::ClosedLoopFlight(const ClosedLoopParameters &parameters)
     : m_parameters(parameters)
-    , m_plant(parameters.plant)
+    , m_plant(parameters.plant, parameters.options)
     , m_wind(parameters.wind)
     , m_autopilot(parameters.gains)
     , m_statistics(statisticsParameters(parameters))
@@ -107,13 +108,15 @@ FlightMeasurements ClosedLoopFlight::measured(const PlantOutputs &outputs)
     measurements.tetherLength = outputs.tetherLength;
     measurements.tetherForce = outputs.tetherForce.norm();
     const Eigen::Vector3d &wind = outputs.inputs.windVelocity;
+    measurements.airspeed = (wind - outputs.velocity).norm();
     measurements.windDirection = std::atan2(wind.y(), wind.x()) * degreesPerRadian;
     return measurements;
 }
 
 PlantInputs ClosedLoopFlight::inputs() const
 {
-    return {m_commands.pitchSpeed, m_commands.yawSpeed, m_commands.tetherSpeed, m_wind.velocity()};
+    return {m_commands.pitchSpeed, m_commands.yawSpeed, m_commands.tetherSpeed,       m_wind.velocity(),
+            m_wind.turbulence(),   m_commands.steering, m_commands.turbineCoefficient};
 }
 
 // Without dead time the answer to the outputs of this cycle acts in this one, otherwise in the next
@@ -143,6 +146,11 @@ void ClosedLoopFlight::recordStatistics()
     sample.tetherSpeed = m_commands.tetherSpeed;
     sample.power = m_outputs.power;
     sample.energy = m_outputs.energy;
+    if (!m_parameters.options.isThesis()) {
+        const PlantDetails details = m_plant.details(inputs());
+        sample.electricalEnergy = details.energies.electrical;
+        sample.turbineEnergy = details.turbineEnergy;
+    }
     sample.flightPhase = static_cast<std::int8_t>(m_commands.phase);
     m_statistics.step(sample);
 }

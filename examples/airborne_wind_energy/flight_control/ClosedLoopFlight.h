@@ -2,8 +2,8 @@
 #pragma once
 
 #include "Autopilot.h"
+#include "ExtendedPlant.h"
 #include "FlightStatistics.h"
-#include "KitePlant.h"
 #include "Wind.h"
 
 #include <array>
@@ -21,6 +21,7 @@ enum class SignalPrecision {
 struct ClosedLoopParameters
 {
     PlantParameters plant = groundedPlant();
+    PlantOptions options;
     WindParameters wind;
     AutopilotGains gains;
     int deadTime = 2;  // cycles from an output of the plant to the input it causes, 0...largestDeadTime
@@ -62,7 +63,7 @@ public:
     FlightReport report() const { return m_statistics.report(); }
     const PlantOutputs &outputs() const { return m_outputs; }                // of the last cycle
     const AutopilotOutputs &autopilotOutputs() const { return m_commands; }  // of the last cycle
-    const KitePlant &plant() const { return m_plant; }
+    const ExtendedPlant &plant() const { return m_plant; }
     Autopilot &autopilot() { return m_autopilot; }
 
     /// The measurements a set of plant outputs stands for.
@@ -75,7 +76,7 @@ private:
     void askAutopilot();
 
     ClosedLoopParameters m_parameters;
-    KitePlant m_plant;
+    ExtendedPlant m_plant;
     Wind m_wind;
     Autopilot m_autopilot;
     FlightStatistics m_statistics;

@@ -16,6 +16,7 @@ struct FlightMeasurements
     double angleOfAttack = 0.0;                          // alpha [deg]
     double tetherLength = 0.0;                           // l_t [m]
     double tetherForce = 0.0;                            // |F_t| [N]
+    double airspeed = 0.0;                               // |v_r| [m/s]; only a steered wing needs it
     double windDirection = 0.0;                          // azimuth the wind blows to [deg], from x towards y
 };
 

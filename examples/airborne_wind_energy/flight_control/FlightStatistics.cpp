@@ -77,6 +77,11 @@ void FlightStatistics::step(const FlightSample &sample)
     if (m_all.count == 0)
         m_firstEnergy = sample.energy;
     m_lastEnergy = sample.energy;
+    m_last = {sample.electricalEnergy, sample.turbineEnergy};
+    if (m_all.count == 0)
+        m_first = m_last;
+    if (m_afterWarmUp.count == 0)
+        m_firstAfterWarmUp = m_last;
     const double windSpeed = sample.windVelocity.norm();
     if (static_cast<double>(m_all.count) * m_parameters.step >= m_parameters.warmUp)
         m_afterWarmUp.add(sample, windSpeed);
@@ -117,6 +122,12 @@ FlightReport FlightStatistics::report() const
     report.energy = m_lastEnergy - m_firstEnergy;
     const Sums &window = report.duration > m_parameters.shortestFlight ? m_afterWarmUp : m_all;
     report.meanPower = mean(window.power, window.count);
+    const Energies &begin = &window == &m_all ? m_first : m_firstAfterWarmUp;
+    const double windowTime = static_cast<double>(window.count - 1) * m_parameters.step;
+    if (window.count > 1) {
+        report.electricalPower = (m_last.electrical - begin.electrical) / windowTime;
+        report.turbinePower = (m_last.turbine - begin.turbine) / windowTime;
+    }
     report.meanWindSpeed = mean(window.windSpeed, window.count);
     report.reelOutPower = mean(window.outPower, window.outCount);
     report.reelInPower = mean(window.inPower, window.inCount);

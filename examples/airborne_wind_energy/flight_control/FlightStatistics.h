@@ -22,6 +22,8 @@ struct FlightSample
     double tetherSpeed = 0.0;                                // v_t [m/s], > 0 reels out
     double power = 0.0;                                      // [W]
     double energy = 0.0;                                     // [J]
+    double electricalEnergy = 0.0;                           // of the winch [J]
+    double turbineEnergy = 0.0;                              // of turbines on board [J]
     std::int8_t flightPhase = 0;                             // number of the FlightPhase
 };
 
@@ -51,6 +53,8 @@ struct FlightReport
     double duration = 0.0;             // [s], all
     double energy = 0.0;               // last minus first sample [J], all
     double meanPower = 0.0;            // window [W]
+    double electricalPower = 0.0;      // mean, of the winch, window [W]
+    double turbinePower = 0.0;         // mean, of turbines on board, window [W]
     double eta = 0.0;                  // meanPower / (2/27 rho A v_w^3 c_AWE), window
     double etaPerMeanCubedWind = 0.0;  // the same with the mean of |w|^3 of the window for v_w^3
     double reelOutPower = 0.0;         // mean power while v_t > 0, window [W]
@@ -104,6 +108,11 @@ private:
     FlightStatisticsParameters m_parameters;
     Sums m_all, m_afterWarmUp;
     double m_firstEnergy = 0.0, m_lastEnergy = 0.0;
+    struct Energies
+    {
+        double electrical = 0.0, turbine = 0.0;  // [J]
+    };
+    Energies m_first, m_firstAfterWarmUp, m_last;
     std::int8_t m_phase = 0;
     bool m_launched = false;
     int m_pumpingCycles = 0;

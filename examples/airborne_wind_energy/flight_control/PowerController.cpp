@@ -64,7 +64,7 @@ void PowerController::chooseNext(const FlightMeasurements &measurements, const F
         break;
     case FlightPhase::Power:
     case FlightPhase::ReelOut:
-        if (measurements.tetherLength >= m_gains.longestTether) {
+        if (m_gains.constantTether == 0.0 && measurements.tetherLength >= m_gains.longestTether) {
             m_windSpeed = m_windCount > 0.0 ? m_windSum / m_windCount : m_windSpeed;
             enter(FlightPhase::Retract);
         } else if (m_phase == FlightPhase::Power && m_phaseTime >= m_gains.powerTime) {
@@ -111,6 +111,12 @@ double PowerController::reelOutLaw() const
                       m_gains.fastestReelOut);
 }
 
+double PowerController::holdLaw(double tetherLength) const
+{
+    return std::clamp(m_gains.constantTetherGain * (m_gains.constantTether - tetherLength), -m_gains.fastestReelIn,
+                      m_gains.fastestReelOut);
+}
+
 double PowerController::reelInLaw() const
 {
     const double fastest = std::min(m_gains.fastestReelIn, m_gains.reelInWindFactor * m_windSpeed);
@@ -127,7 +133,7 @@ double PowerController::wantedTetherSpeed(const FlightMeasurements &measurements
         return 0.0;
     case FlightPhase::Power:
     case FlightPhase::ReelOut:
-        return reelOutLaw();
+        return m_gains.constantTether > 0.0 ? holdLaw(measurements.tetherLength) : reelOutLaw();
     case FlightPhase::Retract:
         return m_gains.retractFactor * reelOutLaw();
     case FlightPhase::ReelIn:

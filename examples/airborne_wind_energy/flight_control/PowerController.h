@@ -82,6 +82,7 @@ private:
     void chooseNext(const FlightMeasurements &measurements, const FlightGeometry &geometry);
     bool isStalled(const FlightMeasurements &measurements, const FlightGeometry &geometry);
     double reelOutLaw() const;
+    double holdLaw(double tetherLength) const;
     double reelInLaw() const;
     double wantedTetherSpeed(const FlightMeasurements &measurements, const FlightGeometry &geometry) const;
     PitchReference pitchReference(const FlightMeasurements &measurements, const FlightGeometry &geometry) const;

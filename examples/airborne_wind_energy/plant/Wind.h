@@ -39,6 +39,9 @@ public:
     /// w [3] [m/s] in the earth frame, now
     const Eigen::Vector3d &velocity() const { return m_velocity; }
 
+    /// The part of velocity() that is turbulence [3] [m/s]
+    const Eigen::Vector3d &turbulence() const { return m_turbulence; }
+
     /// Time since reset() [s]
     double time() const { return static_cast<double>(m_steps) * m_parameters.step; }
 

@@ -137,7 +137,7 @@ private Q_SLOTS:
 void tst_ExtendedPlant::withoutOptionsItIsThePlantOfTheThesisBitForBit()
 {
     const Example parameters;
-    QVERIFY(parameters.isThesis());
+    QVERIFY(parameters.options.isThesis());
     ExtendedPlant plant = parameters.plant();
     KitePlant thesis(parameters.kite);
     Commands commands;
@@ -156,7 +156,7 @@ void tst_ExtendedPlant::withoutOptionsItIsThePlantOfTheThesisBitForBit()
 void tst_ExtendedPlant::withOptionsThatChangeNothingItIsThePlantOfTheThesis()
 {
     const Example parameters = neutralOptions();
-    QVERIFY(!parameters.isThesis());
+    QVERIFY(!parameters.options.isThesis());
     ExtendedPlant plant = parameters.plant();
     KitePlant thesis(parameters.kite);
     Commands commands;

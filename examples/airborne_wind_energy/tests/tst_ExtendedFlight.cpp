@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ClosedLoopFlight.h"
+
+#include "Near.h"
+
+using namespace awe;
+
+/// Flights of half an hour with the options of the plant.
+class tst_ExtendedFlight : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void straightTetherCostsNearlyWhatSegmentsCost();
+    void calmRealisticFlightReachesItsFigures();
+    void turbulentRealisticFlightsSurvive_data();
+    void turbulentRealisticFlightsSurvive();
+    void everyWindIsFlownRealistically_data();
+    void everyWindIsFlownRealistically();
+    void turbinesOnBoardReachTheirFigures();
+    void turbinesOnBoardSurviveTurbulence();
+    void resetRepeatsTheFlightBitForBit();
+
+private:
+    static ClosedLoopParameters realistic();
+    static ClosedLoopParameters drag();
+    static FlightReport fly(const ClosedLoopParameters &parameters);
+};
+
+ClosedLoopParameters tst_ExtendedFlight::realistic()
+{
+    ClosedLoopParameters parameters;
+    parameters.options = PlantOptions::realistic();
+    parameters.gains = AutopilotGains::steered();
+    return parameters;
+}
+
+ClosedLoopParameters tst_ExtendedFlight::drag()
+{
+    ClosedLoopParameters parameters;
+    parameters.options = PlantOptions::drag();
+    parameters.gains = AutopilotGains::drag();
+    parameters.plant.initialState = PlantParameters::stateAtRest(30.0, 30.963756532073521, 150.0);
+    return parameters;
+}
+
+/// 60 s, then half an hour that counts.
+FlightReport tst_ExtendedFlight::fly(const ClosedLoopParameters &parameters)
+{
+    ClosedLoopFlight flight(parameters);
+    flight.fly(1860.0);
+    return flight.report();
+}
+
+void tst_ExtendedFlight::straightTetherCostsNearlyWhatSegmentsCost()
+{
+    ClosedLoopParameters parameters;
+    const double spring = fly(parameters).meanPower;
+    parameters.options.tether.kind = TetherKind::Straight;
+    const double straight = fly(parameters).meanPower;
+    parameters.options.tether.kind = TetherKind::Segments;
+    const double segments = fly(parameters).meanPower;
+    QVERIFY2(straight < 0.9 * spring, qPrintable(QString::number(straight / spring)));
+    COMPARE_NEAR(straight / segments, 1.0, 0.02);
+}
+
+void tst_ExtendedFlight::calmRealisticFlightReachesItsFigures()
+{
+    const FlightReport report = fly(realistic());
+    QVERIFY2(report.meanPower >= 1150.0, qPrintable(QString::number(report.meanPower)));
+    QVERIFY2(report.electricalPower >= 860.0, qPrintable(QString::number(report.electricalPower)));
+    QVERIFY2(report.minimumAltitude >= 25.0, qPrintable(QString::number(report.minimumAltitude)));
+    QCOMPARE(report.recoveries, 0);
+    QVERIFY(!report.crashed);
+}
+
+void tst_ExtendedFlight::turbulentRealisticFlightsSurvive_data()
+{
+    QTest::addColumn<quint64>("seed");
+    for (quint64 seed = 10; seed <= 17; ++seed)
+        QTest::addRow("seed %d", int(seed)) << seed;
+}
+
+void tst_ExtendedFlight::turbulentRealisticFlightsSurvive()
+{
+    QFETCH(quint64, seed);
+    ClosedLoopParameters parameters = realistic();
+    parameters.wind.turbulenceIntensity = 0.15;
+    parameters.wind.seed = seed;
+    const FlightReport report = fly(parameters);
+    QVERIFY(!report.crashed);
+    QVERIFY2(report.electricalPower >= 850.0, qPrintable(QString::number(report.electricalPower)));
+}
+
+void tst_ExtendedFlight::everyWindIsFlownRealistically_data()
+{
+    QTest::addColumn<double>("speed");
+    for (const double speed : {5.0, 7.0, 8.0, 10.0, 12.0, 14.0})
+        QTest::addRow("%g m/s", speed) << speed;
+}
+
+void tst_ExtendedFlight::everyWindIsFlownRealistically()
+{
+    QFETCH(double, speed);
+    ClosedLoopParameters parameters = realistic();
+    parameters.wind.meanVelocity *= speed / parameters.wind.meanVelocity.norm();
+    const FlightReport report = fly(parameters);
+    QVERIFY(!report.crashed);
+    const double efficiency = report.electricalPower / report.meanPower;
+    QVERIFY2(efficiency >= (speed >= 7.0 ? 0.78 : 0.6), qPrintable(QString::number(efficiency)));
+}
+
+void tst_ExtendedFlight::turbinesOnBoardReachTheirFigures()
+{
+    const FlightReport report = fly(drag());
+    QVERIFY2(report.turbinePower >= 2950.0, qPrintable(QString::number(report.turbinePower)));
+    QVERIFY2(report.minimumAltitude >= 25.0, qPrintable(QString::number(report.minimumAltitude)));
+    QCOMPARE(report.recoveries, 0);
+    QCOMPARE(report.pumpingCycles, 0);
+    QVERIFY(!report.crashed);
+}
+
+void tst_ExtendedFlight::turbinesOnBoardSurviveTurbulence()
+{
+    ClosedLoopParameters parameters = drag();
+    parameters.wind.turbulenceIntensity = 0.15;
+    for (parameters.wind.seed = 10; parameters.wind.seed <= 13; ++parameters.wind.seed) {
+        ClosedLoopFlight flight(parameters);
+        flight.fly(1860.0);
+        QVERIFY(!flight.report().crashed);
+        // After a recovery the tether is paid out again.
+        COMPARE_NEAR(flight.outputs().tetherLength, 150.0, 40.0);
+    }
+}
+
+void tst_ExtendedFlight::resetRepeatsTheFlightBitForBit()
+{
+    ClosedLoopParameters parameters = realistic();
+    parameters.wind.turbulenceIntensity = 0.15;
+    ClosedLoopFlight flight(parameters);
+    flight.fly(60.0);
+    const Eigen::Vector3d first = flight.outputs().position;
+    flight.reset();
+    flight.fly(60.0);
+    QVERIFY(flight.outputs().position == first);
+}
+
+QTEST_APPLESS_MAIN(tst_ExtendedFlight)
+#include "tst_ExtendedFlight.moc"
