@@ -20,8 +20,8 @@ struct PlantOptions
     WinchDriveParameters machine;
     bool hasTurbines = false;  // whether turbines on board brake the wing: drag mode
 
-    /// What a plant that is built has: log wind, a tether in segments, a machine at the winch, and a
-    /// wing that the air turns.
+    /// What a plant that is built has: log wind, a tether in segments, a machine at the winch, and
+    /// a wing that the air turns.
     static PlantOptions realistic();
     /// Turbines on board.
     static PlantOptions drag();
