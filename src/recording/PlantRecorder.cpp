@@ -5,6 +5,8 @@
 
 #include <QtCore/QDateTime>
 #include <QtCore/QFile>
+#include <QtCore/QJsonDocument>
+#include <QtCore/QJsonObject>
 
 #include <algorithm>
 #include <cstring>
@@ -201,6 +203,8 @@ void PlantRecorder::addCycle()
     const auto published = cycle.wallTime != 0 ? std::uint64_t(cycle.wallTime) : m_time;
     const auto sequence = std::uint32_t(cycle.number);
     const PlantMessage::Cycle head{cycle.number, cycle.lateness, cycle.skipped, cycle.flags};
+    if (cycle.beforeSize > 0 && cycle.number == 0)
+        keepInitialValues(view.before);
     if (cycle.beforeSize > 0) {
         m_message->encode(head, view.before, &m_body);
         m_writer->addMessage(m_before, sequence, m_time, published, m_body.constData(), std::size_t(m_body.size()));
@@ -216,6 +220,18 @@ void PlantRecorder::addCycle()
     m_digest = cycle.digest;
     m_hasDigest = false;
     ++m_cycles;
+}
+
+/// For people, and for programs that do not want to decode a message.
+void PlantRecorder::keepInitialValues(const char *image)
+{
+    const QPlcSignalTable &table = m_message->table();
+    QJsonObject values;
+    for (QPlcSignalIndex i = 0; i < QPlcSignalIndex(table.size()); ++i) {
+        const QPlcSignalDefinition &signal = table.at(i);
+        values.insert(signal.name, QPlcValue::fromBytes(signal.type, image + m_message->image().offset(i)).toString());
+    }
+    m_initial = QJsonDocument(values).toJson();
 }
 
 void PlantRecorder::watch(const CycleView &view)
@@ -437,6 +453,11 @@ bool PlantRecorder::save(bool sync, QString *error)
 {
     if (!m_hasDigest)
         addDigest({});
+    if (!m_initial.isEmpty()
+        && !m_writer->addAttachment("initial_values.json", "application/json", m_initial, std::uint64_t(m_startTime),
+                                    error))
+        return false;
+    m_initial.clear();
     if (!m_writer->flush(error) || (sync && !m_writer->sync(error)))
         return false;
     m_reader.release();

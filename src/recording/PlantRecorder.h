@@ -100,6 +100,7 @@ private:
     void addEnd(const RecordedEnd &end);
     void addDigest(const QByteArray &more);
     void addOverview();
+    void keepInitialValues(const char *image);
     bool isChunkFull() const;
     void watch(const CycleView &view);
 
@@ -121,6 +122,7 @@ private:
     QByteArray m_body;
     QByteArray m_exchange;  // of the newest message of /nodes
     QByteArray m_roster;    // newest message of /rosters
+    QByteArray m_initial;   // values before the first cycle, that are not in the file yet
     std::uint32_t m_rosterNumber = 0;
     std::deque<RecordedSettings> m_adoptions;  // the newest ones
     std::uint64_t m_lastText = 0;              // number

@@ -14,6 +14,7 @@ private Q_SLOTS:
     void init();
     void aKilledMasterLeavesWhoSetWhat_data();
     void aKilledMasterLeavesWhoSetWhat();
+    void aReportShowsThem();
     void badCallsAreRefused_data();
     void badCallsAreRefused();
 
@@ -111,6 +112,26 @@ void tst_RecordedEvents::aKilledMasterLeavesWhoSetWhat()
         }
     }
     QCOMPARE(checked, 2);
+}
+
+void tst_RecordedEvents::aReportShowsThem()
+{
+    ProcessPlant plant;
+    const QString file = m_folder->filePath("flight.mcap");
+    const QString report = m_folder->filePath("report.html");
+    QVERIFY(plant.start({"--record=" + file}));
+    QCOMPARE(plant.qtplc("start").exitCode, 0);
+    QCOMPARE(plant.qtplc("set tetherSpeed 1.5").exitCode, 0);
+    QCOMPARE(plant.qtplc("stop").exitCode, 0);
+    plant.master().terminate();
+    QCOMPARE(plant.master().waitForEnd(), 0);
+    QCOMPARE(runProgram(programPath("qtplc"), {"report", file, "-o", report}).exitCode, 0);
+    QFile page(report);
+    QVERIFY(page.open(QIODevice::ReadOnly));
+    const QByteArray html = page.readAll();
+    QVERIFY(html.contains("has set tetherSpeed: "));
+    QVERIFY(html.contains("commands Stop"));
+    QVERIFY(html.contains("asked for it"));  // the last state, which is told behind the last cycle
 }
 
 void tst_RecordedEvents::badCallsAreRefused_data()

@@ -4,6 +4,7 @@
 #include "recording/McapReader.h"
 #include "recording/Verification.h"
 
+#include <QtCore/QJsonDocument>
 #include <QtTest/QtTest>
 
 using namespace qplc;
@@ -93,6 +94,7 @@ private Q_SLOTS:
     void theLastTextIsWaitedForButNotForEver();
     void whatTheMasterHasToldBeforeItWasKilledIsInTheFile();
     void anotherFileGoesOnWithTheNextText();
+    void theInitialValuesAreAnAttachment();
 };
 
 void tst_PlantRecorder::theFileHasTheWholeFlight()
@@ -507,6 +509,36 @@ void tst_PlantRecorder::anotherFileGoesOnWithTheNextText()
     const std::vector<Happening> told = happeningsOf(flight.file);
     QCOMPARE(told.size(), std::size_t(1));
     QCOMPARE(told[0].sentence(), QString("second"));
+}
+
+void tst_PlantRecorder::theInitialValuesAreAnAttachment()
+{
+    RecordedFlight flight;
+    QVERIFY(flight.begin());
+    flight.cycle.setValues({{2, QPlcValue::fromString(flight.table.at(2).type, "1, 2, 3"), QPlcQuality::Good}});
+    QVERIFY(flight.start());
+    flight.step(3);
+    flight.cycle.stop();
+    QCOMPARE(flight.recorder.proceed(&flight.error), PlantRecorder::Ended);
+    QVERIFY(flight.recorder.finish(&flight.error));
+    Recording recording;
+    QVERIFY2(recording.open({flight.file}, &flight.error), qPrintable(flight.error));
+    mcap::Reader reader;
+    QVERIFY(reader.open(flight.file, &flight.error));
+    int found = 0;
+    for (const mcap::NamedEntry &entry : recording.files()[0].attachments) {
+        mcap::Attachment attachment;
+        QVERIFY(reader.readAttachment(entry, &attachment));
+        if (attachment.name != "initial_values.json")
+            continue;
+        ++found;
+        const QJsonObject values = QJsonDocument::fromJson(attachment.data).object();
+        QCOMPARE(values.size(), 6);
+        QCOMPARE(values.value("force").toString(), QString("1, 2, 3"));
+        QCOMPARE(values.value("phase").toString(), QString());
+    }
+    QCOMPARE(found, 1);
+    QVERIFY(verified(flight.file).isComplete());
 }
 
 QTEST_GUILESS_MAIN(tst_PlantRecorder)

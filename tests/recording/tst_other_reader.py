@@ -5,6 +5,7 @@ indexes, the message description, the digest of the images.
 
 usage: tst_other_reader.py MAKE_RECORDING
 """
+import json
 import re
 import shutil
 import struct
@@ -129,6 +130,7 @@ def check(data, flight_digest):
     assert data.startswith(MAGIC) and data.endswith(MAGIC)
     channels, schemas, times, result, following = {}, {}, [], 0, 0
     chunks, indexes = {}, {}
+    values, commands = {}, []
     data_end = None
     for at, opcode, content in records(data, len(MAGIC), len(data) - len(MAGIC)):
         if data_end is not None:
@@ -162,8 +164,15 @@ def check(data, flight_digest):
                         assert message["cycle"][0] == following == sequence
                         assert message["position_x_2"] == following
                         result = digest(result, image(message))
+                        values[following] = message["position_x_2"]
                         following += 1
+                    elif topic == b"/commands":
+                        commands.append((time, json.loads(body[22:])))
     assert times == sorted(times)
+    assert [command["cycle"] for _, command in commands] == [0, 200, 400, 600]
+    for time, command in commands:
+        assert time == command["cycle"] * 10_000_000 and command["by"] == "Anna"
+        assert values[command["cycle"]] == int(command["to"]), f"{command} is not what the cycle has adopted"
     assert f"{result:016x}" == flight_digest, "the digest of the images is not that of the flight"
     return check_summary(data, data_end, chunks, indexes, channels), following
 
