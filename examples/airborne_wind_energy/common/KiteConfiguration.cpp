@@ -99,6 +99,8 @@ QVector<KiteKey> keysOf(KiteConfiguration *kite)
     keys.append(integerKey("substeps", &kite->substeps, 1.0, 100.0));
     keys.append(vectorKey("wind", &kite->wind.meanVelocity, 100.0));
     WindParameters::visitConstants(kite->wind, addNumber);
+    keys.append(choiceKey("turbulenceModel", &kite->wind.turbulenceModel, "first-order", TurbulenceModel::FirstOrder,
+                          "kaimal", TurbulenceModel::Kaimal));
     keys.append(integerKey("seed", &kite->wind.seed, 0.0, mostSeed));
     addNumber("elevation", kite->elevation, -90.0, 90.0, "deg");
     addNumber("azimuth", kite->azimuth, -360.0, 360.0, "deg");

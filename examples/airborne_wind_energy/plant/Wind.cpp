@@ -31,7 +31,9 @@ Wind::Wind(const WindParameters &parameters)
     m_memory = std::exp(-parameters.step * speed / parameters.lengthScale);
     m_isTurbulent = parameters.turbulenceIntensity > 0.0 && speed > 0.0;
     const double excitation = parameters.turbulenceIntensity * speed * std::sqrt(1.0 - m_memory * m_memory);
-    m_excitation = windFrame(parameters.meanVelocity) * (excitation * parameters.turbulenceRatio).asDiagonal();
+    m_frame = windFrame(parameters.meanVelocity);
+    m_excitation = m_frame * (excitation * parameters.turbulenceRatio).asDiagonal();
+    m_isKaimal = m_isTurbulent && parameters.turbulenceModel == TurbulenceModel::Kaimal;
     reset();
 }
 
@@ -40,7 +42,13 @@ void Wind::reset()
     m_gaussian.reset(m_parameters.seed);
     m_steps = 0;
     m_turbulence.setZero();
-    m_velocity = m_parameters.meanVelocity * gustFactor();
+    if (m_isKaimal) {
+        const double speed = m_parameters.meanVelocity.norm();
+        m_kaimal = KaimalTurbulence(speed, m_parameters.turbulenceIntensity * speed * m_parameters.turbulenceRatio,
+                                    m_parameters.lengthScale, m_parameters.step, m_parameters.seed);
+        moveKaimal();
+    }
+    m_velocity = m_parameters.meanVelocity * gustFactor() + m_turbulence;
 }
 
 double Wind::gustFactor() const
@@ -52,10 +60,18 @@ double Wind::gustFactor() const
     return 1.0 + 0.5 * m_parameters.gustAmplitude * (1.0 - std::cos(fullTurn * sinceStart / m_parameters.gustDuration));
 }
 
+void Wind::moveKaimal()
+{
+    const Eigen::Vector3d value = m_kaimal.step();
+    m_turbulence = m_frame.col(0) * value[0] + m_frame.col(1) * value[1] + m_frame.col(2) * value[2];
+}
+
 void Wind::step()
 {
     ++m_steps;
-    if (m_isTurbulent) {
+    if (m_isKaimal) {
+        moveKaimal();
+    } else if (m_isTurbulent) {
         const double along = m_gaussian.next(), across = m_gaussian.next(), upwards = m_gaussian.next();
         // Column by column: Eigen's product of a matrix and a vector fuses multiplication and
         // addition where a processor can, and rounds once less there.

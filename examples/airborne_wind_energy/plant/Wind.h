@@ -2,6 +2,7 @@
 #pragma once
 
 #include "GaussianSource.h"
+#include "KaimalTurbulence.h"
 #include "WindParameters.h"
 
 #include <Eigen/Core>
@@ -16,7 +17,7 @@ namespace awe {
 ///          + n(t)                                                                                        turbulence
 ///
 /// The turbulence n has three independent parts: along the mean wind, across it (level), and
-/// upwards. Each is an Ornstein-Uhlenbeck process, n' = -n |w_mean| / L + white noise, of the
+/// upwards. By TurbulenceModel it is that of KaimalTurbulence, or each is an Ornstein-Uhlenbeck process, n' = -n |w_mean| / L + white noise, of the
 /// standard deviation sigma = TI |w_mean| turbulenceRatio, advanced by its exact solution
 ///
 ///     n(k+1) = a n(k) + sigma sqrt(1 - a^2) g(k),  a = exp(-h |w_mean| / L),  g standard normal
@@ -49,11 +50,15 @@ public:
 
 private:
     double gustFactor() const;
+    void moveKaimal();
 
     WindParameters m_parameters;
     GaussianSource m_gaussian;
     double m_memory = 0.0;  // a
     bool m_isTurbulent = false;
+    bool m_isKaimal = false;
+    KaimalTurbulence m_kaimal;
+    Eigen::Matrix3d m_frame = Eigen::Matrix3d::Identity();   // columns: along the mean wind, across it, upwards
     Eigen::Matrix3d m_excitation = Eigen::Matrix3d::Zero();  // columns: sigma sqrt(1 - a^2) times direction [m/s]
     std::int64_t m_steps = 0;
     Eigen::Vector3d m_turbulence = Eigen::Vector3d::Zero();  // n [m/s]

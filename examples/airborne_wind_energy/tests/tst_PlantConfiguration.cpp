@@ -93,7 +93,7 @@ void tst_PlantConfiguration::builtInFileDescribesTheKiteOfTheThesis()
 {
     QByteArray text("[kite]\n");
     const QVector<ShownKey> keys = shownKeys();
-    QCOMPARE(keys.size(), 25);
+    QCOMPARE(keys.size(), 26);
     for (const ShownKey &key : keys) {
         if (key.name != QLatin1String("azimuth"))  // without it: downwind
             text += QStringLiteral("%1 = %2\n").arg(key.name, key.value).toUtf8();
@@ -118,6 +118,7 @@ void tst_PlantConfiguration::builtInFileDescribesTheKiteOfTheThesis()
         QCOMPARE(values, wanted);
         QVERIFY(configuration.kite.wind.meanVelocity == WindParameters().meanVelocity);
         QCOMPARE(configuration.kite.wind.seed, WindParameters().seed);
+        QCOMPARE(configuration.kite.wind.turbulenceModel, TurbulenceModel::FirstOrder);
         QCOMPARE(configuration.kite.substeps, 1);
         QCOMPARE(plant.groundContact, GroundContact::Hold);
         QCOMPARE(plant.angleOfAttackRange, AngleOfAttackRange::Folded);

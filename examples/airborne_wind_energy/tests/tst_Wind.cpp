@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "AngleMath.h"
 #include "Wind.h"
 
 #include "Near.h"
@@ -19,6 +20,10 @@ private Q_SLOTS:
     void sameSeedGivesTheSameWindBitForBit();
     void otherSeedGivesAnotherWind();
     void gaussianNumbersAreNormalAndKnown();
+    void kaimalTurbulenceHasTheWantedStandardDeviations();
+    void kaimalTurbulenceHasItsSpectrum();
+    void kaimalTurbulenceDoesNotDependOnTheStep();
+    void kaimalTurbulenceRepeatsWithItsSeed();
     void verticalMeanWindHasFiniteTurbulence();
     void badValueIsNamed();
 
@@ -157,6 +162,107 @@ void tst_Wind::gaussianNumbersAreNormalAndKnown()
     source.reset(1);
     COMPARE_NEAR(source.next(), -0.039399956754155314, 1e-12);
     COMPARE_NEAR(source.next(), -0.38683176162103955, 1e-12);
+}
+
+void tst_Wind::kaimalTurbulenceHasTheWantedStandardDeviations()
+{
+    WindParameters parameters = turbulent();
+    parameters.turbulenceModel = TurbulenceModel::Kaimal;
+    parameters.lengthScale = 35.0;
+    Vector3d sum = Vector3d::Zero(), squares = Vector3d::Zero();
+    constexpr int seeds = 40, steps = 60000;  // of 10 minutes
+    for (parameters.seed = 1; parameters.seed <= seeds; ++parameters.seed) {
+        Wind wind(parameters);
+        for (int i = 0; i < steps; i += 10) {
+            for (int k = 0; k < 10; ++k)
+                wind.step();
+            sum += wind.turbulence();
+            squares += wind.turbulence().cwiseAbs2();
+        }
+    }
+    const double count = seeds * steps / 10.0;
+    const Vector3d deviation = (squares / count).cwiseSqrt();
+    const double along = 0.15 * 8.0;
+    COMPARE_NEAR(deviation.x(), along, 0.03 * along);
+    COMPARE_NEAR(deviation.y(), 0.8 * along, 0.03 * along);
+    COMPARE_NEAR(deviation.z(), 0.5 * along, 0.03 * along);
+    COMPARE_NEAR((sum / count).norm(), 0.0, 0.2 * along);  // much of it is slower than 10 minutes
+}
+
+// The variance in each octave, by the exact sums over an interval of 2^16 values, is that of the
+// formula.
+void tst_Wind::kaimalTurbulenceHasItsSpectrum()
+{
+    WindParameters parameters = turbulent();
+    parameters.turbulenceModel = TurbulenceModel::Kaimal;
+    parameters.lengthScale = 35.0;
+    const double scale = 8.1 * 35.0 / 8.0, variance = 1.2 * 1.2;  // n of 1 Hz; (TI U)^2
+    const auto above = [&](double frequency) { return variance * std::pow(1.0 + 6.0 * scale * frequency, -2.0 / 3.0); };
+    constexpr int count = 8192;
+    constexpr double step = 0.05;
+    std::vector<double> octaves(9, 0.0);
+    constexpr int seeds = 24;
+    for (parameters.seed = 1; parameters.seed <= seeds; ++parameters.seed) {
+        parameters.step = step;
+        Wind wind(parameters);
+        std::vector<double> values(count);
+        for (int i = 0; i < count; ++i, wind.step())  // Hann: what is between two lines does not leak far
+            values[std::size_t(i)] = wind.turbulence().x() * (1.0 - std::cos(2.0 * pi * i / count));
+        for (std::size_t octave = 0; octave < octaves.size(); ++octave) {
+            for (int line = 8 << octave; line < 16 << octave && line < count / 2; line += 1 << octave) {
+                double x = 0.0, y = 0.0;
+                for (int i = 0; i < count; ++i) {
+                    const double angle = 2.0 * pi * double((long(line) * i) % count) / count;
+                    x += values[std::size_t(i)] * std::cos(angle);
+                    y += values[std::size_t(i)] * std::sin(angle);
+                }
+                // Power of this line, for all that it stands for; 1.5: power of the window.
+                octaves[octave] += 2.0 * (x * x + y * y) / (double(count) * count) / 1.5 * (1 << octave) / seeds;
+            }
+        }
+    }
+    for (std::size_t octave = 0; octave < 7; ++octave) {
+        const double low = double(8 << octave) / (count * step);
+        const double expected = above(low) - above(2.0 * low);
+        QVERIFY2(std::abs(octaves[octave] / expected - 1.0) < 0.3,
+                 qPrintable(
+                     QStringLiteral("octave from %1 Hz: %2, expected %3").arg(low).arg(octaves[octave]).arg(expected)));
+    }
+}
+
+void tst_Wind::kaimalTurbulenceDoesNotDependOnTheStep()
+{
+    WindParameters parameters = turbulent();
+    parameters.turbulenceModel = TurbulenceModel::Kaimal;
+    Wind fine(parameters);
+    parameters.step = 0.02;
+    Wind coarse(parameters);
+    // The first value comes after one step of each: 10 and 20 ms.
+    for (int i = 0; i < 500; ++i) {
+        coarse.step();
+        fine.step();
+        fine.step();
+        if (i == 0)
+            fine.step();
+    }
+    COMPARE_NEAR((fine.velocity() - coarse.velocity()).norm(), 0.0, 1e-9);
+}
+
+void tst_Wind::kaimalTurbulenceRepeatsWithItsSeed()
+{
+    WindParameters parameters = turbulent(5);
+    parameters.turbulenceModel = TurbulenceModel::Kaimal;
+    Wind first(parameters), second(parameters);
+    for (int i = 0; i < 1000; ++i) {
+        QVERIFY(first.velocity() == second.velocity());
+        first.step();
+        second.step();
+    }
+    first.reset();
+    second = Wind(parameters);
+    QVERIFY(first.velocity() == second.velocity());
+    parameters.seed = 6;
+    QVERIFY(Wind(parameters).velocity() != first.velocity());
 }
 
 void tst_Wind::verticalMeanWindHasFiniteTurbulence()
