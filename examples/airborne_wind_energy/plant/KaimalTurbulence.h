@@ -11,13 +11,15 @@ namespace awe {
 /// Turbulence with the spectrum of Kaimal, as IEC 61400-1 gives it for a point:
 ///
 ///     f S_k(f) / sigma_k^2 = 4 n / (1 + 6 n)^(5/3),  n = f L_k / U
-///     sigma = (1, 0.8, 0.5) TI U,  L = (8.1, 2.7, 0.66) Lambda          along the mean wind, across it, upwards
+///     sigma = (1, 0.8, 0.5) TI U,  L = (8.1, 2.7, 0.66) Lambda
+///
+/// along the mean wind, across it, and upwards.
 ///
 /// It is a sum of harmonics. Each one stands for a band of frequencies, has the variance of the
-/// spectrum in this band (the whole integral is exact), a frequency at random within it, and a phase
-/// at random. So the variance does not depend on the step, nothing repeats itself, and the flight
-/// begins in turbulence that is fully grown. The same seed gives the same turbulence, bit for bit,
-/// on each machine with the same mathematical library.
+/// spectrum in this band (the whole integral is exact), a frequency at random within it, and a
+/// phase at random. So the variance does not depend on the step, nothing repeats itself, and the
+/// flight begins in turbulence that is fully grown. The same seed gives the same turbulence, bit
+/// for bit, on each machine with the same mathematical library.
 ///
 /// step() takes no memory. One thread at a time.
 class KaimalTurbulence

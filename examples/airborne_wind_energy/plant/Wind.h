@@ -17,8 +17,9 @@ namespace awe {
 ///          + n(t)                                                                                        turbulence
 ///
 /// The turbulence n has three independent parts: along the mean wind, across it (level), and
-/// upwards. By TurbulenceModel it is that of KaimalTurbulence, or each is an Ornstein-Uhlenbeck process, n' = -n |w_mean| / L + white noise, of the
-/// standard deviation sigma = TI |w_mean| turbulenceRatio, advanced by its exact solution
+/// upwards. By the TurbulenceModel it is that of KaimalTurbulence, or each part is an
+/// Ornstein-Uhlenbeck process, n' = -n |w_mean| / L + white noise, of the standard deviation sigma
+/// = TI |w_mean| turbulenceRatio, advanced by its exact solution
 ///
 ///     n(k+1) = a n(k) + sigma sqrt(1 - a^2) g(k),  a = exp(-h |w_mean| / L),  g standard normal
 ///
