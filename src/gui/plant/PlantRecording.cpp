@@ -87,6 +87,8 @@ PlantRecording::PlantRecording(Plant *plant, std::unique_ptr<Recording> recordin
     m_end = m_recording->end() + m_shift;
     m_timer.setInterval(0);
     connect(&m_timer, &QTimer::timeout, this, &PlantRecording::readSome);
+    m_happeningTimer.setInterval(0);
+    connect(&m_happeningTimer, &QTimer::timeout, this, &PlantRecording::tellSome);
     beginSection(m_begin, m_end);
 }
 
@@ -271,6 +273,45 @@ void PlantRecording::finish()
     Q_EMIT m_plant->statusChanged();
     Q_EMIT m_plant->updated();
     Q_EMIT read();
+    if (isFirst) {
+        m_happenings
+            = std::make_unique<HappeningReader>(*m_recording, Happening::Event | Happening::Command | Happening::Lease);
+        m_happeningTimer.start();
+    }
+}
+
+// ---- what has happened ----
+
+void PlantRecording::tellSome()
+{
+    QElapsedTimer clock;
+    clock.start();
+    bool isMore = true;
+    for (Happening happening; isMore && clock.elapsed() < sliceTime;) {
+        isMore = m_told < MostHappenings && m_happenings->next(&happening);
+        if (isMore)
+            tell(happening);
+    }
+    if (isMore)
+        return;
+    m_happeningTimer.stop();
+    m_happenings.reset();
+}
+
+/// Nobody has to acknowledge what is over.
+void PlantRecording::tell(const Happening &happening)
+{
+    ++m_told;
+    const QString severity = happening.severity();
+    PlantEvent event;
+    event.time = QDateTime::fromMSecsSinceEpoch((happening.time + m_shift) / 1'000'000);
+    event.severity = severity == QLatin1String("error") ? PlantEvent::Error
+        : severity == QLatin1String("warning")          ? PlantEvent::Warning
+                                                        : PlantEvent::Information;
+    event.source = m_plant->sourceOf({});
+    event.text = happening.sentence();
+    event.isAcknowledged = true;
+    m_plant->tell(event);
 }
 
 }  // namespace qplc

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "PlantValues.h"
-#include "recording/Recording.h"
+#include "recording/Happenings.h"
 
 #include <QtCore/QObject>
 #include <QtCore/QTimer>
@@ -19,6 +19,9 @@ class Plant;
 /// looks closer, all cycles around what is seen. Files are read a little at a time, beside what
 /// people do.
 ///
+/// The plant then tells what has happened in the recording: its events, commands and leases, the
+/// first MostHappenings of them.
+///
 /// Times are those of the recording. A simulation, whose times begin at 0, begins at 00:00 of the
 /// clock of this computer.
 ///
@@ -31,6 +34,7 @@ public:
 
     /// Of all recordings of a window together [byte].
     static constexpr std::int64_t UsualMemory = std::int64_t(512) << 20;
+    static constexpr int MostHappenings = 2000;
 
     /// Begins to read the cycles.
     /// \param plant  owns this object; never open()ed
@@ -77,11 +81,16 @@ private:
     void storeRow(const RecordedRows &rows);
     void storeOverview();
     void finish();
+    void tellSome();
+    void tell(const Happening &happening);
 
     Plant *m_plant;
     std::unique_ptr<Recording> m_recording;
     std::unique_ptr<Section> m_section;  // that is being read; null: none
     QTimer m_timer;
+    QTimer m_happeningTimer;
+    std::unique_ptr<HappeningReader> m_happenings;  // that are being told; null: none
+    int m_told = 0;
     std::int64_t m_memory;    // of the store [byte]
     std::int64_t m_mostRows;  // of the store
     Time m_shift = 0;         // to the clock of the window

@@ -18,6 +18,7 @@ namespace {
 constexpr double margin = 9.0;      // [px] at both ends, for the handle
 constexpr double lineHeight = 6.0;  // [px]
 constexpr double handle = 6.0;      // [px] radius
+constexpr int mostTexts = 8;        // of events, under the pointer
 constexpr double catchEvent = 5.0;  // [px] around an event: a click means it
 
 }  // namespace
@@ -63,7 +64,7 @@ void RecordingTimeline::findEvents()
         const bool isOfPlant
             = event.source == plant->name() || event.source.startsWith(plant->name() + QLatin1Char('/'));
         if (isOfPlant && time >= m_playback->begin() && time <= m_playback->end())
-            m_events.push_back(time);
+            m_events.emplace_back(time, event.text);
     }
     update();
 }
@@ -77,7 +78,9 @@ bool RecordingTimeline::event(QEvent *event)
 {
     if (event->type() == QEvent::ToolTip) {
         const auto *help = static_cast<QHelpEvent *>(event);
-        QToolTip::showText(help->globalPos(), clockText(timeAt(help->x())), this);
+        QToolTip::showText(
+            help->globalPos(),
+            QStringList({clockText(timeAt(help->x())), textsAt(help->x())}).join(QLatin1Char('\n')).trimmed(), this);
         return true;
     }
     return QWidget::event(event);
@@ -100,7 +103,7 @@ void RecordingTimeline::paintEvent(QPaintEvent * /*event*/)
     const double seenTo = std::clamp(xOf(axis->end()), margin, width() - margin);
     fill(seenFrom, seenTo, lineHeight, theme.mutedText);
     painter.setPen(QPen(theme.warning, 1.5));
-    for (const Time time : m_events)
+    for (const auto &[time, text] : m_events)
         painter.drawLine(QPointF(xOf(time), y - 10.0), QPointF(xOf(time), y - 4.0));
     if (m_playback->isLoop()) {
         const auto [first, last] = m_playback->loopRange();
@@ -114,12 +117,22 @@ void RecordingTimeline::paintEvent(QPaintEvent * /*event*/)
         drawFocusRing(&painter, rect(), theme);
 }
 
+QString RecordingTimeline::textsAt(double x) const
+{
+    QStringList texts;
+    for (const auto &[time, text] : m_events) {
+        if (texts.size() < mostTexts && std::fabs(xOf(time) - x) < catchEvent)
+            texts << text;
+    }
+    return texts.join(QLatin1Char('\n'));
+}
+
 /// An event that is near is meant.
 void RecordingTimeline::seekTo(double x)
 {
     Time time = timeAt(x);
     double distance = catchEvent;
-    for (const Time event : m_events) {
+    for (const auto &[event, text] : m_events) {
         if (std::fabs(xOf(event) - x) < distance) {
             distance = std::fabs(xOf(event) - x);
             time = event;

@@ -8,7 +8,8 @@
 namespace qplc {
 
 /// The whole of a recording as a line: what the plots show of it, the playhead, the cursors, and a
-/// tick for each event. A click or a drag moves the playhead.
+/// tick for each event, whose text is shown under the pointer. A click or a drag moves the
+/// playhead.
 ///
 /// Keys: left and right step a cycle, page up and page down a screen, home and end go to the ends.
 class RecordingTimeline : public QWidget
@@ -26,6 +27,8 @@ public:
     /// [px] from the left edge
     double xOf(Time time) const;
     Time timeAt(double x) const;
+    /// What has happened near to this place, a line for each event. \param x [px]
+    QString textsAt(double x) const;
     /// The time of the day, with milliseconds.
     static QString clockText(Time time);
 
@@ -42,7 +45,7 @@ private:
 
     Playback *m_playback;
     WindowContext *m_context;
-    std::vector<Time> m_events;  // of the recording that is played
+    std::vector<std::pair<Time, QString>> m_events;  // of the recording that is played, with their texts
 };
 
 }  // namespace qplc

@@ -16,18 +16,33 @@ namespace {
 constexpr int cycles = 1000;  // of a flight, 10 ms each
 constexpr Playback::Time period = 10'000'000;
 
-/// A file with a flight: the signal position_x has the number of the cycle.
+constexpr int happened = 300;  // cycle in which the winch is hot
+
+RecordedText hotWinch()
+{
+    RecordedText text;
+    text.cycle = happened;
+    text.wallTime = 1;
+    return text;
+}
+
+/// A file with a flight: the signal position_x has the number of the cycle. In the cycle `happened`
+/// the winch is hot.
 struct FlightFile : RecordedFlight
 {
     explicit FlightFile(int count = cycles)
+        : RecordedFlight(1 << 20, 1 << 16)
     {
         if (!begin() || !start())
             qFatal("%s", qPrintable(error));
         for (int done = 0; done < count; done += 100) {
             step(100);
+            if (done == happened)
+                ring->addText(hotWinch(), R"({"severity":"error","kind":"fault","text":"the winch is hot"})");
             recorder.proceed(&error);
         }
         cycle.stop();
+        ring->endTexts();
         if (recorder.proceed(&error) != PlantRecorder::Ended || !recorder.finish(&error))
             qFatal("%s", qPrintable(error));
     }
@@ -74,6 +89,7 @@ private Q_SLOTS:
     void aLoopPlaysWhatIsBetweenTheCursors();
     void stepsGoFromCycleToCycle();
     void aClickOnTheLineMovesThePlayhead();
+    void anEventIsATickWithItsText();
     void everythingGoesByKeys();
     void nothingInARecordingCanBeCommanded();
     void stopMeansNoRecording();
@@ -204,6 +220,29 @@ void tst_Recordings::aClickOnTheLineMovesThePlayhead()
     QTest::mouseClick(line, Qt::LeftButton, {}, {int(line->xOf(middle)), line->height() / 2});
     const double distance = std::abs(line->xOf(fixture.playback().position()) - line->xOf(middle));
     QVERIFY2(distance <= 1.0, qPrintable(QString::number(distance)));
+}
+
+void tst_Recordings::anEventIsATickWithItsText()
+{
+    RecordingWindow fixture;
+    const auto *line = fixture.part<RecordingTimeline>();
+    const Playback::Time time = fixture.playback().begin() + happened * period;
+    const double x = line->xOf(time);
+    QTRY_COMPARE(line->textsAt(x + 2.0), QStringLiteral("the winch is hot"));
+    QCOMPARE(line->textsAt(x + 100.0), QString());
+    QTest::mouseClick(fixture.part<RecordingTimeline>(), Qt::LeftButton, {}, QPoint(int(x) + 2, 16));
+    QCOMPARE(fixture.playback().position(), time);
+    const EventLogModel *events = fixture.window.context()->events();
+    int told = 0;
+    for (int row = 0; row < events->rowCount(); ++row) {
+        const PlantEvent &event = events->at(row);
+        if (event.text != QLatin1String("the winch is hot"))
+            continue;
+        ++told;
+        QCOMPARE(event.severity, PlantEvent::Error);
+        QVERIFY(event.isAcknowledged);  // it is over
+    }
+    QCOMPARE(told, 1);
 }
 
 void tst_Recordings::everythingGoesByKeys()
