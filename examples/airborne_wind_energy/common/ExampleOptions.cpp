@@ -100,10 +100,12 @@ void addModelOptions(QPlcCoreApplication &application)
         "N", "");
 }
 
-bool readModelOptions(QPlcCoreApplication &application, const KiteConfiguration &kite, ModelSettings *settings)
+bool readModelOptions(QPlcCoreApplication &application, const PlantConfiguration &plant, ModelSettings *settings)
 {
     const QString wind = QStringLiteral("wind"), turbulence = QStringLiteral("turbulence"),
                   seed = QStringLiteral("seed");
+    const KiteConfiguration &kite = plant.kite;
+    settings->options = plant.options;
     settings->wind = kite.wind;
     qint64 course = 0;
     if ((application.isSet(wind) && !readWind(application, &settings->wind.meanVelocity))
@@ -121,8 +123,9 @@ bool readModelOptions(QPlcCoreApplication &application, const KiteConfiguration 
 void addPlantOptions(QPlcCoreApplication &application)
 {
     add(application, "plant",
-        QStringLiteral("File that says what of the plant is hardware ([winch]), and the data of the model ([kite]): "
-                       "mass, area, tether, drag, wind, start. Without one all is a model, that of the thesis."),
+        QStringLiteral(
+            "File that says what of the plant is hardware ([winch]), and the data of the model ([kite], [wind], "
+            "[tether]). Without one all is a model, that of the thesis."),
         "FILE", "");
     add(application, "winch", QStringLiteral("ideal or drive: in place of the word in the file of --plant."), "KIND",
         "");

@@ -16,6 +16,7 @@ struct ModelSettings
     PlantParameters plant;
     WindParameters wind;
     int substeps = 1;
+    PlantOptions options;
 };
 
 /// What can be said of the autopilot on the command line.
@@ -41,7 +42,7 @@ bool readVector(QPlcCoreApplication &application, const QString &option, Eigen::
 void addModelOptions(QPlcCoreApplication &application);
 /// What the options say wins over \a kite. \return false, with the message out, when an option has
 /// no valid value
-bool readModelOptions(QPlcCoreApplication &application, const KiteConfiguration &kite, ModelSettings *settings);
+bool readModelOptions(QPlcCoreApplication &application, const PlantConfiguration &plant, ModelSettings *settings);
 /// --plant and --winch: what of the plant is hardware, and the data of the model.
 void addPlantOptions(QPlcCoreApplication &application);
 /// \return false, with the message out, when the file or a word in it cannot be meant

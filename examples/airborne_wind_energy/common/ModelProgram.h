@@ -22,9 +22,9 @@ int runModelProgram(int argc, char **argv, const QString &description)
     ModelSettings settings;
     PlantConfiguration plant;
     if (!application.parseNodeOptions() || !readPlantOptions(application, &plant)
-        || !readModelOptions(application, plant.kite, &settings))
+        || !readModelOptions(application, plant, &settings))
         return application.exitCode();
-    Node node(KiteSimulation(settings.plant, settings.wind, settings.substeps), plant.winch);
+    Node node(KiteSimulation(settings.plant, settings.wind, settings.substeps, settings.options), plant.winch);
     node.setTwoPhase(application.isSet(QStringLiteral("same-cycle")));  // else it would close an algebraic loop
     return application.run(node);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PlantConfiguration.h"
 
+#include "SectionKeys.h"
+
 #include <QtCore/QDir>
 #include <QtCore/QFile>
 #include <QtCore/QFileInfo>
@@ -18,7 +20,6 @@ namespace awe {
 namespace {
 
 const QString winchSection = QStringLiteral("winch");
-const QString kiteSection = QStringLiteral("kite");
 constexpr int largestFile = 1 << 20;  // [byte]
 constexpr int longestLine = 1000;     // [characters] without its comment
 
@@ -59,6 +60,34 @@ QString setWinch(PlantConfiguration *configuration, const QString &folder, const
     return {};
 }
 
+QString setWind(AirParameters *air, const QString &key, const QString &value)
+{
+    SectionKeys keys(QStringLiteral("wind"));
+    keys.addChoice<WindProfile>(
+        "profile", &air->profile,
+        {{"uniform", WindProfile::Uniform}, {"power", WindProfile::Power}, {"log", WindProfile::Log}});
+    keys.addChoice<bool>("density", &air->isThinner, {{"constant", false}, {"falling", true}});
+    AirParameters::visitConstants(
+        *air, [&keys](const char *name, double &number, double smallest, double largest, const char *unit) {
+            keys.addNumber(name, &number, smallest, largest, unit);
+        });
+    return keys.set(key, value);
+}
+
+QString setTether(TetherParameters *tether, const QString &key, const QString &value)
+{
+    SectionKeys keys(QStringLiteral("tether"));
+    keys.addChoice<TetherKind>(
+        "kind", &tether->kind,
+        {{"spring", TetherKind::Spring}, {"straight", TetherKind::Straight}, {"segments", TetherKind::Segments}});
+    keys.addInteger("segments", &tether->segments, 1, TetherParameters::mostSegments);
+    TetherParameters::visitConstants(
+        *tether, [&keys](const char *name, double &number, double smallest, double largest, const char *unit) {
+            keys.addNumber(name, &number, smallest, largest, unit);
+        });
+    return keys.set(key, value);
+}
+
 /// Reads a file line by line into a configuration.
 class PlantReader
 {
@@ -78,8 +107,7 @@ public:
             return enter(line);
         const QString key = line.section(QLatin1Char('='), 0, 0).trimmed();
         if (m_section.isEmpty())
-            return QStringLiteral("'%1' is outside of a section; write [%2] or [%3] above it")
-                .arg(key, winchSection, kiteSection);
+            return QStringLiteral("'%1' is outside of a section; write one of %2 above it").arg(key, shownSections());
         if (!line.contains(QLatin1Char('=')))
             return QStringLiteral("'%1' has no value; write %1 = VALUE").arg(key);
         const QString name = m_section + QLatin1Char('/') + key;
@@ -87,14 +115,38 @@ public:
             return QStringLiteral("'%1' is there twice; give it once").arg(key);
         m_seen.insert(name);
         const QString value = line.section(QLatin1Char('='), 1).trimmed();
-        return m_section == kiteSection ? m_configuration->kite.set(key, value)
-                                        : setWinch(m_configuration, m_folder, key, value);
+        return set(key, value);
     }
 
 private:
+    static QStringList sections()
+    {
+        return {winchSection, QStringLiteral("kite"), QStringLiteral("wind"), QStringLiteral("tether")};
+    }
+    static QString shownSections()
+    {
+        QStringList shown;
+        for (const QString &section : sections())
+            shown << QStringLiteral("[%1]").arg(section);
+        return shown.join(QStringLiteral(", "));
+    }
+
+    QString set(const QString &key, const QString &value)
+    {
+        switch (sections().indexOf(m_section)) {
+        case 0:
+            return setWinch(m_configuration, m_folder, key, value);
+        case 1:
+            return m_configuration->kite.set(key, value);
+        case 2:
+            return setWind(&m_configuration->options.air, key, value);
+        }
+        return setTether(&m_configuration->options.tether, key, value);
+    }
+
     QString enter(const QString &line)
     {
-        for (const QString &section : {winchSection, kiteSection}) {
+        for (const QString &section : sections()) {
             if (line != QStringLiteral("[%1]").arg(section))
                 continue;
             m_section = section;
@@ -102,8 +154,7 @@ private:
                 forgetWinch();
             return {};
         }
-        return QStringLiteral("'%1' is not a section of a plant; use [%2] or [%3]")
-            .arg(line, winchSection, kiteSection);
+        return QStringLiteral("'%1' is not a section of a plant; use one of %2").arg(line, shownSections());
     }
 
     void forgetWinch()

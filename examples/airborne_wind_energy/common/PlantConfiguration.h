@@ -2,6 +2,7 @@
 #pragma once
 
 #include "KiteConfiguration.h"
+#include "PlantOptions.h"
 
 #include <QtCore/QString>
 
@@ -20,6 +21,7 @@ struct PlantConfiguration
     QString winchHardware;   // configuration of the node Winch
     QString simulatedWinch;  // CAN bus of the simulated drive; empty: the drive is a real one
     KiteConfiguration kite;
+    PlantOptions options;  // sections [wind] and [tether]
 
     bool hasDrive() const { return winch == WinchKind::Drive; }
 

@@ -32,7 +32,7 @@ void CompactModelNode::collect(const PlantOutputs &outputs)
     m_energy = outputs.energy;
     m_crashed = outputs.crashed;
     if (m_winchLoad)
-        *m_winchLoad = outputs.tetherForce.norm();
+        *m_winchLoad = outputs.groundTension;
 }
 
 }  // namespace awe

@@ -317,8 +317,11 @@ PlantState ExtendedPlant::state() const
 
 PlantOutputs ExtendedPlant::outputs(const PlantInputs &inputs) const
 {
-    if (m_isThesis)
-        return m_thesis.outputs(inputs);
+    if (m_isThesis) {
+        PlantOutputs y = m_thesis.outputs(inputs);
+        y.groundTension = y.tetherForce.norm();
+        return y;
+    }
     const PlantState state = this->state();
     const Eigen::Vector3d &r = state.position;
     const Sphere sphere(r);
@@ -346,7 +349,8 @@ PlantOutputs ExtendedPlant::outputs(const PlantInputs &inputs) const
     const double speed = drumSpeed(inputs);
     y.aerodynamicForce = wing.air.force;
     y.tetherForce = -tensionNow(m_points - 1, speed) * segment(m_state, m_points - 1).along;
-    y.power = speed * tensionNow(0, speed);
+    y.groundTension = tensionNow(0, speed);
+    y.power = speed * y.groundTension;
     return y;
 }
 
@@ -356,10 +360,8 @@ PlantDetails ExtendedPlant::details(const PlantInputs &inputs) const
     PlantDetails details;
     details.windAt6m = airAt(stationHeight, inputs).wind;
     details.tetherSpeed = drumSpeed(inputs);
-    if (m_isThesis) {
-        details.groundTension = details.wingTension = m_thesis.outputs(inputs).tetherForce.norm();
+    if (m_isThesis)
         return details;
-    }
     details.steering = single(m_state, Steering);
     details.turbineEnergy = single(m_state, TurbineEnergy);
     details.machineSpeed = m_machine.speed();
@@ -368,8 +370,6 @@ PlantDetails ExtendedPlant::details(const PlantInputs &inputs) const
     details.energies = m_machine.energies();
     if (isHeld())
         return details;
-    details.groundTension = tensionNow(0, details.tetherSpeed);
-    details.wingTension = tensionNow(m_points - 1, details.tetherSpeed);
     details.turbinePower = wing(m_state, airAt(pointIn(m_state, m_points).z(), inputs), inputs).turbinePower;
     details.electricalPower = m_machine.electricalPower();
     return details;

@@ -16,8 +16,6 @@ namespace awe {
 struct PlantDetails
 {
     double steering = 0.0;                               // u_s of the actuator [-]
-    double groundTension = 0.0;                          // of the tether at the winch [N]
-    double wingTension = 0.0;                            // of the tether at the wing [N]
     double tetherSpeed = 0.0;                            // of the drum [m/s], > 0 reels out
     Eigen::Vector3d windAt6m = Eigen::Vector3d::Zero();  // [3] [m/s]: where stations on the ground measure it
     double turbinePower = 0.0;                           // [W]

@@ -270,7 +270,7 @@ ExtendedTrajectory::Row rowOf(const ExtendedPlant &plant, const PlantInputs &inp
     addVector(y.position);
     addVector(y.velocity);
     for (const double value : {y.bodyControlOrientation.y(), y.bodyControlOrientation.z(), details.steering,
-                               y.tetherLength, details.groundTension, details.wingTension, y.angleOfAttack,
+                               y.tetherLength, y.groundTension, y.tetherForce.norm(), y.angleOfAttack,
                                y.dragCoefficient, y.liftCoefficient, (y.inputs.windVelocity - y.velocity).norm()})
         add(value);
     addVector(y.inputs.windVelocity);

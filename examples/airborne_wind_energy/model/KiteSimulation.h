@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "KitePlant.h"
+#include "ExtendedPlant.h"
 #include "Wind.h"
 
 #include <stdexcept>
@@ -18,9 +18,11 @@ class KiteSimulation
 {
 public:
     /// \param substeps  Runge-Kutta steps in each cycle, for a light kite or a stiff tether
-    /// \pre both parameter sets are valid and have the same step: that of the cycle
-    KiteSimulation(const PlantParameters &plant, const WindParameters &wind, int substeps = 1)
-        : m_plant(divided(plant, substeps))
+    /// \param options   of the plant
+    /// \pre all parameters are valid; plant and wind have the same step: that of the cycle
+    KiteSimulation(const PlantParameters &plant, const WindParameters &wind, int substeps = 1,
+                   const PlantOptions &options = PlantOptions())
+        : m_plant(divided(plant, substeps), options)
         , m_wind(wind)
         , m_substeps(substeps)
     {
@@ -39,7 +41,7 @@ public:
     /// [m/s], > 0 reels out
     PlantOutputs step(double pitchSpeed, double yawSpeed, double tetherSpeed)
     {
-        m_inputs = {pitchSpeed, yawSpeed, tetherSpeed, m_wind.velocity()};
+        m_inputs = {pitchSpeed, yawSpeed, tetherSpeed, m_wind.velocity(), m_wind.turbulence()};
         const PlantOutputs outputs = m_plant.outputs(m_inputs);
         move();
         return outputs;
@@ -50,11 +52,12 @@ public:
     {
         PlantInputs inputs = m_inputs;
         inputs.windVelocity = m_wind.velocity();
+        inputs.turbulence = m_wind.turbulence();
         return m_plant.outputs(inputs);
     }
     void update(double pitchSpeed, double yawSpeed, double tetherSpeed)
     {
-        m_inputs = {pitchSpeed, yawSpeed, tetherSpeed, m_wind.velocity()};
+        m_inputs = {pitchSpeed, yawSpeed, tetherSpeed, m_wind.velocity(), m_wind.turbulence()};
         move();
     }
 
@@ -70,8 +73,8 @@ private:
         for (int i = 0; i < m_substeps; ++i)
             m_plant.step(m_inputs);
         m_wind.step();
-        const PlantState &state = m_plant.state();
-        if (!(state.velocity.squaredNorm() < fastest * fastest))  // also when it is not a number
+        if (!(m_plant.velocity(m_plant.segmentCount()).squaredNorm()
+              < fastest * fastest))  // also when it is not a number
             throw std::runtime_error(
                 "the simulation has diverged: the kite is faster than 1000 m/s; its mass is too small or its tether "
                 "too stiff for the step, so use more 'substeps' in [kite] of --plant");
@@ -79,7 +82,7 @@ private:
 
     static constexpr double fastest = 1000.0;  // [m/s]
 
-    KitePlant m_plant;
+    ExtendedPlant m_plant;
     Wind m_wind;
     int m_substeps;
     PlantInputs m_inputs;  // of the last step

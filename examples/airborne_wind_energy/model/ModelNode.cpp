@@ -96,7 +96,7 @@ QPlcSignalList ModelNode::collect(const PlantOutputs &outputs) const
     list.insert(m_energy, outputs.energy);
     list.insert(m_crashed, outputs.crashed);
     if (m_winch == WinchKind::Drive)
-        list.insert(m_winchLoad, outputs.tetherForce.norm());
+        list.insert(m_winchLoad, outputs.groundTension);
     return list;
 }
 

@@ -23,6 +23,7 @@ struct PlantOutputs
     Eigen::Vector3d gravitationalForce = Eigen::Vector3d::Zero();       // F_g [3] [N]
     Eigen::Vector3d aerodynamicForce = Eigen::Vector3d::Zero();         // F_ae [3] [N]
     Eigen::Vector3d tetherForce = Eigen::Vector3d::Zero();              // F_t [3] [N] on the wing, towards the ground
+    double groundTension = 0.0;                                         // of the tether at the winch [N]; ExtendedPlant
     double tetherLength = 0.0;                                          // l_t [m], unstretched
     double power = 0.0;                                                 // P = v_t |F_t| [W], > 0 when reeling out
     double averagePower = 0.0;                                          // [W]

@@ -164,7 +164,7 @@ bool readOptions(QPlcCoreApplication &application, Settings *settings)
                               : QStringLiteral("inprocess");
     if (!canTransport(application, *settings))
         return false;
-    if (!awe::readModelOptions(application, settings->run.plant.kite, &settings->model)
+    if (!awe::readModelOptions(application, settings->run.plant, &settings->model)
         || !awe::readAutopilotOptions(application, &settings->autopilot))
         return false;
     settings->run.nominalWindSpeed = settings->model.wind.meanVelocity.norm();
@@ -262,8 +262,8 @@ std::unique_ptr<QPlcSlaveNode> makeModel(const Settings &settings)
 {
     if (settings.isExported)
         return make_awe_lawe_model();
-    auto model = std::make_unique<awe::CompactModelNode>(
-        awe::KiteSimulation(settings.model.plant, settings.model.wind, settings.model.substeps));
+    auto model = std::make_unique<awe::CompactModelNode>(awe::KiteSimulation(
+        settings.model.plant, settings.model.wind, settings.model.substeps, settings.model.options));
     model->setTwoPhase(settings.sameCycle);
     return model;
 }

@@ -54,7 +54,7 @@ int main(int argc, char **argv)
     awe::ModelSettings model;
     QPlcSignalIndexTable table;
     if (!application.parseOptions() || !awe::readRunOptions(application, &settings)
-        || !awe::readModelOptions(application, awe::KiteConfiguration(), &model))
+        || !awe::readModelOptions(application, awe::PlantConfiguration(), &model))
         return application.exitCode();
     if (!table.initializeFromIniFile(awe::builtInSignals()))
         return application.usageError(table.errorString());

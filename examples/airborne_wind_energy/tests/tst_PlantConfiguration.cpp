@@ -20,8 +20,9 @@ private Q_SLOTS:
     void withoutAFileTheWinchIsIdeal();
     void winchKindSelectsTheDrive();
     void builtInFileDescribesTheKiteOfTheThesis();
-    void everyKiteKeyAcceptsExactlyItsDocumentedRange();
+    void everyKeyAcceptsExactlyItsDocumentedRange();
     void kiteStartsInTheConfiguredState();
+    void optionsOfThePlantAreRead();
     void sectionThatIsLeftOutIsTheBuiltInOne();
     void withoutAnAzimuthTheKiteStartsDownwind();
     void badLineIsNamedWithItsRemedy_data();
@@ -67,11 +68,13 @@ void tst_PlantConfiguration::winchKindSelectsTheDrive()
     QCOMPARE(plant.winchHardware, m_folder.filePath(QStringLiteral("winch.ini")));
 }
 
-/// One line of the built-in file that shows a key of [kite]:
+/// One line of the built-in file that shows a key of a section:
 /// ";mass = 5    ; kg, from 0.001 to 1e+06".
 struct ShownKey
 {
-    QString name, value, text;
+    QString section, name, value, text;
+
+    QString line(const QString &wanted) const { return QStringLiteral("[%1]\n%2 = %3\n").arg(section, name, wanted); }
 };
 
 static QVector<ShownKey> shownKeys()
@@ -80,29 +83,34 @@ static QVector<ShownKey> shownKeys()
     if (!file.open(QIODevice::ReadOnly))
         return {};
     QVector<ShownKey> keys;
-    static const QRegularExpression line(QStringLiteral("^;(\\w+) = (\\S+) +; (.*)$"),
+    static const QRegularExpression line(QStringLiteral("^(?:\\[(\\w+)\\]|;(\\w+) = (\\S+) +; (.*))$"),
                                          QRegularExpression::MultilineOption);
+    QString section;
     for (auto found = line.globalMatch(QString::fromUtf8(file.readAll())); found.hasNext();) {
         const QRegularExpressionMatch match = found.next();
-        keys.append({match.captured(1), match.captured(2), match.captured(3)});
+        if (match.captured(2).isEmpty())
+            section = match.captured(1);
+        else
+            keys.append({section, match.captured(2), match.captured(3), match.captured(4)});
     }
     return keys;
 }
 
 void tst_PlantConfiguration::builtInFileDescribesTheKiteOfTheThesis()
 {
-    QByteArray text("[kite]\n");
+    QByteArray text;
     const QVector<ShownKey> keys = shownKeys();
-    QCOMPARE(keys.size(), 26);
+    QCOMPARE(keys.size(), 39);
     for (const ShownKey &key : keys) {
         if (key.name != QLatin1String("azimuth"))  // without it: downwind
-            text += QStringLiteral("%1 = %2\n").arg(key.name, key.value).toUtf8();
+            text += key.line(key.value).toUtf8();
     }
     PlantConfiguration shown, silent;
     QString error;
     QVERIFY2(PlantConfiguration::read(write(text), &shown, &error), qPrintable(error));
     QVERIFY2(PlantConfiguration::read(PlantConfiguration::builtInFile(), &silent, &error), qPrintable(error));
     const WindParameters wind;
+    const TetherParameters tether;
     PlantParameters expected;
     expected.groundContact = GroundContact::Hold;
     for (const PlantConfiguration &configuration : {shown, silent}) {
@@ -115,7 +123,15 @@ void tst_PlantConfiguration::builtInFileDescribesTheKiteOfTheThesis()
         PlantParameters::visitConstants(expected, collect(&wanted));
         WindParameters::visitConstants(configuration.kite.wind, collect(&values));
         WindParameters::visitConstants(wind, collect(&wanted));
+        TetherParameters::visitConstants(configuration.options.tether, collect(&values));
+        TetherParameters::visitConstants(tether, collect(&wanted));
         QCOMPARE(values, wanted);
+        QVERIFY(configuration.options.isThesis());
+        const AirParameters &air = configuration.options.air;
+        QCOMPARE(air.referenceHeight, AirParameters().referenceHeight);
+        QVERIFY(std::abs(air.exponent - AirParameters().exponent) < 1e-6);
+        QCOMPARE(air.roughness, AirParameters().roughness);
+        QCOMPARE(air.scaleHeight, AirParameters().scaleHeight);
         QVERIFY(configuration.kite.wind.meanVelocity == WindParameters().meanVelocity);
         QCOMPARE(configuration.kite.wind.seed, WindParameters().seed);
         QCOMPARE(configuration.kite.wind.turbulenceModel, TurbulenceModel::FirstOrder);
@@ -131,7 +147,7 @@ void tst_PlantConfiguration::builtInFileDescribesTheKiteOfTheThesis()
 }
 
 /// The ranges and units that the built-in file tells are those that are kept.
-void tst_PlantConfiguration::everyKiteKeyAcceptsExactlyItsDocumentedRange()
+void tst_PlantConfiguration::everyKeyAcceptsExactlyItsDocumentedRange()
 {
     static const QRegularExpression range(QStringLiteral("^(?:([^,]+), )?(each )?from (\\S+?) to ([^\\s:]+)"));
     int ranges = 0;
@@ -141,9 +157,8 @@ void tst_PlantConfiguration::everyKiteKeyAcceptsExactlyItsDocumentedRange()
             continue;  // a choice of words
         ++ranges;
         const bool isVector = !match.captured(2).isEmpty();
-        const auto line = [&](const QString &value) {
-            return QStringLiteral("[kite]\n%1 = %2\n").arg(key.name, isVector ? value + QStringLiteral(",0,0") : value);
-        };
+        const auto line
+            = [&](const QString &value) { return key.line(isVector ? value + QStringLiteral(",0,0") : value); };
         for (const int border : {3, 4}) {
             const double limit = match.captured(border).toDouble();
             const double beyond = border == 3 ? limit - 1.0 : limit * 1.1 + 1.0;
@@ -159,7 +174,7 @@ void tst_PlantConfiguration::everyKiteKeyAcceptsExactlyItsDocumentedRange()
                      qPrintable(error));
         }
     }
-    QCOMPARE(ranges, 23);
+    QCOMPARE(ranges, 33);
 }
 
 void tst_PlantConfiguration::kiteStartsInTheConfiguredState()
@@ -178,6 +193,23 @@ void tst_PlantConfiguration::kiteStartsInTheConfiguredState()
     QCOMPARE(parameters.initialState.yawAngle, 80.0);
     QCOMPARE(parameters.mass, 2.5);
     QVERIFY(plant.kite.wind.meanVelocity == Eigen::Vector3d(8.0, 0.0, 0.0));
+}
+
+void tst_PlantConfiguration::optionsOfThePlantAreRead()
+{
+    PlantConfiguration plant;
+    QString error;
+    const QString name = write("[wind]\nprofile = log\nreferenceHeight = 10\nroughness = 0.1\ndensity = falling\n"
+                               "[tether]\nkind = segments\nsegments = 4\ndiameter = 0.005\n");
+    QVERIFY2(PlantConfiguration::read(name, &plant, &error), qPrintable(error));
+    QVERIFY(!plant.options.isThesis());
+    QCOMPARE(plant.options.air.profile, WindProfile::Log);
+    QCOMPARE(plant.options.air.referenceHeight, 10.0);
+    QCOMPARE(plant.options.air.roughness, 0.1);
+    QVERIFY(plant.options.air.isThinner);
+    QCOMPARE(plant.options.tether.kind, TetherKind::Segments);
+    QCOMPARE(plant.options.tether.segments, 4);
+    QCOMPARE(plant.options.tether.diameter, 0.005);
 }
 
 void tst_PlantConfiguration::sectionThatIsLeftOutIsTheBuiltInOne()
@@ -216,7 +248,12 @@ void tst_PlantConfiguration::badLineIsNamedWithItsRemedy_data()
     add("kind", "[winch]\nkind = steam\n", "plant.ini:2: kind = steam: use ideal or drive");
     add("key of the winch", "[winch]\n; a comment\nkin = drive\n",
         "plant.ini:3: 'kin' is not a key of [winch]; use one of kind, hardware, simulated");
-    add("section", "[kites]\n", "plant.ini:1: '[kites]' is not a section of a plant; use [winch] or [kite]");
+    add("section", "[kites]\n",
+        "plant.ini:1: '[kites]' is not a section of a plant; use one of [winch], [kite], [wind], [tether]");
+    add("word of the wind", "[wind]\nprofile = strong\n", "profile = strong: use uniform, power or log");
+    add("word of the tether", "[tether]\nkind = rope\n", "kind = rope: use spring, straight or segments");
+    add("key of the tether", "[tether]\nmass = 1\n", "'mass' is not a key of [tether]; use one of kind, segments, ");
+    add("segments", "[tether]\nsegments = 21\n", "segments = 21: use a whole number from 1 to 20");
     add("before the section", "\nkind = drive\n", "plant.ini:2: 'kind' is outside of a section");
     add("no value", "[winch]\nkind\n", "plant.ini:2: 'kind' has no value; write kind = VALUE");
     add("close key of the kite", "[kite]\nmas = 3\n",
