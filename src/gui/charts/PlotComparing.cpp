@@ -95,7 +95,7 @@ void QPlcTimePlot::Private::takeRuns()
 {
     if (!settings.runs.isOn)
         return;
-    if (runs.update())
+    if (runs.update(*context()))
         bind();
     showLaps();
     curves.advanceDifferences();

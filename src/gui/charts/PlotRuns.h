@@ -5,6 +5,8 @@
 #include "RunSettings.h"
 #include "gui/plot/RisingEdges.h"
 
+#include <QtCore/QPersistentModelIndex>
+
 #include <limits>
 #include <optional>
 #include <vector>
@@ -38,8 +40,8 @@ struct PlotRun
 
 /// The runs of a plot: finds which there are, and where they lie.
 ///
-/// The first one is the reference: its times are those of the plot. With edges, it is what follows
-/// the newest edge of the plant of the curves.
+/// The first one is the reference: its times are those of the plot. With pieces, it is the newest
+/// one of the plant of the curves.
 class PlotRuns
 {
 public:
@@ -47,8 +49,10 @@ public:
 
     /// Finds everything anew.
     void bind(const PlotSettings &settings, const QPlcPanelContext &context);
-    /// Looks at new values. \return whether all() are others
-    bool update();
+    /// Looks at new values and events. \return whether all() are others
+    bool update(const QPlcPanelContext &context);
+    /// Texts of the events of a plant, each once, the newest first.
+    static QStringList eventTexts(const QPlcPanelContext &context, const QString &plant);
 
     /// Empty: the plot shows no runs, or problem() says why it cannot.
     const std::vector<PlotRun> &all() const { return m_runs; }
@@ -67,12 +71,18 @@ private:
         QString plant;
         QPlcPast past;
         std::optional<RisingEdges> edges;
+        std::deque<Time> begins;  // of its pieces, oldest first
     };
 
     void alignBegins(const PlotSettings &settings, const QPlcPanelContext &context);
-    void findEdges(const QPlcPanelContext &context);
-    void alignEdges();
-    void addLaps(const Source &source, Time zero, bool isReference);
+    QPlcPast firstPast(const PlotSettings &settings, const QPlcPanelContext &context, const QString &plant) const;
+    void findPieces(const PlotSettings &settings, const QPlcPanelContext &context);
+    bool findBegins(Source *source, const QPlcPanelContext &context) const;
+    std::deque<Time> eventsOf(const Source &source, const QPlcPanelContext &context) const;
+    std::deque<Time> pausesOf(const Source &source) const;
+    QString problemOf(const Source &reference) const;
+    void alignPieces();
+    void addPieces(const Source &source, Time zero, bool isReference);
 
     RunSettings m_settings;
     QString m_reference;  // the plant of the curves
@@ -80,6 +90,7 @@ private:
     std::vector<PlotRun> m_runs;
     std::optional<Time> m_zero;
     QString m_problem;
+    QPersistentModelIndex m_newestEvent;  // that was looked at
 };
 
 }  // namespace qplc

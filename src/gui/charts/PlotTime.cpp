@@ -39,7 +39,7 @@ QPlcTimeAxis *PlotTime::shared() const
 QPlcTimeAxis *PlotTime::view()
 {
     const bool hasOwn
-        = m_settings->hasTrigger() ? !m_trigger->isLinked() : m_settings->hasOwnTime || m_settings->runs.hasEdges();
+        = m_settings->hasTrigger() ? !m_trigger->isLinked() : m_settings->hasOwnTime || m_settings->runs.hasPieces();
     return hasOwn ? &m_own : shared();
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "RunBar.h"
 
+#include "PlotRuns.h"
 #include "QPlcPanelContext.h"
 #include "QPlcTheme.h"
 #include "gui/panel/NumberBox.h"
@@ -49,17 +50,24 @@ void RunBar::makeControls()
     connect(m_menu, &QMenu::aboutToShow, this, &RunBar::fillPlants);
     m_alignment = new QComboBox(this);
     m_alignment->setAccessibleName(tr("How runs are aligned"));
-    m_alignment->addItems({tr("from their begins"), tr("at the same time"), tr("where this rises:")});
+    m_alignment->addItems({tr("from their begins"), tr("at the same time"), tr("where this rises:"),
+                           tr("where this happens:"), tr("after each pause")});
     m_edges = new QWidget(this);
     m_signal = new QComboBox(m_edges);
     m_signal->setAccessibleName(tr("Signal whose edges begin a run"));
     m_signal->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
     m_signal->setMinimumContentsLength(8);
+    m_event = new QComboBox(m_edges);
+    m_event->setAccessibleName(tr("Event that begins a run"));
+    m_event->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    m_event->setMinimumContentsLength(16);
+    m_event->installEventFilter(this);
+    m_to = new QLabel(tr("to"), m_edges);
     m_level = new NumberBox(-largestLevel, largestLevel, m_edges);
     m_level->setAccessibleName(tr("Level that it rises to"));
     m_level->setFixedWidth(widthOfLevel);
     m_last = new QSpinBox(m_edges);
-    m_last->setAccessibleName(tr("How many of the last edges"));
+    m_last->setAccessibleName(tr("How many of the last ones"));
     m_last->setRange(1, RunSettings::MostLast);
     m_last->setPrefix(tr("last "));
     m_apart = new NumberBox(0.0, longestApart, m_edges);
@@ -68,7 +76,7 @@ void RunBar::makeControls()
     m_apart->setFixedWidth(widthOfApart);
     for (NumberBox *box : {m_level, m_apart})
         box->setButtonSymbols(QAbstractSpinBox::NoButtons);
-    for (QWidget *control : std::initializer_list<QWidget *>{m_alignment, m_signal, m_level, m_last, m_apart})
+    for (QWidget *control : std::initializer_list<QWidget *>{m_alignment, m_signal, m_event, m_level, m_last, m_apart})
         control->setToolTip(control->accessibleName());
     m_difference = new QToolButton(this);
     m_difference->setText(tr("Differences"));
@@ -87,6 +95,7 @@ void RunBar::makeControls()
     connect(m_alignment, activated, this,
             [this](int place) { edit(&RunSettings::alignment, RunSettings::Alignment(place)); });
     connect(m_signal, activated, this, [this] { edit(&RunSettings::signal, m_signal->currentText()); });
+    connect(m_event, activated, this, [this] { edit(&RunSettings::event, m_event->currentText()); });
     connect(m_level, QOverload<double>::of(&NumberBox::valueChanged), this,
             [this](double value) { edit(&RunSettings::level, value); });
     connect(m_apart, QOverload<double>::of(&NumberBox::valueChanged), this,
@@ -103,7 +112,8 @@ void RunBar::arrange()
     edges->setContentsMargins(0, 0, 0, 0);
     edges->setSpacing(4);
     edges->addWidget(m_signal);
-    edges->addWidget(new QLabel(tr("to"), m_edges));
+    edges->addWidget(m_event);
+    edges->addWidget(m_to);
     edges->addWidget(m_level);
     edges->addWidget(m_last);
     edges->addWidget(m_apartLabel);
@@ -126,8 +136,7 @@ void RunBar::resizeEvent(QResizeEvent *event)
 {
     QWidget::resizeEvent(event);
     const bool isWide = width() >= leastWideRunBar;
-    m_apart->setVisible(width() >= leastBarWithAll);
-    m_apartLabel->setVisible(width() >= leastBarWithAll);
+    showControls();
     if (isWide == m_isWide)
         return;
     m_isWide = isWide;
@@ -156,6 +165,37 @@ void RunBar::fillPlants()
     }
     if (plants.isEmpty())
         m_menu->addAction(tr("There is no other run: open a recording (Ctrl+R)"))->setEnabled(false);
+}
+
+/// Those that are there now, and the chosen one.
+void RunBar::fillEvents()
+{
+    QStringList texts = PlotRuns::eventTexts(*m_context, m_reference);
+    if (!m_settings.event.isEmpty() && !texts.contains(m_settings.event))
+        texts.prepend(m_settings.event);
+    const QSignalBlocker blocker(m_event);
+    m_event->clear();
+    m_event->addItems(texts);
+    m_event->setCurrentIndex(texts.indexOf(m_settings.event));
+}
+
+/// What belongs to the alignment and has room.
+void RunBar::showControls()
+{
+    const bool hasEdges = m_settings.alignment == RunSettings::RisingEdges;
+    for (QWidget *control : std::initializer_list<QWidget *>{m_signal, m_to, m_level})
+        control->setVisible(hasEdges);
+    for (QWidget *control : std::initializer_list<QWidget *>{m_apartLabel, m_apart})
+        control->setVisible(hasEdges && width() >= leastBarWithAll);
+    m_event->setVisible(m_settings.alignment == RunSettings::Events);
+}
+
+/// Before the list opens.
+bool RunBar::eventFilter(QObject *object, QEvent *event)
+{
+    if (object == m_event && (event->type() == QEvent::MouseButtonPress || event->type() == QEvent::FocusIn))
+        fillEvents();
+    return QWidget::eventFilter(object, event);
 }
 
 void RunBar::choosePlant(const QString &plant, bool isChosen)
@@ -190,7 +230,9 @@ void RunBar::showSettings(const RunSettings &settings, const QStringList &expres
     m_last->setValue(settings.last);
     m_apart->setValue(settings.apart);
     m_difference->setChecked(settings.isDifference);
-    m_edges->setVisible(settings.alignment == RunSettings::RisingEdges);
+    m_edges->setVisible(settings.alignment >= RunSettings::RisingEdges);
+    fillEvents();
+    showControls();
     m_plants->setText(settings.plants.isEmpty()         ? tr("This run")
                           : settings.plants.size() == 1 ? tr("Over it: %1").arg(settings.plants.first())
                                                         : tr("Over it: %1 runs").arg(settings.plants.size()));

@@ -46,11 +46,14 @@ Q_SIGNALS:
 
 protected:
     void resizeEvent(QResizeEvent *event) override;
+    bool eventFilter(QObject *object, QEvent *event) override;
 
 private:
     void makeControls();
     void arrange();
     void fillPlants();
+    void fillEvents();
+    void showControls();
     template<typename Number>
     void edit(Number RunSettings::*member, Number value);
     void choosePlant(const QString &plant, bool isChosen);
@@ -63,6 +66,8 @@ private:
     QMenu *m_menu = nullptr;
     QComboBox *m_alignment = nullptr;
     QWidget *m_edges = nullptr;  // what is for edges
+    QComboBox *m_event = nullptr;
+    QLabel *m_to = nullptr;
     QComboBox *m_signal = nullptr;
     NumberBox *m_level = nullptr;
     QSpinBox *m_last = nullptr;

@@ -17,10 +17,16 @@ const QString levelRunKey = QStringLiteral("level");
 const QString lastRunKey = QStringLiteral("last");
 const QString apartRunKey = QStringLiteral("apart");
 const QString differencesRunKey = QStringLiteral("differences");
-const QString clockAlignment = QStringLiteral("clock");
-const QString edgeAlignment = QStringLiteral("edge");
+const QString eventRunKey = QStringLiteral("event");
 
 constexpr int usualLast = 10;
+
+/// In the order of RunSettings::Alignment.
+QStringList alignmentNames()
+{
+    return {QStringLiteral("begin"), QStringLiteral("clock"), QStringLiteral("edge"), QStringLiteral("event"),
+            QStringLiteral("pause")};
+}
 
 }  // namespace
 
@@ -33,7 +39,9 @@ RunSettings RunSettings::fromJson(const QJsonObject &json)
     for (const QJsonValue &plant : plants)
         settings.plants << plant.toString();
     const QString align = settings.others.take(alignRunKey).toString();
-    settings.alignment = align == clockAlignment ? Clock : align == edgeAlignment ? RisingEdges : Begins;
+    const int known = alignmentNames().indexOf(align);
+    settings.alignment = known < 0 ? Begins : Alignment(known);
+    settings.event = settings.others.take(eventRunKey).toString();
     settings.signal = settings.others.take(signalRunKey).toString();
     settings.level = settings.others.take(levelRunKey).toDouble();
     settings.last = std::clamp(settings.others.take(lastRunKey).toInt(usualLast), 1, MostLast);
@@ -50,7 +58,9 @@ QJsonObject RunSettings::toJson() const
     if (!plants.isEmpty())
         json.insert(plantsRunKey, QJsonArray::fromStringList(plants));
     if (alignment != Begins)
-        json.insert(alignRunKey, alignment == Clock ? clockAlignment : edgeAlignment);
+        json.insert(alignRunKey, alignmentNames().at(alignment));
+    if (!event.isEmpty())
+        json.insert(eventRunKey, event);
     if (!signal.isEmpty())
         json.insert(signalRunKey, signal);
     if (level != 0.0)

@@ -18,9 +18,11 @@ namespace qplc {
 struct RunSettings
 {
     enum Alignment {
-        Begins,      // their first values lie over each other
-        Clock,       // they have the same time
-        RisingEdges  // the last times at which a signal rose lie over each other
+        Begins,       // their first values lie over each other
+        Clock,        // they have the same time
+        RisingEdges,  // the last times at which a signal rose lie over each other
+        Events,       // the last events with the same text do
+        Pauses        // the last begins of values after a pause do: where phases begin
     };
 
     static constexpr int MostLast = 100;
@@ -30,12 +32,14 @@ struct RunSettings
     Alignment alignment = Begins;
     QString signal;             // that rises: an expression as that of a curve
     double level = 0.0;         // [unit of the signal]
-    int last = 10;              // of its edges, 1 to MostLast
+    QString event;              // text of an event
+    int last = 10;              // of edges, events or pauses, 1 to MostLast
     double apart = 0.0;         // of edges, at least [s]
     bool isDifference = false;  // each run minus the one below, in place of all of them
     QJsonObject others{};       // keys that nobody knows
 
-    bool hasEdges() const { return isOn && alignment == RisingEdges; }
+    /// Runs are pieces of the past, each of which begins where something happened.
+    bool hasPieces() const { return isOn && alignment >= RisingEdges; }
     bool hasDifferences() const { return isOn && isDifference; }
     static RunSettings fromJson(const QJsonObject &json);
     QJsonObject toJson() const;

@@ -28,6 +28,10 @@ private Q_SLOTS:
     void aSingleCurveHasAColorForEachRun();
     void ofSeveralCurvesEachKeepsItsColor();
     void tablesHaveAColumnForEachRun();
+    void piecesBeginWithAnEvent();
+    void anEventThatComesBeginsAPiece();
+    void eventsOfThePlantCanBeChosen();
+    void piecesBeginAfterPauses();
     void differencesAreDrawnInPlaceOfTheRuns();
     void differencesGoOnWithTheNewestRun();
     void settingsAreReadAsTheyWereWritten();
@@ -42,6 +46,9 @@ constexpr int period = 10;  // [ms]
 const QByteArray speedAtEdges = R"json({"curves":[{"signal":"speed"}],)json"
                                 R"json("runs":{"on":true,"align":"edge","signal":"speed","level":100}})json";
 const QByteArray speedOverBoat = R"json({"curves":[{"signal":"speed"}],"runs":{"on":true,"plants":["boat"]}})json";
+
+const QByteArray gateOpened
+    = R"json({"curves":[{"signal":"speed"}],"runs":{"on":true,"align":"event","event":"Gate opened"}})json";
 
 /// The speed of the kite rises from 0 to 299 in 3 s, three times: the second and third time it is 1
 /// and 2 larger.
@@ -62,6 +69,17 @@ public:
             values.insert(QStringLiteral("power"), QPlcValue(float(i)));
             take(values);
         }
+    }
+    /// An event at the time of a row.
+    void tell(int row, const QString &text, const QString &source = QStringLiteral("kite"))
+    {
+        const SignalStore *store = plant->store();
+        PlantEvent event;
+        event.time
+            = QDateTime::fromMSecsSinceEpoch(store->time(store->firstRow() + SignalStore::Row(row)) / millisecond);
+        event.source = source;
+        event.text = text;
+        context.events()->append(event);
     }
     /// Curves of the canvas, in the order of the legend.
     QVector<const StoreCurve *> drawn() const
@@ -280,6 +298,63 @@ void tst_PlotRuns::tablesHaveAColumnForEachRun()
     QCOMPARE(fields.mid(2), (QList<QByteArray>{"1", "0"}));
 }
 
+void tst_PlotRuns::piecesBeginWithAnEvent()
+{
+    ThreeRises window("{}");
+    for (const int row : {50, 350, 650})
+        window.tell(row, QStringLiteral("Gate opened"));
+    window.tell(400, QStringLiteral("Gate closed"));
+    window.tell(500, QStringLiteral("Gate opened"), QStringLiteral("boat"));
+    window.apply(gateOpened);
+    QCOMPARE(window.state(), QStringLiteral("3 runs"));
+    QVERIFY(window.show());
+    QTRY_COMPARE(window.drawn().size(), 3);
+    const auto begin = qint64(std::llround(window.viewBegin() * 1e9));
+    for (const StoreCurve *curve : window.drawn())
+        QVERIFY(std::abs(window.valueAt(*curve, begin + 500 * millisecond) - 100.0) <= 4.0);
+    window.apply(R"json({"curves":[{"signal":"speed"}],"runs":{"on":true,"align":"event","event":"Nothing"}})json");
+    QCOMPARE(window.state(), QStringLiteral("There is no such event in the values that are here."));
+}
+
+void tst_PlotRuns::anEventThatComesBeginsAPiece()
+{
+    ThreeRises window("{}");
+    window.tell(350, QStringLiteral("Gate opened"));
+    window.apply(gateOpened);
+    QVERIFY(window.show());
+    QCOMPARE(window.drawn().size(), 1);
+    window.tell(650, QStringLiteral("Gate opened"));
+    window.rise(3);
+    QTRY_COMPARE(window.drawn().size(), 2);
+}
+
+void tst_PlotRuns::eventsOfThePlantCanBeChosen()
+{
+    ThreeRises window("{}");
+    for (const int row : {50, 350})
+        window.tell(row, QStringLiteral("Gate opened"));
+    window.tell(400, QStringLiteral("Gate closed"), QStringLiteral("kite/Gate"));
+    window.tell(500, QStringLiteral("Anchor lost"), QStringLiteral("boat"));
+    const QStringList texts = PlotRuns::eventTexts(*window.plot->context(), QStringLiteral("kite"));
+    QVERIFY(texts.contains(QStringLiteral("Gate closed")));
+    QCOMPARE(texts.count(QStringLiteral("Gate opened")), 1);
+    QVERIFY(texts.indexOf(QStringLiteral("Gate closed")) < texts.indexOf(QStringLiteral("Gate opened")));
+    QVERIFY(!texts.contains(QStringLiteral("Anchor lost")));
+}
+
+/// A fed plant that starts again begins a new phase.
+void tst_PlotRuns::piecesBeginAfterPauses()
+{
+    ThreeRises window("{}");
+    window.plant->feed()->stopped();
+    window.now += 5000 * millisecond;
+    window.plant->feed()->started();
+    window.rise(3);
+    window.apply(R"json({"curves":[{"signal":"speed"}],"runs":{"on":true,"align":"pause"}})json");
+    QCOMPARE(window.state(), QStringLiteral("2 runs"));
+    QCOMPARE(window.drawn().size(), 2);
+}
+
 void tst_PlotRuns::differencesAreDrawnInPlaceOfTheRuns()
 {
     ThreeRises window("{}");
@@ -317,7 +392,8 @@ void tst_PlotRuns::differencesGoOnWithTheNewestRun()
 void tst_PlotRuns::settingsAreReadAsTheyWereWritten()
 {
     const QByteArray written
-        = R"json({"curves":[{"signal":"speed"}],"runs":{"align":"edge","apart":2.5,"differences":true,"last":3,)json"
+        = R"json({"curves":[{"signal":"speed"}],"runs":{"align":"edge","apart":2.5,"differences":true,)json"
+          R"json("event":"Started","last":3,)json"
           R"json("level":100,"on":true,"others":1,"plants":["boat"],"signal":"speed"}})json";
     const FedPlotWindow window(written);
     QCOMPARE(window.settings(), written);
