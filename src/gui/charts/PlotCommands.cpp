@@ -349,6 +349,7 @@ ChartExport::Table QPlcTimePlot::Private::table(Time begin, Time end) const
                 continue;
             columns.push_back(
                 TableExport::Column::of(curve.source, curve.text(), curve.settings.gain, curve.settings.offset));
+            columns.back().hasQuality = format == TableExport::Csv;  // people paste numbers
             columns.back().shift = curve.run.shift;
             columns.back().begin = curve.run.begin;
             columns.back().end = curve.run.end;

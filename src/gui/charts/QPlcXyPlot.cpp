@@ -286,8 +286,10 @@ public:
             QStringList added;
             for (const std::unique_ptr<XyCurve> &curve : canvas->curves()) {
                 for (const QPlcPast &past : {curve->x(), curve->y()}) {
-                    if (!added.contains(past.expression))
+                    if (!added.contains(past.expression)) {
                         columns.push_back(TableExport::Column::of(past, past.text()));
+                        columns.back().hasQuality = format == TableExport::Csv;
+                    }
                     added << past.expression;
                 }
             }

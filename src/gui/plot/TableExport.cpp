@@ -36,8 +36,11 @@ QByteArray TableExport::header() const
     TableText text(m_format);
     text.addText(QStringLiteral("UTC"));
     text.addTitle(QStringLiteral("time"), QStringLiteral("s"));
-    for (const Column &column : m_columns)
+    for (const Column &column : m_columns) {
         text.addTitle(column.name, column.unit);
+        if (column.hasQuality)
+            text.addTitle(column.name + QStringLiteral(".quality"), QString());
+    }
     text.endRow();
     return text.take();
 }
@@ -81,6 +84,28 @@ QByteArray TableExport::next(int mostRows)
     return text.take();
 }
 
+/// The store has kinds; how long a value has been held, its rows say.
+int TableExport::qualityOf(const SignalStore &store, int channel, SignalStore::Row row)
+{
+    const auto kindOf = [&](SignalStore::Row each) { return store.greatestMark(channel, each, each + 1); };
+    switch (kindOf(row)) {
+    case QPlcQuality::Safe:
+        return QPlcQuality(QPlcQuality::Safe).toByte();
+    case QPlcQuality::Invalid:
+        return QPlcQuality(QPlcQuality::Invalid).toByte();
+    case QPlcQuality::Held:
+        break;
+    default:
+        return QPlcQuality(QPlcQuality::Good).toByte();
+    }
+    int held = 1;
+    while (held < QPlcQuality::MaximumHeldCycles && row > store.firstRow() && kindOf(row - 1) == QPlcQuality::Held) {
+        --row;
+        ++held;
+    }
+    return held;
+}
+
 void TableExport::appendRow(Time time, TableText *text) const
 {
     text->addMoment(time);
@@ -91,8 +116,12 @@ void TableExport::appendRow(Time time, TableText *text) const
         if (hasRow(reader) && reader.time() == time) {
             const double value = double(reader.store->value(column.channel, reader.row));
             text->addNumber(float(column.gain * value + column.offset));
+            if (column.hasQuality)
+                text->addNumber(qualityOf(*reader.store, column.channel, reader.row));
         } else {
             text->addNothing();
+            if (column.hasQuality)
+                text->addNothing();
         }
     }
     text->endRow();

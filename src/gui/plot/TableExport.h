@@ -18,7 +18,8 @@ namespace qplc {
 ///
 /// Each row has the moment (UTC, ISO 8601), the seconds since the first row, and a value for each
 /// column, nothing where there is none. Columns of several stores are one table: each time of any
-/// of them is a row.
+/// of them is a row. As in tables of recordings, a column can be followed by the qualities of its
+/// values: 0 Good, 1 to 252 Held for so many rows, 253 Safe, 254 Invalid.
 class TableExport
 {
 public:
@@ -36,7 +37,8 @@ public:
         QString name;
         QString unit;
         QPlcPast owner{};  // of the store, until the table goes
-        Time shift = 0;    // from the times of the store to those of the table [ns]
+        bool hasQuality = false;
+        Time shift = 0;  // from the times of the store to those of the table [ns]
         // Of the store: only these times [ns]
         Time begin = std::numeric_limits<Time>::min();
         Time end = std::numeric_limits<Time>::max();
@@ -69,6 +71,7 @@ private:
     bool hasRow(const Reader &reader) const;
     bool findTime(Time *time) const;
     void appendRow(Time time, TableText *text) const;
+    static int qualityOf(const SignalStore &store, int channel, SignalStore::Row row);
 
     Format m_format;
     std::vector<Column> m_columns;

@@ -41,6 +41,7 @@ void ControlCenterActions::makePlantMenu()
     connectTo->setToolTip(tr("To the master of a running plant, here or elsewhere"));
     openRecording = add(plantMenu, tr("&Open a recording..."), tr("Ctrl+R"));
     openRecording->setToolTip(tr("To see, play and measure what a plant has done"));
+    recentRecordings = plantMenu->addMenu(tr("&Recent recordings"));
     disconnectFrom = add(plantMenu, tr("&Disconnect"), tr("Ctrl+D"));
     nextPlant = add(plantMenu, tr("&Next plant"), tr("Ctrl+P"));
     plantMenu->addSeparator();

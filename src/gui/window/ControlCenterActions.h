@@ -36,6 +36,7 @@ public:
     // Plant
     QAction *connectTo = nullptr;
     QAction *openRecording = nullptr;
+    QMenu *recentRecordings = nullptr;  // filled when it opens
     QAction *disconnectFrom = nullptr;
     QAction *nextPlant = nullptr;
     QAction *initialize = nullptr;

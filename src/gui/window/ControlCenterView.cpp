@@ -42,6 +42,7 @@ void QPlcControlCenter::Private::connectPlantActions()
 {
     connect(actions->connectTo, &QAction::triggered, connectStrip, &ConnectStrip::open);
     connect(actions->openRecording, &QAction::triggered, q, [this] { askForRecording(); });
+    connect(actions->recentRecordings, &QMenu::aboutToShow, q, [this] { fillRecentRecordings(); });
     connect(actions->disconnectFrom, &QAction::triggered, q, [this] { disconnectFrom(); });
     connect(actions->nextPlant, &QAction::triggered, &selection, &PlantSelection::selectNext);
     connect(actions->initialize, &QAction::triggered, q, [this] { perform(Plant::Initialize); });
@@ -124,6 +125,21 @@ void QPlcControlCenter::Private::connectLayoutActions()
     connect(actions->newTab, &QAction::triggered, q, [this] { editor.addTab(); });
     connect(actions->addPanel, &QAction::triggered, q, [this] { openPanelPalette(); });
     connect(view, &LayoutView::addRequested, q, [this] { openPanelPalette(); });
+}
+
+void QPlcControlCenter::Private::fillRecentRecordings()
+{
+    QMenu *menu = actions->recentRecordings;
+    menu->clear();
+    const QVector<QStringList> recordings = RecentRecordings().all();
+    for (const QStringList &paths : recordings) {
+        const QString text = RecentRecordings::textOf(paths).replace(QLatin1Char('&'), QStringLiteral("&&"));
+        QAction *action = menu->addAction(text, q, [this, paths] { openRecording(paths); });
+        action->setToolTip(paths.join(QLatin1Char('\n')));
+    }
+    menu->setToolTipsVisible(true);
+    if (recordings.isEmpty())
+        menu->addAction(tr("None yet"))->setEnabled(false);
 }
 
 void QPlcControlCenter::Private::askForRecording()

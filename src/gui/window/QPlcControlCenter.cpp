@@ -34,6 +34,8 @@ QString QPlcControlCenter::openRecording(const QStringList &paths, QString *erro
 {
     QString ignored;
     const Plant *plant = d->context.plants()->addRecording(paths, name, error ? error : &ignored);
+    if (plant)
+        RecentRecordings().add(paths);
     return plant ? plant->name() : QString();
 }
 

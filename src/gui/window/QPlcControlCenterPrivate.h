@@ -18,6 +18,7 @@
 #include "PlaybackBar.h"
 #include "QPlcControlCenter.h"
 #include "RecentMasters.h"
+#include "RecentRecordings.h"
 #include "SignalDock.h"
 #include "SignalPlacer.h"
 #include "StartPage.h"
@@ -55,6 +56,7 @@ struct QPlcControlCenter::Private
     void connectTo(const QString &address);
     qplc::Plant *plantAt(const QString &address);
     void openRecording(const QStringList &paths);
+    void fillRecentRecordings();
     void askForRecording();
     void disconnectFrom();
     void perform(qplc::Plant::Action action);

@@ -48,6 +48,8 @@ private Q_SLOTS:
     void missingValueIsAnEmptyField();
     void exportAppliesGainAndOffset();
     void severalStoresAreOneTable();
+    void qualitiesAreThoseOfTablesOfRecordings();
+    void aMovedRunHasItsRowsAtOtherTimes();
     void tabsAreForClipboards();
     void piecesAreBounded();
     void overwrittenRowsAreOmitted();
@@ -119,6 +121,46 @@ void tst_TableExport::exportAppliesGainAndOffset()
     scaled.gain = -3.0;
     scaled.offset = 0.5;
     QVERIFY(textOf(TableExport(TableExport::Csv, {scaled}, begin, begin)).endsWith(",-5.5\r\n"));
+}
+
+void tst_TableExport::qualitiesAreThoseOfTablesOfRecordings()
+{
+    SignalStore store(1, 64);
+    const SignalStore::Mark marks[]
+        = {QPlcQuality::Good, QPlcQuality::Held, QPlcQuality::Held, QPlcQuality::Safe, QPlcQuality::Invalid};
+    for (int i = 0; i < 5; ++i) {
+        append(&store, begin + i * s, {1.0F});
+        if (marks[i] != RowMarks::None)
+            store.mark(0, marks[i]);
+    }
+    TableExport::Column force = column(store, 0);
+    force.hasQuality = true;
+    const QList<QByteArray> rows = textOf(TableExport(TableExport::Csv, {force}, begin, begin + 4 * s)).split('\n');
+    QCOMPARE(rows.at(0).trimmed(), QByteArray("UTC,time [s],force [N],force.quality"));
+    QByteArrayList qualities;
+    for (int i = 1; i <= 5; ++i)
+        qualities << rows.at(i).trimmed().split(',').last();
+    QCOMPARE(qualities, (QByteArrayList{"0", "1", "2", "253", "254"}));
+    // A table that begins within a held piece.
+    const QList<QByteArray> later
+        = textOf(TableExport(TableExport::Csv, {force}, begin + 2 * s, begin + 2 * s)).split('\n');
+    QVERIFY(later.at(1).trimmed().endsWith(",2"));
+}
+
+void tst_TableExport::aMovedRunHasItsRowsAtOtherTimes()
+{
+    SignalStore store(1, 64);
+    for (int i = 0; i < 4; ++i)
+        append(&store, begin + i * s, {float(i)});
+    TableExport::Column run = column(store, 0, QStringLiteral("run"));
+    run.shift = 2 * s;
+    run.begin = begin + s;
+    run.end = begin + 2 * s;
+    const QList<QByteArray> rows
+        = textOf(TableExport(TableExport::Csv, {column(store, 0), run}, begin + 2 * s, begin + 9 * s)).split('\n');
+    QCOMPARE(rows.at(1).trimmed().split(',').mid(2), (QByteArrayList{"2", ""}));
+    QCOMPARE(rows.at(2).trimmed().split(',').mid(2), (QByteArrayList{"3", "1"}));
+    QCOMPARE(rows.size(), 4);  // and the end of the text
 }
 
 void tst_TableExport::severalStoresAreOneTable()

@@ -8,6 +8,9 @@
 #include <QtCore/QMimeData>
 #include <QtCore/QUrl>
 #include <QtGui/QDropEvent>
+#include <QtWidgets/QMenu>
+
+#include <algorithm>
 
 using namespace qplc;
 
@@ -96,6 +99,7 @@ private Q_SLOTS:
     void stopMeansTheRunningPlantBesideARecording();
     void aFileThatIsNoRecordingIsRefusedWithAReason();
     void aRecordingThatIsDroppedOnTheWindowIsOpened();
+    void aRecentRecordingIsOpenedAgainFromTheMenu();
     void closingTheRecordingHidesTheBar();
     void aRecordingOfOneCycleIsShown();
     void aRecordingThatDoesNotFitIsAnOverviewUntilAPersonLooksCloser();
@@ -330,6 +334,23 @@ void tst_Recordings::aRecordingThatIsDroppedOnTheWindowIsOpened()
     other.ignore();
     QCoreApplication::sendEvent(&fixture.window, &other);
     QVERIFY(!other.isAccepted());
+}
+
+void tst_Recordings::aRecentRecordingIsOpenedAgainFromTheMenu()
+{
+    RecordingWindow fixture;
+    fixture.action("Close flight")->trigger();
+    QCOMPARE(fixture.window.plants(), QStringList());
+    const QString title = QStringLiteral("&Recent recordings");
+    const auto menus = fixture.window.findChildren<QMenu *>();
+    const auto recent
+        = std::find_if(menus.begin(), menus.end(), [&](const QMenu *menu) { return menu->title() == title; });
+    QVERIFY(recent != menus.end());
+    Q_EMIT(*recent)->aboutToShow();
+    QVERIFY(!(*recent)->actions().isEmpty());
+    QCOMPARE((*recent)->actions().first()->text(), QFileInfo(fixture.flight.file).fileName());
+    (*recent)->actions().first()->trigger();
+    QCOMPARE(fixture.window.plants(), QStringList{QStringLiteral("flight")});
 }
 
 void tst_Recordings::closingTheRecordingHidesTheBar()

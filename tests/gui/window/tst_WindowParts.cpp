@@ -5,6 +5,7 @@
 #include "gui/window/DefaultLayout.h"
 #include "gui/window/DoubleEscape.h"
 #include "gui/window/FuzzyMatch.h"
+#include "gui/window/RecentRecordings.h"
 
 #include <QtCore/QJsonArray>
 
@@ -35,6 +36,7 @@ private Q_SLOTS:
     void thePaletteShowsTheBestFirstAndNotTooMany();
     void addressesAreValidatedBeforeConnecting();
     void recentMastersAreLimitedAndNewestFirst();
+    void recentRecordingsAreLimitedAndNewestFirst();
     void doublePressOfEscapeIsDetectedAndASinglePressIsNot();
     void slowlyHandledEscapeCountsOnce_data();
     void slowlyHandledEscapeCountsOnce();
@@ -104,6 +106,23 @@ void tst_WindowParts::recentMastersAreLimitedAndNewestFirst()
     QCOMPARE(recent.addresses().size(), 8);
     QCOMPARE(recent.addresses().mid(0, 3),
              (QStringList{QStringLiteral("9"), QStringLiteral("11"), QStringLiteral("10")}));
+}
+
+void tst_WindowParts::recentRecordingsAreLimitedAndNewestFirst()
+{
+    RecentRecordings recent;
+    QVERIFY(recent.all().isEmpty());
+    for (int i = 0; i < 12; ++i)
+        recent.add({QStringLiteral("/flights/%1.mcap").arg(i)});
+    recent.add({QStringLiteral("/a.mcap"), QStringLiteral("/b.mcap")});
+    recent.add({QStringLiteral("/flights/9.mcap")});
+    const QVector<QStringList> all = recent.all();
+    QCOMPARE(all.size(), 8);
+    QCOMPARE(all.at(0), QStringList{QStringLiteral("/flights/9.mcap")});
+    QCOMPARE(all.at(1), (QStringList{QStringLiteral("/a.mcap"), QStringLiteral("/b.mcap")}));
+    QCOMPARE(all.at(2), QStringList{QStringLiteral("/flights/11.mcap")});
+    QCOMPARE(RecentRecordings::textOf(all.at(0)), QStringLiteral("9.mcap"));
+    QCOMPARE(RecentRecordings::textOf(all.at(1)), QStringLiteral("a.mcap and 1 more"));
 }
 
 void tst_WindowParts::doublePressOfEscapeIsDetectedAndASinglePressIsNot()
