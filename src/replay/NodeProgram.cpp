@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "NodeProgram.h"
 
+#include <algorithm>
+
 namespace qplc {
 
 namespace {
@@ -9,6 +11,14 @@ constexpr int LongestStart = 10'000;  // [ms]
 constexpr int LongestEnd = 5'000;     // [ms] by itself, and when it is asked to
 
 }  // namespace
+
+bool NodeProgram::isSecured(const QString &command)
+{
+    const QStringList words = QProcess::splitCommand(command);
+    return std::any_of(words.begin(), words.end(), [](const QString &word) {
+        return word == QLatin1String("--security") || word.startsWith(QLatin1String("--security="));
+    });
+}
 
 bool NodeProgram::start(const QString &command, const QString &master, QString *error)
 {

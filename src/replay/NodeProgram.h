@@ -15,6 +15,8 @@ class NodeProgram
 public:
     ~NodeProgram() { end(); }
 
+    /// Whether \a command has the option --security.
+    static bool isSecured(const QString &command);
     /// \param command  the program and its arguments, as in a shell; the option --master is added
     bool start(const QString &command, const QString &master, QString *error);
     bool hasEnded() const { return !m_process || m_process->state() == QProcess::NotRunning; }

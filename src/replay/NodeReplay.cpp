@@ -120,6 +120,9 @@ public:
         m_table = QPlcSignalTable::fromIni(m_phase.description.table);
         if (m_phase.files.size() > 1)
             m_result.notes << QStringLiteral("the recording is %1").arg(m_phase.name());
+        if (!m_request.node && NodeProgram::isSecured(m_request.program))
+            return refuse(QStringLiteral("the master of a replay has no keys; leave out --security and what belongs to "
+                                         "it"));
         // The name of the node is known when its program has registered.
         if (!bringNode())
             return m_result;

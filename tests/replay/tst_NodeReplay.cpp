@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "RecordedMaster.h"
+#include "SecurityFixtures.h"
 #include "Stepping.h"
 #include "node/cycle/RingReader.h"
 #include "replay/NodeReplay.h"
@@ -26,6 +27,7 @@ private Q_SLOTS:
     void aNodeWithDevicesIsRefused();
     void aRecordingFromTheMiddleOfAPhaseIsRefused();
     void theFilesOfAPhaseAreOneRecording();
+    void aSecuredPlantIsReplayedWithoutKeys();
 
 private:
     static ReplayResult replay(const QString &file, QPlcSlaveNode &node)
@@ -266,6 +268,30 @@ void tst_NodeReplay::theFilesOfAPhaseAreOneRecording()
     QCOMPARE(result.differences, quint64(0));
     QVERIFY2(result.notes.join(' ').contains("the cycles from 20 to 39 are not in the recording"),
              qPrintable(result.notes.join(' ')));
+}
+
+void tst_NodeReplay::aSecuredPlantIsReplayedWithoutKeys()
+{
+    const SecurityFiles files;
+    Probe echo("Echo", {{"s0"}, {"moved"}, {"jitter"}}, {"s1"});
+    echo.setSecurity(files.echo());
+    RecordedMaster master(QPlcClock::lockstep());
+    master.setSecurity(QPlcSecurity::preSharedKeys(files.masterKeys()));
+    QVERIFY2(master.listen(), qPrintable(master.errorString()));
+    QVERIFY2(master.admitOver(echo, "udp"), qPrintable(echo.errorString()));
+    master.initializeAllStates();
+    QVERIFY(master.waitForState(QPlcMasterNode::Ready));
+    QVERIFY(master.arm());
+    master.startRealTime();
+    QVERIFY(master.waitForState(QPlcMasterNode::RealTime));
+    QVERIFY(master.waitForCycles(200));
+    QVERIFY2(master.finish(), qPrintable(master.error));
+
+    Probe again("Echo", {{"s0"}, {"moved"}, {"jitter"}}, {"s1"});
+    const ReplayResult result = replay(master.recording(), again);
+    QVERIFY2(result.kind == ReplayResult::Done, qPrintable(result.error));
+    QVERIFY(result.compared >= 199);
+    QCOMPARE(result.differences, quint64(0));
 }
 
 QTEST_GUILESS_MAIN(tst_NodeReplay)

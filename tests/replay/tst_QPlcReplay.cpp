@@ -17,6 +17,7 @@ private Q_SLOTS:
     void beforeTheTimeNothingIsCompared();
     void anotherNameOfTheNodeMayBeGiven();
     void aProgramThatIsNotThereIsNamed();
+    void aProgramThatWantsKeysIsToldToDoWithout();
     void aFileThatIsNotThereIsNamed();
     void beforeARunNothingIsCounted();
 
@@ -104,6 +105,13 @@ void tst_QPlcReplay::aProgramThatIsNotThereIsNamed()
     QVERIFY2(replay.text().contains("/nowhere/winch"), qPrintable(replay.text()));
     QVERIFY(!replay.runProgram(QString()));
     QVERIFY2(replay.text().contains("no program is given"), qPrintable(replay.text()));
+}
+
+void tst_QPlcReplay::aProgramThatWantsKeysIsToldToDoWithout()
+{
+    QPlcReplay replay(m_flight->recording());
+    QVERIFY(!replay.runProgram(program() + " --security psk --keys keys.txt"));
+    QVERIFY2(replay.text().contains("leave out --security"), qPrintable(replay.text()));
 }
 
 void tst_QPlcReplay::aFileThatIsNotThereIsNamed()

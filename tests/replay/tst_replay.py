@@ -107,6 +107,34 @@ def real_time(programs, cycles):
         print(f"{name} in real time: {result['cycles']} of {cycles} cycles computed, {result['compared']} compared")
 
 
+def folder(programs):
+    """A recorder of a folder begins a file every four seconds: all of them are one recording."""
+    with tempfile.TemporaryDirectory(dir="/dev/shm") as rings:
+        environment = dict(os.environ, QTPLC_RING_DIR=rings)
+        command = [programs.folder / "qtplc", "record", "segments/", "--segment-hours", "0.001", "--free-gib", "0"]
+        recorder = subprocess.Popen(command, cwd=programs.work, stdout=subprocess.DEVNULL, env=environment)
+        flight = [programs.folder / "awe_sil", "--scale", "5", "--duration", "50", *TURBULENCE, "--seed", "7"]
+        subprocess.run(
+            flight, cwd=programs.work, stdout=subprocess.DEVNULL, env=environment, timeout=PATIENCE, check=True
+        )
+        end = time.monotonic() + PATIENCE
+        while os.listdir(rings) and time.monotonic() < end:  # a recorder deletes the ring that it has read
+            time.sleep(0.05)
+        recorder.send_signal(signal.SIGTERM)
+        recorder.wait(PATIENCE)
+    verified = json.loads(programs.call("qtplc", "verify", "segments", "--json"))
+    files = verified["phases"][0]["files"]
+    require(verified["complete"] and len(files) >= 2, f"files of a phase: {verified}")
+    for recording in ("segments", files[-1]):
+        result = programs.replay(recording, ["awe_autopilot"], "--name", "Autopilot")
+        require(result["differences"] == 0 and result["compared"] > 1000, f"{recording}: {result}")
+        require(result["cycles"] <= verified["phases"][0]["cycles"], f"{recording}: {result}")
+    (programs.work / files[0]).unlink()
+    programs.call("qtplc", "verify", "segments")  # it may have been deleted
+    programs.replay("segments", ["awe_autopilot"], "--name", "Autopilot", code=2)
+    print(f"{len(files)} files of a phase are one recording")
+
+
 def stall(process):
     try:
         os.kill(process, signal.SIGSTOP)
@@ -121,4 +149,5 @@ if __name__ == "__main__":
     with tempfile.TemporaryDirectory() as work:
         lockstep(Programs(sys.argv[1], work), cycles, "--speed" in sys.argv)
         real_time(Programs(sys.argv[1], work), cycles)
+        folder(Programs(sys.argv[1], work))
     print("each node has computed the same bits again")
