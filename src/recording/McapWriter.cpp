@@ -164,10 +164,10 @@ std::uint16_t Writer::addChannel(const QByteArray &topic, const QByteArray &enco
     const Channel channel{id, hasSchema ? id : std::uint16_t(0), topic, encoding};
     if (hasSchema) {
         m_index.schemas.push_back(schema);
-        m_chunk += schema.record();
+        addToPreamble(schema.record());
     }
     m_index.channels.push_back(channel);
-    m_chunk += channel.record();
+    addToPreamble(channel.record());
     return id;
 }
 
@@ -176,8 +176,15 @@ void Writer::beginChunk()
 {
     m_messages.clear();
     m_chunk.resize(0);
+    m_preamble = 0;
     for (const Channel &channel : m_index.channels)
-        m_chunk += channel.record();
+        addToPreamble(channel.record());
+}
+
+void Writer::addToPreamble(const QByteArray &record)
+{
+    m_chunk += record;
+    m_preamble += std::size_t(record.size());
 }
 
 void Writer::addMessage(std::uint16_t channel, std::uint32_t sequence, std::uint64_t time, std::uint64_t published,

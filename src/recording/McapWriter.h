@@ -49,8 +49,8 @@ public:
     /// \param time [ns], \param published [ns]
     void addMessage(std::uint16_t channel, std::uint32_t sequence, std::uint64_t time, std::uint64_t published,
                     const char *bytes, std::size_t size);
-    /// [byte] of the messages in memory
-    std::size_t pending() const { return std::size_t(m_chunk.size()); }
+    /// [byte] of the messages in memory, without what each chunk says of their channels
+    std::size_t pending() const { return std::size_t(m_chunk.size()) - m_preamble; }
     /// Compresses the messages in memory and writes them.
     bool flush(QString *error);
     bool sync(QString *error) { return m_sink->sync(error); }
@@ -64,6 +64,7 @@ private:
     bool append(const QByteArray &bytes, QString *error) { return m_sink->append(bytes, error); }
     QByteArray compressed(QByteArray *compression) const;
     void beginChunk();
+    void addToPreamble(const QByteArray &record);
     std::uint64_t summarySize(const ChunkEntry &next) const;
 
     struct Compressor;
@@ -71,6 +72,7 @@ private:
     std::unique_ptr<Compressor> m_compressor;
     Index m_index;
     QByteArray m_chunk;
+    std::size_t m_preamble = 0;  // [byte] of channels and schemas in it
     std::vector<MessageEntry> m_messages;
     std::uint64_t m_chunkIndexSize = 0;  // [byte] of the summary, for the chunks in the file
 };

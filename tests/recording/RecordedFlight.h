@@ -13,7 +13,9 @@
 /// A master without nodes, whose program turns the clock and sets the signals, and its recorder.
 struct RecordedFlight
 {
-    explicit RecordedFlight(std::size_t capacity = 1 << 20, std::size_t textCapacity = 0)
+    /// \param more  of the signal table, behind ini()
+    explicit RecordedFlight(std::size_t capacity = 1 << 20, std::size_t textCapacity = 0, const QByteArray &more = {})
+        : table(QPlcSignalTable::fromIni(ini() + more))
     {
         description.plant = "kite";
         description.version = "test";
@@ -21,7 +23,7 @@ struct RecordedFlight
         description.phase = 1;
         description.period = 10'000'000;
         description.clock = "external";
-        description.table = ini();
+        description.table = ini() + more;
         static int count = 0;
         ringFile = qplc::RingMemory::folder() + "/qtplc-test-" + QByteArray::number(::getpid()) + "-flight-"
             + QByteArray::number(++count);
@@ -64,7 +66,7 @@ struct RecordedFlight
     quint64 digest() const { return cycle.statistics().imageDigest; }
 
     qplc::RingDescription description;
-    QPlcSignalTable table = QPlcSignalTable::fromIni(ini());
+    QPlcSignalTable table;
     QTemporaryDir folder;
     QByteArray ringFile;
     QString file;

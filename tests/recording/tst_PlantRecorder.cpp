@@ -78,6 +78,7 @@ class tst_PlantRecorder : public QObject
 
 private Q_SLOTS:
     void theFileHasTheWholeFlight();
+    void aTableLargerThanAChunkIsRecorded();
     void theRingKeepsWhatIsNotInTheFile();
     void cyclesWithoutARecordAreInTheFileAsAGap();
     void aRecorderThatStartsLateSaysSo();
@@ -118,6 +119,27 @@ void tst_PlantRecorder::theFileHasTheWholeFlight()
     QCOMPARE(file.digest, flight.digest());
     QCOMPARE(file.description.plant, QString("kite"));
     QCOMPARE(file.checkedCycles, quint64(1000));
+}
+
+/// Its schema alone fills a chunk.
+void tst_PlantRecorder::aTableLargerThanAChunkIsRecorded()
+{
+    QByteArray more;
+    for (int i = 0; i < 20'000; ++i)
+        more += "[more.number" + QByteArray::number(i) + "]\ntype = UInt8\n";
+    RecordedFlight flight(1 << 20, 0, more);
+    QVERIFY2(flight.begin() && flight.start(), qPrintable(flight.error));
+    flight.step(10);
+    flight.cycle.stop();
+    PlantRecorder::Progress progress = PlantRecorder::Recorded;
+    for (int i = 0; i < 20 && progress == PlantRecorder::Recorded; ++i)
+        progress = flight.recorder.proceed(&flight.error);
+    QCOMPARE(progress, PlantRecorder::Ended);
+    QVERIFY2(flight.recorder.finish(&flight.error), qPrintable(flight.error));
+    const VerifiedFile file = verified(flight.file);
+    QCOMPARE(file.problems, QStringList());
+    QCOMPARE(file.cycles, quint64(10));
+    QCOMPARE(file.digest, flight.digest());
 }
 
 void tst_PlantRecorder::theRingKeepsWhatIsNotInTheFile()
