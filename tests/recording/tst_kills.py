@@ -3,7 +3,8 @@
 """Kills recorders and masters at random (SIGKILL), and stops a recorder for a while: no cycle is
 missing in the recordings. A recorder that starts again in the same folder finishes them.
 
-usage: tst_kills.py FOLDER_OF_PROGRAMS KILLS
+usage: tst_kills.py FOLDER_OF_PROGRAMS KILLS [CYCLES]
+       CYCLES of the flight whose recorder is stopped for five seconds, default 200000
 """
 import json
 import random
@@ -96,17 +97,17 @@ def masters_are_killed(plant, kills):
         assert all(gap["first"] == 0 for gap in facts["gaps"]), facts
 
 
-def a_stopped_recorder_loses_nothing(plant):
+def a_stopped_recorder_loses_nothing(plant, cycles):
     report = plant.folder / "stopped.json"
-    flight = plant.start("awe_sil", "--duration", 2000, "--report", report)
+    flight = plant.start("awe_sil", "--duration", cycles / 100, "--report", report)
     recorder, file = plant.record("stopped.mcap")
     recorder.send_signal(signal.SIGSTOP)
-    time.sleep(2)
+    time.sleep(5)
     recorder.send_signal(signal.SIGCONT)
-    assert flight.wait(PATIENCE) == 0
+    assert flight.wait(PATIENCE + cycles / 1000) == 0
     recorder.communicate(timeout=PATIENCE)
     facts = plant.verify(file)
-    assert facts["problems"] == [] and facts["lastCycle"] == 199999, facts
+    assert facts["problems"] == [] and facts["lastCycle"] == cycles - 1, facts
     assert all(gap["first"] == 0 for gap in facts["gaps"]), facts  # what was before the recorder
     assert facts["digest"] == json.loads(report.read_text())["image_digest"]
 
@@ -161,9 +162,10 @@ def masters_that_record_are_killed(plant, kills):
 def main():
     random.seed(1)
     programs, kills = Path(sys.argv[1]), int(sys.argv[2])
+    cycles = int(sys.argv[3]) if len(sys.argv) > 3 else 200000
     with tempfile.TemporaryDirectory() as folder, tempfile.TemporaryDirectory(dir="/dev/shm") as rings:
         plant = Plant(programs, Path(folder), rings)
-        a_stopped_recorder_loses_nothing(plant)
+        a_stopped_recorder_loses_nothing(plant, cycles)
         masters_are_killed(plant, kills)
         for ring in Path(rings).iterdir():
             ring.unlink()
