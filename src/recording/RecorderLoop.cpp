@@ -16,7 +16,7 @@ namespace qplc {
 namespace {
 
 constexpr std::int64_t Millisecond = 1'000'000;                  // [ns]
-constexpr std::int64_t LookForRecords = 5 * Millisecond;         // between two looks
+constexpr std::int64_t LookForRecords = 50 * Millisecond;        // between two looks
 constexpr std::int64_t LookForRings = 200 * Millisecond;         //
 constexpr std::int64_t SaveAfter = NanosecondsPerSecond;         // a loss of power costs no more
 constexpr std::int64_t TryAgainAfter = NanosecondsPerSecond;     // when the file could not be written
