@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "FuzzInput.h"
 #include "node/cycle/RingReader.h"
+#include "recording/Happenings.h"
 #include "recording/McapReader.h"
 #include "recording/Recovery.h"
 #include "recording/Verification.h"
@@ -64,6 +65,20 @@ void recover(const QString &name)
     fuzz::check(reader.open(name, &error), "what was finished can be read");
     fuzz::check(reader.scan(after) == Reader::Finished, "what was finished has its end");
     fuzz::check(after.found == before.found, "what was whole stays");
+}
+
+/// What people and programs did is text that somebody has written.
+void readHappenings(const QString &name)
+{
+    QString error;
+    Recording recording;
+    if (!recording.open({name}, &error))
+        return;
+    HappeningReader reader(recording, ~0);
+    for (Happening happening; reader.next(&happening);) {
+        fuzz::check(!happening.sentence().contains(QLatin1Char('\n')), "a sentence is one line");
+        fuzz::check(!happening.toJson().isEmpty() && !happening.severity().isEmpty(), "a happening says something");
+    }
 }
 
 /// A recording of one chunk with these \a records.
@@ -163,5 +178,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
     const MemoryFile file;
     file.write(kind == File ? bytes : recordingOf(bytes));
     recover(file.name());
+    readHappenings(file.name());
     return 0;
 }

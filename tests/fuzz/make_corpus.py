@@ -429,6 +429,13 @@ def recordings():
     ring = struct.pack("<QIHH", 0, 16 + len(whole), 1, 0) + whole
     ring += struct.pack("<QIHH5Q", len(ring), 56, 2, 0, 8, 9, 2, 0, 5)
     places = lambda head, oldest=0, read=0: b"\2" + struct.pack("<QQQB", head, oldest, read, 0)
+    told = b'{"text":"it burns"}\0\0\0\0\0'
+    texts = struct.pack("<QIHH4QIHH", 0, 80, 7, 0, 1, 0, 0, 0, 19, 1, 0) + told
+    happened = topics + channel(4, b"/events") + channel(5, b"/commands") + channel(6, b"/leases")
+    happened += said(4, 0, b'{"cycle":0,"severity":"error","kind":"fault","source":"Winch","text":"it\\nburns"}')
+    happened += said(5, 1, b'{"cycle":1,"by":"Anna","role":"Operator","signal":"x","from":"0","to":"1","count":3}')
+    happened += said(5, 2, b'{"cycle":1,"by":"Anna","command":"Stop"}')
+    happened += said(6, 3, b'{"cycle":1,"by":"Anna","what":"taken","signals":["x","t"],"from":["Bert"]}')
     return {
         "file": b"\0" + file,
         "file that is cut": b"\0" + file[:-20],
@@ -438,6 +445,8 @@ def recordings():
         "records": b"\1" + first,
         "records with a gap": b"\1" + second,
         "records that are cut": b"\1" + first[:-5],
+        "records of what has happened": b"\1" + happened,
+        "ring with texts": places(len(ring)) + ring.ljust(4096, b"\0") + b"\0" + struct.pack("<QQQ", 80, 0, 0) + texts,
         "ring": places(len(ring)) + ring + b"\0",
         "ring that is cut": places(len(ring) - 8) + ring,
         "ring ahead of itself": places(8, 1 << 40, 1 << 63) + ring,
