@@ -10,9 +10,21 @@ class FlightRecorder : public QObject
 {
     Q_OBJECT
 public:
+    /// Which recordings of a folder are deleted; 0: there is no limit.
+    struct Limits
+    {
+        double days = 0.0;       ///< older ones
+        double gibibytes = 0.0;  ///< the oldest ones, while all have more
+        double free = 1.0;       ///< the oldest ones, while the disk has less free [GiB]
+    };
+
     /// \param master  outlives this object
     /// \param target  see QPlcRecorder::setTarget(); empty: nothing is recorded
-    FlightRecorder(QPlcMasterNode &master, const QString &target);
+    FlightRecorder(QPlcMasterNode &master, const QString &target, const Limits &limits);
+
+    static void addLimitOptions(QPlcCoreApplication &application);
+    /// \return false, with the message out
+    static bool readLimits(QPlcCoreApplication &application, Limits *limits);
 
     /// Begins. \return false when nothing can be recorded there, and failed() has told why
     bool start();

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::chrono::milliseconds period(10);
 constexpr std::chrono::milliseconds numbersPeriod(200);
-const char *const runOptions[] = {"scale", "overrun", "duration", "record"};
+const char *const runOptions[] = {"scale", "overrun", "duration", "record", "keep-days", "keep-gib", "free-gib"};
 const char *const runFlags[] = {"lockstep", "real-time", "external", "watch"};
 
 /// \return false, with the message out, when picture or report could only fail later
@@ -77,6 +77,7 @@ void addRunOptions(QPlcCoreApplication &application, const QString &defaultDurat
             "Records every cycle into FILE, which must not exist, or into files in FOLDER/: see qtplc verify, "
             "qtplc record."),
         QStringLiteral("PATH")));
+    FlightRecorder::addLimitOptions(application);
     application.addOption(QCommandLineOption(
         QStringLiteral("watch"),
         QStringLiteral("Draws the flight on the terminal; --real-time unless another clock is given.")));
@@ -103,6 +104,8 @@ bool readRunOptions(QPlcCoreApplication &application, RunSettings *settings)
                                                               : QPlcClock::lockstep();
     settings->reportFile = application.value(QStringLiteral("report"));
     settings->recordFile = application.value(QStringLiteral("record"));
+    if (!FlightRecorder::readLimits(application, &settings->recordLimits))
+        return false;
     QString error;
     settings->overrunPolicy = QPlcOverrunPolicy::fromString(application.value(QStringLiteral("overrun")), &error);
     if (!error.isEmpty()) {
@@ -140,7 +143,7 @@ FlightRun::FlightRun(QPlcMasterNode &master, const RunSettings &settings)
     , m_settings(settings)
     , m_observer(statisticsParameters(settings), settings.plant.winch)
     , m_display(master, settings.duration, settings.watch ? FlightDisplay::Picture : FlightDisplay::Line)
-    , m_recorder(master, settings.recordFile)
+    , m_recorder(master, settings.recordFile, settings.recordLimits)
 {
     m_valid = master.setTimeSignal(QStringLiteral("masterTime"))
         && master.activateJitterMeasurement(QStringLiteral("masterJitter"))

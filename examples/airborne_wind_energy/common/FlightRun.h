@@ -23,11 +23,12 @@ struct RunSettings
 {
     QPlcClock clock;
     QPlcOverrunPolicy overrunPolicy;
-    double duration = 0.0;          // [s] of simulated time; 0: until stopped
-    QString reportFile;             // empty: none
-    QString recordFile;             // likewise
-    double nominalWindSpeed = 0.0;  // [m/s]
-    bool watch = false;             // a live picture instead of a progress line
+    double duration = 0.0;                // [s] of simulated time; 0: until stopped
+    QString reportFile;                   // empty: none
+    QString recordFile;                   // likewise
+    FlightRecorder::Limits recordLimits;  // of a folder
+    double nominalWindSpeed = 0.0;        // [m/s]
+    bool watch = false;                   // a live picture instead of a progress line
     PlantConfiguration plant;
     /// Without autopilot: pitch and yaw speed [deg/s] and tether speed [m/s], the same during the
     /// whole flight.
