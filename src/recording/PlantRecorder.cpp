@@ -126,6 +126,9 @@ bool PlantRecorder::isChunkFull() const
 PlantRecorder::Progress PlantRecorder::proceed(QString *error)
 {
     bool hasWriter = true;
+    const std::uint32_t marks = m_reader.memory().header()->wishes.load(std::memory_order_relaxed);
+    if (std::exchange(m_marks, marks) != marks)
+        m_triggers |= Mark;
     for (bool any = false;;) {
         if (isChunkFull())
             return save(false, error) ? Recorded : Failed;
@@ -150,7 +153,7 @@ PlantRecorder::Progress PlantRecorder::proceed(QString *error)
         if (!hasWriter)  // and nothing has come since it was found to be gone
             addLastTexts();
         if (!hasWriter)
-            return save(false, error) ? Abandoned : Failed;
+            return !save(false, error) ? Failed : isCut() ? CutEnded : Abandoned;
         if (m_reader.hasWriter())
             return Waiting;
         hasWriter = false;

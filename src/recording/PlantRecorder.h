@@ -27,13 +27,15 @@ public:
         Waiting,    ///< there is none yet
         Ended,      ///< the phase is over, and all of it is in the file
         Abandoned,  ///< the master has ended without an end of the phase, and all of it is in the file
+        CutEnded,   ///< as Ended, of a part that a master has kept
         Failed      ///< the file could not be written: the ring keeps the records, try again
     };
 
     /// Why cycles are worth to be kept.
     enum Trigger : std::uint8_t {
         SafeStop = 1,  ///< the master has stopped safely
-        Fault = 2      ///< the code of a node has failed
+        Fault = 2,     ///< the code of a node has failed
+        Mark = 4       ///< somebody wants it
     };
     /// Cycles up to which a file has all.
     struct Position
@@ -68,9 +70,13 @@ public:
     void detach() { m_reader.detach(); }
     /// Deletes the ring, whose records are all in the file.
     void removeRing() { m_reader.memory().remove(); }
+    /// Tells the master what this recorder does.
+    void report(const RecorderReport &report) { m_reader.report(report); }
     QByteArray ringFile() { return m_reader.memory().file(); }
     /// What has begun since the last call, of Trigger.
     std::uint8_t takeTriggers() { return std::exchange(m_triggers, std::uint8_t(0)); }
+    /// Whether the ring is a part of another one, which a master has kept.
+    bool isCut() { return m_reader.memory().header()->isCut.load() != 0; }
 
     const RingDescription &description() const { return m_description; }
     std::uint64_t cycles() const { return m_cycles; }    // of this file, or in memory
@@ -142,6 +148,7 @@ private:
     bool m_isSafe = false;          // in the newest cycle
     std::uint32_t m_faulted = 0;    // nodes, in the newest cycle
     std::uint8_t m_triggers = 0;
+    std::uint32_t m_marks = 0;  // of those in the header of the ring
 };
 
 }  // namespace qplc

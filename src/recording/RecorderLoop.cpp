@@ -23,6 +23,7 @@ constexpr std::int64_t TryAgainAfter = NanosecondsPerSecond;     // when the fil
 constexpr std::int64_t TellAfter = NanosecondsPerSecond;         // other programs, what goes on
 constexpr std::int64_t MeasureAfter = 2 * NanosecondsPerSecond;  //
 constexpr std::int64_t CleanAfter = 60'000;                      // [ms]
+constexpr std::uint64_t FullBelow = 1U << 20;                    // [byte] free: a chunk may have no room
 constexpr std::int64_t Never = std::numeric_limits<std::int64_t>::min() / 2;
 constexpr int MostAtEnd = 1000;  // chunks
 
@@ -40,6 +41,11 @@ struct RecorderLoop::Recording
     std::int64_t next = 0;           // when it is to be called again [ns]
     std::uint64_t toldCycles = 0;    // of this file, in the status
     std::uint64_t toldMissing = 0;
+    std::int64_t reported = Never;    // to the master [ns]
+    std::int64_t rateSince = Never;   // [ns]
+    std::uint64_t finishedBytes = 0;  // of files before this one
+    std::uint64_t bytesBefore = 0;    // at rateSince
+    std::uint64_t bytesPerSecond = 0;
     bool isMarked = false;
     bool isOver = false;
 };
@@ -80,7 +86,7 @@ void RecorderLoop::add(std::unique_ptr<PlantRecorder> recorder)
         return;
     }
     auto recording = std::make_unique<Recording>();
-    if (m_settings.file.isEmpty())
+    if (m_settings.file.isEmpty() && !recorder->isCut())
         recorder->goOnFrom(m_folder.position(recorder->description()));
     recording->recorder = std::move(recorder);
     m_recordings.push_back(std::move(recording));
@@ -131,8 +137,12 @@ void RecorderLoop::setStopped(bool isStopped, std::int64_t wallClock)
 {
     m_status.isStopped = isStopped;
     if (isStopped) {
-        for (const std::unique_ptr<Recording> &recording : m_recordings)
+        RecorderReport stopped;
+        stopped.state = RecorderReport::Stopped;
+        for (const std::unique_ptr<Recording> &recording : m_recordings) {
             m_left.append(recording->recorder->ringFile());
+            recording->recorder->report(stopped);
+        }
         if (!end(wallClock, &m_error))
             m_status.error = m_error;
         m_status.hasFailed = false;
@@ -164,6 +174,30 @@ void RecorderLoop::tell(std::int64_t now)
                            {"bytes_per_second", QByteArray::number(m_status.bytesPerSecond, 'f', 0)},
                            {"free_bytes", QByteArray::number(m_status.freeBytes)},
                            {"error", m_status.error.toUtf8()}});
+}
+
+QString RecorderLoop::place() const
+{
+    return m_settings.file.isEmpty() ? m_folder.path() : QFileInfo(m_settings.file).absolutePath();
+}
+
+/// To the master of a phase.
+void RecorderLoop::report(Recording *recording, std::int64_t now)
+{
+    recording->reported = now;
+    const std::uint64_t bytes = recording->finishedBytes + recording->recorder->bytes();
+    if (now - recording->rateSince >= MeasureAfter) {
+        if (recording->rateSince != Never)
+            recording->bytesPerSecond
+                = std::uint64_t(double(bytes - recording->bytesBefore) * 1e9 / double(now - recording->rateSince));
+        recording->rateSince = now;
+        recording->bytesBefore = bytes;
+    }
+    const RecorderReport::State state = !m_status.hasFailed ? RecorderReport::Recording
+        : m_status.isFull                                   ? RecorderReport::DiskFull
+                                                            : RecorderReport::Failing;
+    recording->recorder->report({state, recording->bytesPerSecond, m_disk.freeBytes(place()),
+                                 QFileInfo(recording->file).absoluteFilePath(), m_status.error});
 }
 
 QString RecorderLoop::nextFile()
@@ -209,6 +243,8 @@ void RecorderLoop::fail(Recording *recording, const QString &error, std::int64_t
 {
     m_status.error = error;
     m_status.hasFailed = true;
+    m_status.isFull = m_disk.freeBytes(place()) < FullBelow;
+    report(recording, now);
     recording->retry = recording->next = now + TryAgainAfter;
     clean(wallClock);
 }
@@ -241,9 +277,10 @@ void RecorderLoop::step(Recording *recording, std::int64_t now, std::int64_t wal
         return;
     const PlantRecorder::Progress progress = recorder.proceed(&m_error);
     // A master that has ended in its phase was killed, or has crashed.
-    if (recorder.takeTriggers() != 0 || progress == PlantRecorder::Abandoned)
+    const bool isLeft = progress == PlantRecorder::Abandoned || progress == PlantRecorder::CutEnded;
+    if (recorder.takeTriggers() != 0 || isLeft)
         keep(recording, now);
-    const bool isOver = progress == PlantRecorder::Ended || progress == PlantRecorder::Abandoned;
+    const bool isOver = progress == PlantRecorder::Ended || isLeft;
     bool isWritten = progress != PlantRecorder::Failed;
     if (isWritten && !isOver && now - recording->saved >= SaveAfter)
         isWritten = save(recording, now);
@@ -264,6 +301,7 @@ bool RecorderLoop::finishFile(Recording *recording, bool isAbandoned, std::int64
         return false;
     measure(m_measured);
     m_finished += bytes;
+    recording->finishedBytes += bytes;
     if (m_settings.file.isEmpty())
         recording->file = m_folder.finished(recording->file, recording->isMarked);
     m_status.file = recording->file;
@@ -313,8 +351,7 @@ void RecorderLoop::measure(std::int64_t now)
         m_status.bytesPerSecond = double(bytes - m_before) * 1e9 / double(now - m_measured);
     m_before = bytes;
     m_measured = now;
-    m_status.freeBytes
-        = m_disk.freeBytes(m_settings.file.isEmpty() ? m_folder.path() : QFileInfo(m_settings.file).absolutePath());
+    m_status.freeBytes = m_disk.freeBytes(place());
 }
 
 std::int64_t RecorderLoop::proceed(std::int64_t now, std::int64_t wallClock)
@@ -330,6 +367,8 @@ std::int64_t RecorderLoop::proceed(std::int64_t now, std::int64_t wallClock)
     std::int64_t next = now + LookForRings;
     for (const std::unique_ptr<Recording> &recording : m_recordings) {
         step(recording.get(), now, wallClock);
+        if (now - recording->reported >= TellAfter)
+            report(recording.get(), now);
         next = std::min(next, recording->next);
     }
     measure(now);
@@ -365,7 +404,7 @@ bool RecorderLoop::end(std::int64_t wallClock, QString *error)
             continue;
         }
         recorder.detach();
-        if (isAbandoned || progress == PlantRecorder::Ended)
+        if (isAbandoned || progress == PlantRecorder::Ended || progress == PlantRecorder::CutEnded)
             recorder.removeRing();
     }
     m_recordings.clear();

@@ -49,6 +49,7 @@ public:
         int phases = 0;             // that are being recorded
         bool isStopped = false;     // somebody wants that nothing is recorded
         bool hasFailed = false;     // files cannot be written at the moment
+        bool isFull = false;        // because the disk has no room
         QString error;              // the newest one
         QString file;               // the newest one
         quint64 cycles = 0;         // since the begin
@@ -84,6 +85,8 @@ private:
     void control(std::int64_t now, std::int64_t wallClock);
     void setStopped(bool isStopped, std::int64_t wallClock);
     void tell(std::int64_t now);
+    void report(Recording *recording, std::int64_t now);
+    QString place() const;
     bool openFile(Recording *recording, std::int64_t now, std::int64_t wallClock);
     void step(Recording *recording, std::int64_t now, std::int64_t wallClock);
     bool save(Recording *recording, std::int64_t now);

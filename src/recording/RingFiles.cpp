@@ -31,6 +31,15 @@ QStringList ringsOfMasters()
     return ringsThat([](RingMemory::Use use) { return use == RingMemory::Alive; }, QDir::Time);
 }
 
+bool markRing(const QString &ring, QString *error)
+{
+    RingMemory memory;
+    if (!memory.open(QFile::encodeName(ring), error))
+        return false;
+    memory.header()->wishes.fetch_add(1);
+    return true;
+}
+
 QStringList ringsToRecord()
 {
     const auto isFree = [](RingMemory::Use use) {

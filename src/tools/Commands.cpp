@@ -308,7 +308,7 @@ const QVector<Command> &commands()
          2,
          &checkManifest},
         {"record",
-         "FILE | FOLDER/ | VERB FOLDER",
+         "FILE | FOLDER/ | VERB FOLDER | mark",
          "Records every cycle of plants on this computer.",
          "Reads the ring of a master, which runs on this computer and belongs to the same\n"
          "user, and writes FILE, which must not exist. It begins with the cycles that are\n"
@@ -319,7 +319,8 @@ const QVector<Command> &commands()
          "If it was killed, the next one in the same FOLDER finishes the files, and goes\n"
          "on. VERB asks the recorder of a FOLDER, also one in a master: stop ends its\n"
          "files until start, mark keeps the cycles from 30 s before to 10 s after, status\n"
-         "prints what it does, and list the files.",
+         "prints what it does, and list the files. Without a FOLDER, mark asks the masters:\n"
+         "they keep these cycles, also when nobody records.",
          {{"ring", "RING", "The ring of the master, default the only one."},
           {"plant", "NAME", "With a FOLDER: records the plant NAME alone."},
           {"segment-hours", "H", "With a FOLDER: a file is not longer, default 1."},
@@ -329,7 +330,7 @@ const QVector<Command> &commands()
           {"free-gib", "GIB", "With a FOLDER: keeps so much of the disk free, default 1."}},
          {QStringLiteral("qtplc record flight.mcap"),
           QStringLiteral("qtplc record /var/lib/qtplc/ --keep-days 10 --keep-gib 50"),
-          QStringLiteral("qtplc record mark /var/lib/qtplc"),
+          QStringLiteral("qtplc record mark /var/lib/qtplc"), QStringLiteral("qtplc record mark"),
           QStringLiteral("qtplc record list /var/lib/qtplc --json")},
          Command::NoArguments,
          1,

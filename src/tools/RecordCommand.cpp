@@ -28,6 +28,23 @@ QString onlyRing(const CommandCall &call)
     return {};
 }
 
+/// All plants, or the one of --ring. The master keeps the cycles, or its recorder does.
+int markPlants(const CommandCall &call)
+{
+    const QString option = QStringLiteral("ring");
+    const QStringList rings
+        = call.application.isSet(option) ? QStringList(call.application.value(option)) : qplc::ringsOfMasters();
+    if (rings.isEmpty())
+        return call.application.usageError(
+            QStringLiteral("no master of this user runs cycles on this computer; start the plant first"));
+    for (const QString &ring : rings) {
+        QString error;
+        if (!qplc::markRing(ring, &error))
+            return call.application.usageError(error);
+    }
+    return QPlcCoreApplication::Success;
+}
+
 /// \return false, with the message out
 bool readLimits(const CommandCall &call, QPlcRecorder *recorder)
 {
@@ -78,6 +95,8 @@ int recordPlant(const CommandCall &call)
 {
     if (call.arguments.size() == 2)
         return controlRecorder(call);
+    if (call.arguments.value(0) == QLatin1String("mark"))
+        return markPlants(call);
     QPlcRecorder recorder;
     recorder.setTarget(call.arguments.value(0));
     if (!readLimits(call, &recorder))

@@ -133,6 +133,34 @@ void printNodes(const QVector<QPlcNodeInfo> &nodes, bool verbose)
     table.print();
 }
 
+Tone toneOf(messages::RecorderState state)
+{
+    switch (state) {
+    case messages::RecorderState::DiskFull:
+    case messages::RecorderState::Failing:
+    case messages::RecorderState::Stalled:
+    case messages::RecorderState::Gone:
+        return Tone::Caution;
+    case messages::RecorderState::Unknown:
+    case messages::RecorderState::None:
+    case messages::RecorderState::Recording:
+    case messages::RecorderState::Stopped:
+        break;
+    }
+    return Tone::Plain;
+}
+
+void printRecorder(const messages::RecorderEntry &recorder)
+{
+    printField("recorder", qplc::recorderText(recorder), toneOf(recorder.state));
+    if (recorder.missing > 0)
+        printField("", QStringLiteral("%1 cycles of this phase are missing").arg(recorder.missing), Tone::Caution);
+    if (!recorder.file.isEmpty())
+        printField("", recorder.file);
+    if (recorder.state == messages::RecorderState::Recording && !recorder.error.isEmpty())
+        printField("", QStringLiteral("last error: ") + recorder.error);
+}
+
 }  // namespace
 
 int showState(const CommandCall &call)
@@ -165,6 +193,8 @@ int showState(const CommandCall &call)
     printField("counters", countersText(state.counters, verbose));
     printField("session", QPlcMessage::fromHex64(state.session));
     printField("digest", QPlcMessage::fromHex64(state.digest));
+    if (state.recorder)
+        printRecorder(*state.recorder);
     if (const QString faults = faultsText(state); !faults.isEmpty())
         printField("FAULTS", QStringLiteral("injected on purpose by %1").arg(faults), Tone::Caution);
     printLine(QString());

@@ -174,6 +174,9 @@ private Q_SLOTS:
     void aKilledRecorderIsContinued();
     void theRingOfAKilledMasterIsFound();
     void aFullDiskIsTriedAgainEachSecond();
+    void theMasterIsToldWhatTheRecorderDoes();
+    void aMarkInTheRingMarksTheFile();
+    void aPartThatAMasterHasKeptIsRecordedAndMarked();
     void aFullDiskLeavesRoomForTheSummary();
     void aStalledDiskCostsGapsThatAreExact();
     void twoRecordersOfOneFolderAreRefused();
@@ -429,6 +432,65 @@ void tst_RecorderLoop::aFullDiskIsTriedAgainEachSecond()
     QVERIFY(!flight.loop->status().hasFailed);
     flight.endPhase();
     requireWhole(flight.files(), 999, flight.digest());
+}
+
+void tst_RecorderLoop::theMasterIsToldWhatTheRecorderDoes()
+{
+    Recorded flight;
+    QVERIFY(flight.open() && flight.attach() && flight.start());
+    const RecorderReportPlace &place = flight.ring->memory().header()->report;
+    flight.fly(500);
+    std::optional<RecorderReport> report = place.read();
+    QVERIFY(report);
+    QCOMPARE(report->state, RecorderReport::Recording);
+    QCOMPARE(report->file, flight.files().constFirst());
+    QCOMPARE(report->freeBytes, flight.disk.free);
+    QVERIFY(report->bytesPerSecond > 0);
+    flight.disk.left = flight.disk.free = 0;
+    flight.fly(200);
+    report = place.read();
+    QCOMPARE(report->state, RecorderReport::DiskFull);
+    QCOMPARE(report->error, QString("the disk is full"));
+    flight.disk.free = 1U << 30;  // of something else
+    flight.fly(200);
+    QCOMPARE(place.read()->state, RecorderReport::Failing);
+    flight.disk.left = 1U << 30;
+    flight.fly(200);
+    QCOMPARE(place.read()->state, RecorderReport::Recording);
+    QVERIFY(RecorderControl::setStopped(flight.settings.folder, true, &flight.error));
+    flight.fly(100);
+    QCOMPARE(place.read()->state, RecorderReport::Stopped);
+    QVERIFY(!flight.ring->isRead());
+}
+
+void tst_RecorderLoop::aMarkInTheRingMarksTheFile()
+{
+    Recorded flight;
+    QVERIFY(flight.open() && flight.attach() && flight.start());
+    flight.fly(100);
+    QVERIFY(!flight.files().constFirst().contains("_marked"));
+    flight.ring->memory().header()->wishes.fetch_add(1);
+    flight.fly(100);
+    QVERIFY(flight.files().constFirst().contains("_marked"));
+}
+
+void tst_RecorderLoop::aPartThatAMasterHasKeptIsRecordedAndMarked()
+{
+    Recorded flight;
+    QVERIFY(flight.open() && flight.start());
+    flight.step(300);
+    flight.ring->memory().header()->isCut = 1;
+    flight.ring->memory().unlock(RingMemory::WriterLock);
+    QVERIFY(flight.attach());
+    flight.proceed(1.0);
+    flight.proceed(1.0);
+    QCOMPARE(flight.files().size(), 1);
+    QVERIFY(flight.files().constFirst().endsWith("_marked.mcap"));
+    QVERIFY2(!flight.told.back().isAbandoned, "its master may go on");
+    const VerifiedFile file = verified(flight.files().constFirst());
+    QVERIFY(file.isFinished);
+    QCOMPARE(file.problems, QStringList(noEnd));
+    QVERIFY2(!QFile::exists(flight.ringFile), "all of it is in the file");
 }
 
 void tst_RecorderLoop::aFullDiskLeavesRoomForTheSummary()

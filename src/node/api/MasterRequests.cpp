@@ -150,6 +150,7 @@ public:
         reply.evicted = d.evictions.entries();
         reply.latch = d.latch;
         reply.cycleZeroTime = quint64(d.parts->cycle.cycleZeroTime());
+        reply.recorder = d.parts->phase.recorder().status();
         const qplc::AskedStop &stop = d.askedStop;
         if (!stop.whoever.isEmpty())
             reply.stopped

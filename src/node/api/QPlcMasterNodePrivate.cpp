@@ -518,6 +518,8 @@ void QPlcMasterNodePrivate::enter(QPlcMasterNode::State newState, const QString 
         askedStop = {};
     arming.disarm();
     const QString words = qplc::stateText(QLatin1String(qplc::nameOf(m_state)));
+    if (isLatched() && parts)
+        parts->phase.keepCycles(words.toLower());
     if (!isTransient || parts->reports.isWaitTold())
         journal.stateChanged(reason.isEmpty() ? words : QStringLiteral("%1: %2").arg(words, reason), isTransient);
     Q_EMIT q->stateChanged(newState);

@@ -70,6 +70,15 @@ QByteArray RingMemory::folder()
 bool RingMemory::create(const QByteArray &file, std::size_t capacity, const QByteArray &description, QString *error,
                         std::size_t textCapacity)
 {
+    if (createHidden(file, capacity, description, error, textCapacity) && (file.isEmpty() || publish(file, error)))
+        return true;
+    close();
+    return false;
+}
+
+bool RingMemory::createHidden(const QByteArray &file, std::size_t capacity, const QByteArray &description,
+                              QString *error, std::size_t textCapacity)
+{
     close();
     m_capacity = capacity;
     m_textCapacity = textCapacity;
@@ -86,7 +95,7 @@ bool RingMemory::create(const QByteArray &file, std::size_t capacity, const QByt
         close();
         return false;
     }
-    if (map(error) && describe(description, error) && (file.isEmpty() || publish(file, error)))
+    if (map(error) && describe(description, error))
         return true;
     close();
     return false;

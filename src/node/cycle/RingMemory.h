@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "RecorderReport.h"
 #include "transport/Descriptor.h"
 
 #include <QtCore/QByteArray>
@@ -52,10 +53,13 @@ public:
         std::uint32_t descriptionSize = 0;  // [byte], right behind this header
         std::uint64_t textCapacity = 0;     // [byte] of texts, behind the records; a power of two, or 0: there are none
         std::int64_t startTime = 0;         // cycle 0 [ns since 1970]; 0: the clock is not timed
+        std::atomic<std::uint32_t> wishes{0};  // how often somebody has wanted that the last seconds stay
+        std::atomic<std::uint32_t> isCut{0};   // 1: a part of another ring, which nobody has recorded
         RingMarks cycles;
         RingMarks texts;
+        RecorderReportPlace report;  // recorder
     };
-    static_assert(sizeof(Header) == 320);
+    static_assert(sizeof(Header) == 1408);
     static_assert(std::atomic<std::uint64_t>::is_always_lock_free);
 
     enum Lock : std::uint8_t { WriterLock = 0, RecorderLock = 1 };
@@ -80,6 +84,10 @@ public:
     /// \param textCapacity [byte], the same, or 0
     bool create(const QByteArray &file, std::size_t capacity, const QByteArray &description, QString *error,
                 std::size_t textCapacity = 0);
+    /// As create(), but the file appears only with publish(): its bytes are there by then.
+    bool createHidden(const QByteArray &file, std::size_t capacity, const QByteArray &description, QString *error,
+                      std::size_t textCapacity = 0);
+    bool publish(const QByteArray &file, QString *error);
     /// Opens a file that create() has made. Nothing in it is trusted.
     bool open(const QByteArray &file, QString *error);
     void close();
@@ -108,7 +116,6 @@ private:
     bool map(QString *error);
     char *mapTwice(std::uint64_t place, std::uint64_t size) const;
     bool describe(const QByteArray &description, QString *error);
-    bool publish(const QByteArray &file, QString *error);
 
     Descriptor m_descriptor;
     Header *m_header = nullptr;

@@ -123,6 +123,12 @@ void RingReader::release()
     RegionReader::release();
 }
 
+void RingReader::report(const RecorderReport &report)
+{
+    if (m_isAttached)
+        m_memory.header()->report.write(report);
+}
+
 RecordedNode CycleView::node(std::uint32_t number) const noexcept
 {
     RecordedNode record;

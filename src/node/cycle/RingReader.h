@@ -65,6 +65,9 @@ public:
     /// Those of the texts.
     RegionReader &texts() { return m_texts; }
 
+    /// Tells the writer, and others that have the ring open, what this recorder does.
+    void report(const RecorderReport &report);
+
     /// Whether the process that writes the ring is there, and has not ended the phase.
     bool hasWriter() const { return m_memory.isLocked(RingMemory::WriterLock); }
     RingMemory &memory() { return m_memory; }

@@ -126,6 +126,7 @@ void MasterReports::codeFailed(const CycleEvent &event)
         return;
     }
     const QString name = m_phase.nodeName(event.node);
+    m_phase.keepCycles(QStringLiteral("the failure of node '%1'").arg(name));
     m_faults.nodeFailed(name, slot && slot->critical,
                         QStringLiteral("node '%1' in cycle %2: %3").arg(name).arg(event.cycle).arg(what));
 }

@@ -57,9 +57,10 @@ void PhaseRing::setPlant(const QString &plant, quint64 session)
 void PhaseRing::leave()
 {
     close();
-    if (m_ring && !m_ring->isRead())
+    if (m_ring && !m_ring->isRead() && !m_isKept)
         m_ring->memory().remove();
     m_ring.reset();
+    m_isKept = false;
 }
 
 std::shared_ptr<RecordRing> PhaseRing::make(RingDescription description, std::size_t recordSize)

@@ -40,6 +40,8 @@ public:
     void close();
     /// Whether somebody records.
     bool isRead() const { return m_ring && m_ring->isRead(); }
+    /// Whether the ring stays after its phase, though nobody records: until the next make().
+    void setKept(bool isKept) { m_isKept = isKept; }
     /// As make() has made it. Empty: there is none.
     QString file() const;
 
@@ -55,6 +57,7 @@ private:
     quint64 m_session = 0;
     quint64 m_phase = 0;
     std::shared_ptr<RecordRing> m_ring;
+    bool m_isKept = false;
     std::function<void(const QString &file)> m_isReady;
     std::function<void()> m_begins;
     bool m_isOpen = false;

@@ -32,6 +32,8 @@ RealTimePhase::RealTimePhase(MasterCycle &cycle, const NodeRegistry &registry, R
     , m_profile(profile)
     , m_journal(journal)
     , m_ring(journal)
+    , m_recorder(journal, [&cycle] { return cycle.tap().missing(); })
+    , m_blackBox(journal, m_ring, {[this] { return m_isRunning; }, [&cycle] { return cycle.cycle(); }})
 {
 }
 
@@ -86,6 +88,8 @@ bool RealTimePhase::start(QString *error)
         *error = m_cycle.errorString();
         return false;
     }
+    m_recorder.watch(cycles.ring);
+    m_blackBox.watch(cycles.ring, m_settings.interval);
     m_isRunning = true;
     for (const QPlcRealTimeSetting &setting : m_cycle.realTimeSettings()) {
         if (!setting.granted)
@@ -97,6 +101,13 @@ bool RealTimePhase::start(QString *error)
     m_journal.watchOverruns(&m_cycle.cycleStatistics());
     m_journal.clearAll(QStringLiteral("over, a real-time phase has begun"));
     return true;
+}
+
+/// The end of the phase may be a part of what has happened.
+void RealTimePhase::keepCycles(const QString &reason)
+{
+    if (m_isRunning || m_hasEnded)
+        m_blackBox.keep(reason);
 }
 
 void RealTimePhase::renewRoster()

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "BlackBox.h"
 #include "GoneNodes.h"
 #include "OwnSignals.h"
 #include "PhaseCycles.h"
 #include "PhaseProfile.h"
 #include "PhaseRing.h"
 #include "PhaseSettings.h"
+#include "RecorderWatch.h"
 #include "RosterMaker.h"
 
 namespace qplc {
@@ -28,6 +30,10 @@ public:
 
     /// What the cycles of the phases are recorded from.
     PhaseRing &ring() { return m_ring; }
+    const RecorderWatch &recorder() const { return m_recorder; }
+    /// The cycles around the present one stay, also when nobody records. Nothing is done if none
+    /// run. \param reason  "safe stop"
+    void keepCycles(const QString &reason);
     void makeSafe() { m_cycle.makeSafe(); }
     /// Waits until the cycle in progress has ended, if cycles run.
     void end();
@@ -55,6 +61,8 @@ private:
     Journal &m_journal;
     GoneNodes m_gone;  // of this phase
     PhaseRing m_ring;
+    RecorderWatch m_recorder;
+    BlackBox m_blackBox;
     bool m_isRunning = false;
     bool m_hasEnded = false;
 };

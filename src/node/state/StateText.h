@@ -19,5 +19,7 @@ QString stateText(messages::ClockKind clock);
 QString transportText(const QPlcNodeInfo &node);
 /// "evicted by 'anna' at 13:04:05"; with the date, unless it is that of \a today.
 QString evictedText(const messages::EvictedEntry &entry, const QDate &today);
+/// "recording, 14.1 kB/s, 512.0 GB free", "the disk is full: ..."
+QString recorderText(const messages::RecorderEntry &recorder);
 
 }  // namespace qplc

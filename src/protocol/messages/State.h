@@ -63,6 +63,44 @@ struct Counters<QPlcMasterStatistics>
         field("deniedMessages", &M::deniedMessages));
 };
 
+/// What the recorder of the cycles does.
+enum class RecorderState : quint8 {
+    Unknown,    ///< a word of a newer master
+    None,       ///< nobody records
+    Recording,  ///< cycles go into a file
+    DiskFull,   ///< the disk has no room; the recorder tries again
+    Failing,    ///< the file cannot be written for another reason; the recorder tries again
+    Stalled,    ///< the recorder makes no progress, as when its disk stalls
+    Gone,       ///< the recorder has ended without a word, and the ring waits for the next one
+    Stopped     ///< somebody wants that nothing is recorded
+};
+
+template<>
+struct Names<RecorderState>
+{
+    static constexpr std::pair<RecorderState, const char *> all[]
+        = {{RecorderState::None, "None"},         {RecorderState::Recording, "Recording"},
+           {RecorderState::DiskFull, "DiskFull"}, {RecorderState::Failing, "Failing"},
+           {RecorderState::Stalled, "Stalled"},   {RecorderState::Gone, "Gone"},
+           {RecorderState::Stopped, "Stopped"}};
+};
+
+/// Who records the cycles of the last phase.
+struct RecorderEntry
+{
+    RecorderState state = RecorderState::Unknown;
+    QString file;               // the newest one, on the computer of the master
+    double bytesPerSecond = 0;  // written, over the last seconds
+    quint64 freeBytes = 0;      // of the disk
+    quint64 missing = 0;        // cycles of the phase that are in no recording
+    QString error;              // the newest one of the recorder; empty: there was none
+
+    static constexpr auto fields = std::make_tuple(
+        field("state", &RecorderEntry::state), field("file", &RecorderEntry::file),
+        field("bytesPerSecond", &RecorderEntry::bytesPerSecond), field("freeBytes", &RecorderEntry::freeBytes),
+        field("missing", &RecorderEntry::missing), field("error", &RecorderEntry::error));
+};
+
 struct State
 {
     static constexpr QPlcMessage::Kind kind = QPlcMessage::State;
@@ -87,6 +125,7 @@ struct State
     Hex64 digest;
     std::optional<StopEntry> stopped;
     QString faults;
+    std::optional<RecorderEntry> recorder;  // none: no phase was recorded from yet
 
     static constexpr auto fields = std::make_tuple(
         field("state", &State::state), field("reason", &State::reason), field("remains", &State::remains),
@@ -97,7 +136,7 @@ struct State
         field("profile", &State::profile), field("profileReason", &State::profileReason),
         field("session", &State::session), field("nodes", &State::nodes), field("counters", &State::counters),
         field("digest", &State::digest), field("stopped", &State::stopped, Presence::WhenSet),
-        field("faults", &State::faults, Presence::WhenSet));
+        field("faults", &State::faults, Presence::WhenSet), field("recorder", &State::recorder, Presence::WhenSet));
 };
 
 struct GetState
