@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t FullChunk = 256 * 1024;  // [byte] of messages
 constexpr std::uint64_t AllTexts = ~std::uint64_t(0);
 constexpr std::size_t MostAdoptions = 10'000;  // that texts may come after
-constexpr int MostLooksForText = 200;          // at the end of a phase: a second
+constexpr int MostLooksForText = 20;           // at the end of a phase: a second, as a recorder looks
 
 const char rawSchema[] = "# The outputs of a node as it has answered them, where the signals do not show all of them.\n"
                          "uint16 id\n"
