@@ -238,14 +238,14 @@ const QVector<Command> &commands()
          "the last 1000 of them. --json prints an object for each line. --file needs no\n"
          "master: it shows the events that one has written to FILE, and to the older files\n"
          "FILE.1, FILE.2, ... The option --events of a master says where they are. Of a\n"
-         "recording (.mcap, or a folder) it also shows who set which signal, with the cycle\n"
-         "that has adopted the value, and who held which lease.",
+         "recording (.mcap, or a folder) it also shows who has set which signal, and which\n"
+         "cycle has adopted the value, and who held which lease.",
          {{"follow", "", "Goes on with what happens, until Ctrl-C."},
-          {"file", "FILE", "Reads the events of a master that has ended, or a recording."},
+          {"file", "FILE", "Reads the events of an ended master, or a recording."},
           {"signal", "SIGNAL", "Of a recording: only who has set or held this signal."}},
          {QStringLiteral("qtplc events"), QStringLiteral("qtplc events --follow"),
           QStringLiteral("qtplc events --file /var/log/qtplc/awe_master-50000.jsonl"),
-          QStringLiteral("qtplc events --file flight.mcap --signal gain"),
+          QStringLiteral("qtplc events --file flight.mcap --signal tetherSpeed"),
           QStringLiteral("qtplc events --json | jq -r 'select(.severity != \"info\").text'")},
          Command::NoArguments,
          0,
