@@ -50,8 +50,8 @@ public:
 
     /// Shortest span: 0.1 ms.
     static constexpr Time shortestSpan = 100'000;
-    /// Longest span: one day.
-    static constexpr Time longestSpan = 24 * 3'600'000'000'000;
+    /// Longest span: 365 days.
+    static constexpr Time longestSpan = 365 * 24 * 3'600'000'000'000;
     /// Span of a new axis: 30 s.
     static constexpr Time defaultSpan = 30'000'000'000;
 

@@ -2,6 +2,7 @@
 #include "PlotSettings.h"
 
 #include "QPlcPast.h"
+#include "QPlcTimeAxis.h"
 
 #include <QtCore/QJsonArray>
 
@@ -38,8 +39,8 @@ const QString minimumKey = QStringLiteral("minimum");
 const QString maximumKey = QStringLiteral("maximum");
 const QString linesKey = QStringLiteral("lines");
 
-constexpr double shortestSpan = 1e-4;  // [s], as QPlcTimeAxis
-constexpr double longestSpan = 86400.0;
+constexpr double shortestSpan = 1e-9 * double(QPlcTimeAxis::shortestSpan);  // [s]
+constexpr double longestSpan = 1e-9 * double(QPlcTimeAxis::longestSpan);
 
 template<typename T>
 void insertUnless(QJsonObject *json, const QString &key, const T &value, const T &standard)

@@ -2,6 +2,7 @@
 #include "TimeTicks.h"
 
 #include <QtCore/QDateTime>
+#include <QtCore/QLocale>
 
 #include <algorithm>
 #include <cmath>
@@ -51,7 +52,8 @@ Time beginOfDay(Time time)
 }
 
 TimeTicks::TimeTicks(Time begin, Time end, int widest)
-    : m_step(stepFor(end - begin, widest))
+    : m_hasDates(end - begin > 24 * hour)
+    , m_step(stepFor(end - begin, widest))
 {
     place(begin, end, beginOfDay(begin));
 }
@@ -104,6 +106,10 @@ void TimeTicks::place(Time begin, Time end, Time zero)
 
 QString TimeTicks::label(Time time) const
 {
+    if (!m_isRelative && m_hasDates && (m_step >= 24 * hour || time == beginOfDay(time))) {
+        const Time noon = time + (m_step >= 24 * hour ? 12 * hour : 0);  // of the day, whatever the clocks do
+        return QLocale::c().toString(QDateTime::fromSecsSinceEpoch(noon / second).date(), QStringLiteral("d MMM"));
+    }
     if (!m_isRelative)
         return clockText(time, m_step);
     const Time after = time - m_reference;

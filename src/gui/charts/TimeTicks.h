@@ -30,7 +30,8 @@ public:
     const QVector<Time> &minor() const { return m_minor; }
     /// Between major ticks [ns]
     Time step() const { return m_step; }
-    /// "12:03:15", "12:03", "12:03:15.25", "-2.5".
+    /// "12:03:15", "12:03", "12:03:15.25", "-2.5"; "27 Nov" where a day begins, if more than a day
+    /// is seen.
     QString label(Time time) const;
 
     /// A time of the day with what is needed to tell times apart that are \a resolution [ns] from
@@ -42,6 +43,7 @@ private:
     static Time stepFor(Time span, int widest);
 
     bool m_isRelative = false;
+    bool m_hasDates = false;  // more than a day is seen
     bool m_hasUnits = false;
     Time m_reference = 0;
     Time m_step = 1;

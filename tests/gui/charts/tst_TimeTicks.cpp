@@ -35,6 +35,7 @@ private Q_SLOTS:
     void tickCountStaysWithinTheAvailableRoom();
     void shortSpansHaveFractions();
     void longSpansHaveNoSeconds();
+    void moreThanADayHasDates();
     void secondsAreCountedFromTheReference();
     void eventTicksShowUnits();
     void clockTextResolvesTheGivenStep();
@@ -80,6 +81,21 @@ void tst_TimeTicks::longSpansHaveNoSeconds()
     const TimeTicks ticks(at(12, 0, 0), at(18, 0, 0), 6);
     QCOMPARE(labels(ticks).first(), QStringLiteral("12:00"));
     QCOMPARE(ticks.step(), 3600 * s);
+}
+
+void tst_TimeTicks::moreThanADayHasDates()
+{
+    const auto dateOf = [](Time time) {
+        return QLocale::c().toString(QDateTime::fromMSecsSinceEpoch(time / 1'000'000).date(), QStringLiteral("d MMM"));
+    };
+    const Time day = at(0, 0, 0);
+    const TimeTicks days(day, day + 10 * 86400 * s, 11);
+    QCOMPARE(days.step(), 86400 * s);
+    QCOMPARE(labels(days).first(), dateOf(day));
+    QCOMPARE(labels(days).last(), dateOf(day + 10 * 86400 * s));
+    QCOMPARE(labels(TimeTicks(day, day + 36 * 3600 * s, 3)),
+             (QStringList{dateOf(day), "12:00", dateOf(day + 86400 * s), "12:00"}));
+    QCOMPARE(labels(TimeTicks(day, day + 86400 * s, 2)), (QStringList{"00:00", "12:00", "00:00"}));
 }
 
 void tst_TimeTicks::secondsAreCountedFromTheReference()

@@ -105,6 +105,8 @@ void tst_QPlcTimeAxis::zoomingKeepsTheTimeBelowTheMouse()
 
 void tst_QPlcTimeAxis::spansHaveLimits()
 {
+    m_view->setSpan(240 * 3600 * s);
+    QCOMPARE(m_view->span(), 240 * 3600 * s);  // ten days
     m_view->setSpan(-5);
     QCOMPARE(m_view->span(), QPlcTimeAxis::shortestSpan);
     m_view->zoom(1e30, 0);
