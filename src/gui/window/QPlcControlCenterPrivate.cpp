@@ -9,6 +9,7 @@
 #include "MissingNotice.h"
 #include "PanelKeysFirst.h"
 #include "QPlcSignalTree.h"
+#include "RecorderNotice.h"
 #include "SignalPlaceActions.h"
 #include "StandardWidgets.h"
 #include "gui/plant/PlantFeed.h"
@@ -118,6 +119,8 @@ void QPlcControlCenter::Private::makeBars()
     timeBar = new TimeBar(&context);
     eventLine = new EventLine(&context);
     bottomBar->addWidget(timeBar);
+    bottomBar->addSeparator();
+    bottomBar->addWidget(new RecorderNotice(&selection, &context));
     bottomBar->addSeparator();
     bottomBar->addWidget(eventLine);
     q->addToolBar(Qt::BottomToolBarArea, bottomBar);

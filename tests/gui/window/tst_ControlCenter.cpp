@@ -2,6 +2,7 @@
 #include "../../common/Waiting.h"
 #include "QPlcSignalTree.h"
 #include "WindowFixtures.h"
+#include "gui/window/RecorderNotice.h"
 
 #include <QtCore/QJsonArray>
 
@@ -80,6 +81,7 @@ void tst_ControlCenter::aTypedAddressConnectsAndTheNextActionStarts()
     QTRY_COMPARE_WITH_TIMEOUT(fixture.topBar()->stepper()->step(), StateStep::RealTime, patience);
     QVERIFY(!fixture.topBar()->nextButton()->isVisible());  // STOP is the next one
     QTRY_COMPARE_WITH_TIMEOUT(fixture.topBar()->selector()->headline(), QStringLiteral("live"), patience);
+    QTRY_COMPARE_WITH_TIMEOUT(fixture.part<RecorderNotice>()->summary().text, QString("not recording"), patience);
     // Connect..., Open a recording..., Back, and the address for the next time
     QCOMPARE(fixture.part<StartPage>()->buttons().size(), 4);
 }

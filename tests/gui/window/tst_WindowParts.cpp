@@ -6,6 +6,7 @@
 #include "gui/window/DoubleEscape.h"
 #include "gui/window/FuzzyMatch.h"
 #include "gui/window/RecentRecordings.h"
+#include "gui/window/RecorderNotice.h"
 
 #include <QtCore/QJsonArray>
 
@@ -49,6 +50,8 @@ private Q_SLOTS:
     void violationsAreNewForTenSeconds();
     void barShowsDelayAndLossOfTheLink();
     void barShowsTheConditionOfAPlant();
+    void barShowsTheRecorder_data();
+    void barShowsTheRecorder();
 
 private:
     std::unique_ptr<TestSettings> m_settings;
@@ -327,6 +330,45 @@ void tst_WindowParts::barShowsTheConditionOfAPlant()
                                   .match(PlantSummary::of(*plant).figures)
                                   .hasMatch(),
                               qPrintable(PlantSummary::of(*plant).figures), patience);
+}
+
+void tst_WindowParts::barShowsTheRecorder_data()
+{
+    using messages::RecorderState;
+    QTest::addColumn<int>("state");
+    QTest::addColumn<int>("missing");
+    QTest::addColumn<QString>("text");
+    QTest::addColumn<int>("tone");
+    const auto add = [](const char *name, RecorderState state, int missing, const char *text, Tone tone) {
+        QTest::newRow(name) << int(state) << missing << QString(text) << int(tone);
+    };
+    add("nobody", RecorderState::None, 0, "not recording", Tone::Calm);
+    add("all is well", RecorderState::Recording, 0, "14 kB/s", Tone::Calm);
+    add("cycles are missing", RecorderState::Recording, 7, "7 missing", Tone::Warning);
+    add("full disk", RecorderState::DiskFull, 0, "disk full", Tone::Alarm);
+    add("other error", RecorderState::Failing, 0, "write error", Tone::Alarm);
+    add("stalled", RecorderState::Stalled, 0, "stalled", Tone::Warning);
+    add("killed", RecorderState::Gone, 0, "recorder gone", Tone::Alarm);
+    add("stopped by somebody", RecorderState::Stopped, 0, "stopped", Tone::Calm);
+    add("a word of a newer master", RecorderState::Unknown, 0, "", Tone::Calm);
+}
+
+void tst_WindowParts::barShowsTheRecorder()
+{
+    QFETCH(int, state);
+    QFETCH(int, missing);
+    QFETCH(QString, text);
+    QFETCH(int, tone);
+    messages::RecorderEntry recorder;
+    recorder.state = messages::RecorderState(state);
+    recorder.missing = quint64(missing);
+    recorder.bytesPerSecond = 14'100;
+    recorder.file = "/recordings/kite.mcap.part";
+    const RecorderSummary summary = RecorderSummary::of(recorder);
+    QCOMPARE(summary.text, text);
+    QCOMPARE(int(summary.tone), tone);
+    QCOMPARE(summary.isRecording, recorder.state == messages::RecorderState::Recording);
+    QCOMPARE(summary.more.contains("kite.mcap"), !text.isEmpty());
 }
 
 QTEST_MAIN(tst_WindowParts)
