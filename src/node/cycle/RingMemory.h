@@ -45,7 +45,7 @@ class RingMemory
 public:
     struct Header
     {
-        static constexpr std::uint64_t Magic = 0x32474e4952504c51;  // "QLPRING2"
+        static constexpr std::uint64_t Magic = 0x33474e4952504c51;  // "QLPRING3"
 
         std::uint64_t magic = 0;
         std::uint64_t capacity = 0;         // [byte] of records of cycles, a power of two
