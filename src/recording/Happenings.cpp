@@ -208,6 +208,9 @@ void HappeningReader::readChunk(const mcap::ChunkEntry &chunk)
     };
     mcap::forEachMessage(
         records, [](const mcap::Channel &) {}, take);
+    // A phase begins with what led to it, one topic after the other.
+    std::stable_sort(m_found.begin(), m_found.end(),
+                     [](const Happening &a, const Happening &b) { return a.wallTime < b.wallTime; });
 }
 
 }  // namespace qplc

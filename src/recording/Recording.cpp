@@ -133,6 +133,15 @@ int Recording::layoutOf(const RingDescription &description)
     return number;
 }
 
+/// The file that begins last may be a piece of another one.
+RecordedTime Recording::end() const
+{
+    RecordedTime end = m_files.front().end;
+    for (const RecordedFile &file : m_files)
+        end = std::max(end, file.end);
+    return end;
+}
+
 /// Files of one phase may share cycles, which are read once. Those of two phases may not.
 bool Recording::checkOrder(QString *error) const
 {

@@ -67,7 +67,7 @@ public:
     /// All definitions, for lists and selections.
     const QPlcSignalTable &table() const { return m_table; }
     RecordedTime begin() const { return m_files.front().begin; }
-    RecordedTime end() const { return m_files.back().end; }
+    RecordedTime end() const;
     /// Whether times are those of a clock, from 1970 on: not those of a simulation, from 0 on.
     bool isTimed() const;
     const std::vector<RecordedFile> &files() const { return m_files; }

@@ -184,7 +184,9 @@ public:
                                      .arg(m_next);
         if (m_result.cycles == 0)
             m_result.firstCycle = file.firstCycle;
-        m_result.cycles += file.cycles;
+        if (m_hasFile && file.next <= m_next)
+            return;  // it has what other files have, such as the cycles around a mark
+        m_result.cycles += file.cycles - std::min(file.cycles, m_next - std::min(m_next, file.from));
         m_result.skipped += file.skipped;
         m_result.missing += file.missing;
         m_result.gaps += file.gaps;

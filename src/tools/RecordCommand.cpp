@@ -41,6 +41,7 @@ int markPlants(const CommandCall &call)
         QString error;
         if (!qplc::markRing(ring, &error))
             return call.application.usageError(error);
+        printLine(QStringLiteral("marked %1: the cycles of 30 s before and 10 s after are kept").arg(printable(ring)));
     }
     return QPlcCoreApplication::Success;
 }

@@ -171,6 +171,7 @@ void tst_RecorderWatch::aRecorderIsSeenWithItsFigures()
     watched.look();
     QCOMPARE(watched.state(), RecorderState::None);
     QCOMPARE(watched.watch.status()->bytesPerSecond, 0.0);
+    QCOMPARE(watched.watch.status()->file, QString());  // it has another name by now
     QVERIFY(watched.told().empty());
 }
 

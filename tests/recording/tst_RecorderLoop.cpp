@@ -186,6 +186,7 @@ private Q_SLOTS:
     void aStopHoldsForTheNextRecorder();
     void theStatusSaysWhatIsRecorded();
     void theFilesOfAPhaseAreVerifiedAsOne();
+    void cyclesOfTwoFilesAreVerifiedOnce();
     void aMissingFileIsAGapUnlessItWasDeleted();
     void aFileOfAnotherFlightDoesNotGoOn();
     void aFileStandsForItsPhase();
@@ -668,6 +669,19 @@ void tst_RecorderLoop::theFilesOfAPhaseAreVerifiedAsOne()
     QCOMPARE(phase.cycles, quint64(5000));
     QCOMPARE(phase.firstCycle, quint64(0));
     QCOMPARE(phase.lastCycle, quint64(4999));
+    QCOMPARE(phase.digest, flight.digest());
+}
+
+void tst_RecorderLoop::cyclesOfTwoFilesAreVerifiedOnce()
+{
+    Recorded flight;
+    const QString folder = flyInFiveFiles(&flight);
+    const QString file = flight.files()[1];
+    QVERIFY(QFile::copy(file, QString(file).replace(".mcap", "_piece_marked.mcap")));
+    const VerifiedPhase phase = verifiedFolder(folder);
+    QVERIFY2(phase.isComplete(), qPrintable(phase.problems.join('\n')));
+    QCOMPARE(phase.phase.files.size(), 6);
+    QCOMPARE(phase.cycles, quint64(5000));
     QCOMPARE(phase.digest, flight.digest());
 }
 

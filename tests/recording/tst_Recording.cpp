@@ -89,6 +89,7 @@ private Q_SLOTS:
     void unfinishedFilesAreRead();
     void filesOfAFolderAreOneRecording();
     void cyclesOfTwoFilesAreReadOnce();
+    void aPieceOfAnotherFileHidesNothing();
     void twoSimulationsAreRefused();
     void whatIsNoRecordingIsRefused();
     void timesOfAPhaseInRealTimeAreThoseOfTheClock();
@@ -194,6 +195,29 @@ void tst_Recording::cyclesOfTwoFilesAreReadOnce()
     for (; rows.next(); ++number)
         QCOMPARE(rows.number(0), double(number));
     QCOMPARE(number, 200);
+}
+
+/// As the cycles around a mark, which were kept before the recorder came.
+void tst_Recording::aPieceOfAnotherFileHidesNothing()
+{
+    RecordedFlight flight;
+    QVERIFY(flight.begin() && flight.start());
+    flight.step(100);
+    flight.recorder.proceed(&flight.error);
+    flight.recorder.save(false, &flight.error);
+    QVERIFY(QFile::copy(flight.file, flight.folder.filePath("piece.mcap")));
+    flight.step(200);
+    flight.cycle.stop();
+    flight.recorder.proceed(&flight.error);
+    QVERIFY(flight.recorder.finish(&flight.error));
+    Recording recording = opened({flight.folder.path()});
+    QCOMPARE(recording.files().size(), std::size_t(2));
+    QCOMPARE(recording.end(), 299 * Period);
+    RecordedRows rows(recording, {3}, 0, recording.end());
+    int number = 0;
+    for (; rows.next(); ++number)
+        QCOMPARE(rows.number(0), double(number));
+    QCOMPARE(number, 300);
 }
 
 void tst_Recording::twoSimulationsAreRefused()
@@ -320,7 +344,7 @@ void tst_Recording::recoveredFilesHaveAnOverview()
     QVERIFY(recoverRecording(file, &recovered, &flight.error));
     Recording recording = opened({file});
     const auto &attachments = recording.files().front().attachments;
-    QCOMPARE(attachments.size(), std::size_t(2));
+    QCOMPARE(attachments.size(), std::size_t(3));  // description, initial values, overview
     QCOMPARE(attachments.back().name, QByteArray(overview::Name));
     overview::File overview;
     auto reader = std::make_shared<mcap::Reader>();

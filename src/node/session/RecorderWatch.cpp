@@ -68,6 +68,8 @@ void RecorderWatch::look(std::int64_t now)
     entry.state = stateOf(*ring, report.value_or(RecorderReport()), now);
     if (entry.state != RecorderState::Recording)
         entry.bytesPerSecond = 0;
+    if (entry.state == RecorderState::None || entry.state == RecorderState::Stopped)
+        entry.file.clear();  // it was finished, and has another name
     entry.missing = m_missing();
     m_status = entry;
     tellState(before);
