@@ -319,8 +319,8 @@ const QVector<Command> &commands()
          "If it was killed, the next one in the same FOLDER finishes the files, and goes\n"
          "on. VERB asks the recorder of a FOLDER, also one in a master: stop ends its\n"
          "files until start, mark keeps the cycles from 30 s before to 10 s after, status\n"
-         "prints what it does, and list the files. Without a FOLDER, mark asks the masters:\n"
-         "they keep these cycles, also when nobody records.",
+         "prints what it does, and list the files. Without a FOLDER, mark asks the\n"
+         "masters: they keep these cycles, also when nobody records.",
          {{"ring", "RING", "The ring of the master, default the only one."},
           {"plant", "NAME", "With a FOLDER: records the plant NAME alone."},
           {"segment-hours", "H", "With a FOLDER: a file is not longer, default 1."},
