@@ -177,8 +177,12 @@ int RecordingFolder::finishOthers(const QStringList &own, QString *error) const
         RecoveredFile result;
         if (!file.isUnfinished || own.contains(file.path) || !recoverRecording(file.path, &result, error))
             continue;
-        finished(file.path, false);
         ++count;
+        // Its recorder was killed before it wrote anything: the ring still has it.
+        if (result.chunks == 0 && result.damages == 0 && !result.wasFinished)
+            QFile::remove(file.path);
+        else
+            finished(file.path, false);
     }
     return count;
 }

@@ -172,6 +172,7 @@ private Q_SLOTS:
     void aSafeStopMarksItsFile();
     void strangersFilesStay();
     void aKilledRecorderIsContinued();
+    void aFileWithoutCyclesDoesNotStay();
     void theRingOfAKilledMasterIsFound();
     void aFullDiskIsTriedAgainEachSecond();
     void theMasterIsToldWhatTheRecorderDoes();
@@ -382,6 +383,22 @@ void tst_RecorderLoop::aKilledRecorderIsContinued()
     flight.endPhase();
     QCOMPARE(flight.files().size(), 2);
     requireWhole(flight.files(), 999, flight.digest());
+}
+
+void tst_RecorderLoop::aFileWithoutCyclesDoesNotStay()
+{
+    Recorded flight;
+    QVERIFY(flight.open() && flight.attach());
+    flight.proceed(0.01);
+    QCOMPARE(flight.files().size(), 1);  // it has its head
+    flight.kill();
+    QVERIFY2(flight.open(), qPrintable(flight.error));
+    QCOMPARE(flight.files(), QStringList());
+    QVERIFY(flight.attach() && flight.start());
+    flight.fly(400);
+    flight.endPhase();
+    QCOMPARE(flight.files().size(), 1);
+    requireWhole(flight.files(), 399, flight.digest());
 }
 
 void tst_RecorderLoop::theRingOfAKilledMasterIsFound()
