@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "RecordedPhases.h"
 
-#include "McapReader.h"
+#include "RecordedFile.h"
 #include "RecordingFolder.h"
 
 #include <QtCore/QDir>
@@ -14,40 +14,9 @@ namespace qplc {
 
 namespace {
 
-struct FoundFile
+auto phaseOf(const RingDescription &description)
 {
-    QString path;
-    RingDescription description;
-    quint64 begin = 0;  // of its first message [ns]
-
-    auto phase() const { return std::make_tuple(description.plant, description.session, description.phase); }
-};
-
-/// Reads a few bytes of a file that is finished, and all of another one.
-bool readFile(const QString &path, FoundFile *file, QString *error)
-{
-    mcap::Reader reader;
-    if (!reader.open(path, error))
-        return false;
-    mcap::Outline outline;
-    if (!reader.readOutline(&outline)) {
-        mcap::Index index;
-        reader.readIndex(&index);
-        outline.attachments = index.attachments;
-        outline.begin = index.chunks.empty() ? 0 : index.chunks.front().begin;
-    }
-    file->path = path;
-    file->begin = outline.begin;
-    for (const mcap::NamedEntry &entry : outline.attachments) {
-        mcap::Attachment text;
-        if (entry.name == "recording.txt" && reader.readAttachment(entry, &text)
-            && RingDescription::fromText(text.data, &file->description))
-            return true;
-    }
-    *error = QStringLiteral("'%1' has no description of a plant: it is not a recording of QtPLC, or damaged at its "
-                            "begin")
-                 .arg(path);
-    return false;
+    return std::make_tuple(description.plant, description.session, description.phase);
 }
 
 QStringList filesIn(const QString &folder)
@@ -88,10 +57,10 @@ bool isInFolderOfRecordings(const QString &path)
 bool findPhases(const QString &folder, QVector<RecordedPhase> *phases, QString *error)
 {
     phases->clear();
-    std::vector<FoundFile> found;
+    std::vector<RecordedFile> found;
     const QStringList paths = filesIn(folder);
     for (const QString &path : paths) {
-        if (!readFile(path, &found.emplace_back(), error))
+        if (!found.emplace_back().open(path, error))
             return false;
     }
     if (found.empty()) {
@@ -99,26 +68,24 @@ bool findPhases(const QString &folder, QVector<RecordedPhase> *phases, QString *
         return false;
     }
     std::stable_sort(found.begin(), found.end(),
-                     [](const FoundFile &a, const FoundFile &b) { return a.begin < b.begin; });
-    std::vector<FoundFile> firsts;  // of each phase
-    for (const FoundFile &file : found) {
-        const auto known = std::find_if(firsts.begin(), firsts.end(),
-                                        [&](const FoundFile &first) { return first.phase() == file.phase(); });
-        if (known == firsts.end()) {
-            firsts.push_back(file);
-            phases->append({file.description, {file.path}});
-        } else {
-            (*phases)[int(known - firsts.begin())].files << file.path;
-        }
+                     [](const RecordedFile &a, const RecordedFile &b) { return a.begin < b.begin; });
+    for (const RecordedFile &file : found) {
+        const auto known = std::find_if(phases->begin(), phases->end(), [&](const RecordedPhase &phase) {
+            return phaseOf(phase.description) == phaseOf(file.description);
+        });
+        if (known == phases->end())
+            phases->append({file.description, {file.name}});
+        else
+            known->files << file.name;
     }
     return true;
 }
 
 bool findPhase(const QString &path, RecordedPhase *phase, QString *error)
 {
-    FoundFile file;
     if (!isInFolderOfRecordings(path)) {
-        const bool isRead = readFile(path, &file, error);
+        RecordedFile file;
+        const bool isRead = file.open(path, error);
         *phase = {file.description, {path}};
         return isRead;
     }

@@ -28,7 +28,7 @@ bool findPhases(const QString &folder, QVector<RecordedPhase> *phases, QString *
 
 /// The phase that \a path stands for: a file alone; a file of a folder with the other files of its
 /// phase; the newest phase of a folder.
-/// \return false when there is none, or a file cannot be read
+/// \return false when the folder has no recording, or a file cannot be read
 bool findPhase(const QString &path, RecordedPhase *phase, QString *error);
 
 }  // namespace qplc

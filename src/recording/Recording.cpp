@@ -13,15 +13,6 @@ namespace qplc {
 
 namespace {
 
-constexpr char DescriptionName[] = "recording.txt";
-
-const mcap::NamedEntry *entryOf(const std::vector<mcap::NamedEntry> &entries, const char *name)
-{
-    const auto found = std::find_if(entries.begin(), entries.end(),
-                                    [name](const mcap::NamedEntry &entry) { return entry.name == name; });
-    return found == entries.end() ? nullptr : &*found;
-}
-
 QPlcSignalTable tableOf(const QByteArray &ini)
 {
     QVector<QPlcParseError> errors;
@@ -84,42 +75,18 @@ bool Recording::open(const QStringList &paths, QString *error)
 
 bool Recording::openFile(const QString &name, QString *error)
 {
-    mcap::Reader reader;
-    if (!reader.open(name, error))
-        return false;
     RecordedFile file;
-    file.name = name;
-    mcap::Outline outline;
-    file.isFinished = reader.readOutline(&outline);
-    if (!file.isFinished) {
-        mcap::Index index;
-        file.isFinished = reader.readIndex(&index);
-        outline.attachments = index.attachments;
-        outline.messages = index.chunks.empty() ? 0 : 1;
-        outline.begin = index.chunks.empty() ? 0 : index.chunks.front().begin;
-        for (const mcap::ChunkEntry &chunk : index.chunks)
-            outline.end = std::max(outline.end, chunk.end);
-        file.index = std::move(index);
-    }
-    const mcap::NamedEntry *entry = entryOf(outline.attachments, DescriptionName);
-    mcap::Attachment text;
-    const bool isDescribed
-        = entry && reader.readAttachment(*entry, &text) && RingDescription::fromText(text.data, &file.description);
-    file.layout = isDescribed ? layoutOf(file.description) : 0;
-    if (!isDescribed || layout(file.layout).message.table().isEmpty()) {
-        *error = QStringLiteral("'%1' has no description of a plant: it is not a recording of QtPLC, or damaged at its "
-                                "begin")
-                     .arg(name);
+    if (!file.open(name, error))
+        return false;
+    file.layout = layoutOf(file.description);
+    if (layout(file.layout).message.table().isEmpty()) {
+        *error = RecordedFile::unknownText(name);
         return false;
     }
-    if (outline.messages == 0) {
+    if (file.isEmpty)
         m_notes << QStringLiteral("'%1' has no cycle").arg(name);
-        return true;
-    }
-    file.begin = RecordedTime(outline.begin);
-    file.end = RecordedTime(outline.end);
-    file.attachments = std::move(outline.attachments);
-    m_files.push_back(std::move(file));
+    else
+        m_files.push_back(std::move(file));
     return true;
 }
 
@@ -229,7 +196,7 @@ overview::File *Recording::overviewOf(std::size_t number)
     QString error;
     if (!reader->open(file.name, &error))
         return nullptr;
-    const mcap::NamedEntry *entry = entryOf(file.attachments, overview::Name);
+    const mcap::NamedEntry *entry = file.attachment(overview::Name);
     if (!entry || !found->open(reader, *entry, layout.message.image())) {
         overview::Builder builder(layout.message.image());
         const mcap::Index *index = indexOf(number);

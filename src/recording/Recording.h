@@ -3,7 +3,7 @@
 
 #include "Overview.h"
 #include "PlantMessage.h"
-#include "node/cycle/RingDescription.h"
+#include "RecordedFile.h"
 
 #include <QtCore/QStringList>
 
@@ -13,8 +13,6 @@
 #include <vector>
 
 namespace qplc {
-
-using RecordedTime = std::int64_t;  // nominal time of a cycle [ns]: docs/recording.md
 
 /// A signal of a recording.
 struct RecordedSignal
@@ -31,19 +29,6 @@ struct RecordedLayout
     QByteArray ini;
     PlantMessage message;
     std::vector<std::uint32_t> offsets;  // of each signal in a message; empty: they vary
-};
-
-/// A file of a recording.
-struct RecordedFile
-{
-    QString name;
-    RingDescription description;
-    int layout = 0;
-    RecordedTime begin = 0;  // of its first message
-    RecordedTime end = 0;    // of its last message
-    bool isFinished = false;
-    std::vector<mcap::NamedEntry> attachments;
-    std::optional<mcap::Index> index;  // read when it is needed
 };
 
 /// Recordings as one: a file, the files of a folder, or several of them, in the order of their

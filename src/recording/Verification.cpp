@@ -3,6 +3,7 @@
 
 #include "McapReader.h"
 #include "PlantMessage.h"
+#include "RecordedFile.h"
 #include "RecordingMessages.h"
 
 #include <algorithm>
@@ -149,9 +150,7 @@ bool readFile(const QString &file, VerifiedFile *result, QString *error)
     Verifier verifier(result);
     result->isFinished = reader.scan(verifier) == Reader::Finished;
     if (!verifier.hasTable()) {
-        *error = QStringLiteral("'%1' has no description of a plant: it is not a recording of QtPLC, or damaged at its "
-                                "begin")
-                     .arg(file);
+        *error = RecordedFile::unknownText(file);
         return false;
     }
     verifier.end();

@@ -8,6 +8,7 @@
 
 #include <QtCore/QTemporaryDir>
 
+#include <algorithm>
 #include <cmath>
 
 /// A master without nodes, whose program turns the clock and sets the signals, and its recorder.
@@ -62,6 +63,26 @@ struct RecordedFlight
                              {4, QPlcValue(QString(number % 7, QLatin1Char('a'))), QPlcQuality::Good}});
             cycle.step();
         }
+    }
+    /// Records \a cycles with a chunk for each hundred of them. \return the file
+    QString record(int cycles, bool isFinished = true)
+    {
+        const auto require = [this](bool isDone) {
+            if (!isDone)
+                qFatal("%s", qPrintable(error));
+        };
+        require(begin() && start());
+        for (int i = 0; i < cycles; i += 100) {
+            step(std::min(100, cycles - i));
+            recorder.proceed(&error);
+            require(recorder.save(false, &error));
+        }
+        if (!isFinished)
+            return file;
+        cycle.stop();
+        recorder.proceed(&error);
+        require(recorder.finish(&error));
+        return file;
     }
     quint64 digest() const { return cycle.statistics().imageDigest; }
 

@@ -11,25 +11,6 @@ namespace {
 
 constexpr qint64 Period = 10'000'000;  // [ns]
 
-/// Records cycles with a chunk for each hundred of them, in files of some hundred.
-QString record(RecordedFlight *flight, int cycles, bool isFinished = true)
-{
-    if (!flight->begin() || !flight->start())
-        qFatal("%s", qPrintable(flight->error));
-    for (int i = 0; i < cycles; i += 100) {
-        flight->step(std::min(100, cycles - i));
-        flight->recorder.proceed(&flight->error);
-        flight->recorder.save(false, &flight->error);
-    }
-    if (!isFinished)
-        return flight->file;
-    flight->cycle.stop();
-    flight->recorder.proceed(&flight->error);
-    if (!flight->recorder.finish(&flight->error))
-        qFatal("%s", qPrintable(flight->error));
-    return flight->file;
-}
-
 }  // namespace
 
 // The public reader of recordings.
@@ -55,7 +36,7 @@ void tst_QPlcRecording::aRecordingSaysWhatItIs()
 {
     RecordedFlight flight;
     QPlcRecording recording;
-    QVERIFY2(recording.open(record(&flight, 250)), qPrintable(recording.errorString()));
+    QVERIFY2(recording.open(flight.record(250)), qPrintable(recording.errorString()));
     QCOMPARE(recording.plant(), QString("kite"));
     QCOMPARE(qint64(recording.period().count()), Period);
     QCOMPARE(recording.begin(), qint64(0));
@@ -75,7 +56,7 @@ void tst_QPlcRecording::rowsHaveAllTypesOfValues()
 {
     RecordedFlight flight;
     QPlcRecording recording;
-    QVERIFY(recording.open(record(&flight, 250)));
+    QVERIFY(recording.open(flight.record(250)));
     QPlcRecordedRows rows(recording, {"position.x", "phase", "position_x", "force", "time"}, 0, recording.end());
     QVERIFY2(rows.isValid(), qPrintable(rows.errorString()));
     quint64 number = 0;
@@ -105,7 +86,7 @@ void tst_QPlcRecording::rowsOfATimeAreThoseOfTheTime()
 {
     RecordedFlight flight;
     QPlcRecording recording;
-    QVERIFY(recording.open(record(&flight, 500)));
+    QVERIFY(recording.open(flight.record(500)));
     QPlcRecordedRows rows(recording, {"position.x"}, 120 * Period - 1, 240 * Period);
     QVERIFY(rows.next());
     QCOMPARE(rows.cycle(), quint64(120));
@@ -119,7 +100,7 @@ void tst_QPlcRecording::columnsGoOnWhereTheyWereCut()
 {
     RecordedFlight flight;
     QPlcRecording recording;
-    QVERIFY(recording.open(record(&flight, 500)));
+    QVERIFY(recording.open(flight.record(500)));
     QVector<double> numbers;
     QVector<quint64> cycles;
     qint64 begin = 0;
@@ -147,7 +128,7 @@ void tst_QPlcRecording::messagesAreThoseOfTheirChannel()
 {
     RecordedFlight flight;
     QPlcRecording recording;
-    QVERIFY(recording.open(record(&flight, 300)));
+    QVERIFY(recording.open(flight.record(300)));
     const QVector<QPlcRecording::Message> digests = recording.messages("/digest", 0, recording.end());
     QVERIFY(digests.size() >= 3);
     for (const QPlcRecording::Message &message : digests)
@@ -161,7 +142,7 @@ void tst_QPlcRecording::theOverviewHasTheExtremesOfTheRows()
 {
     RecordedFlight flight;
     QPlcRecording recording;
-    QVERIFY(recording.open(record(&flight, 512)));
+    QVERIFY(recording.open(flight.record(512)));
     const QVector<QPlcRecording::Extremes> extremes
         = recording.overview("position.x", 0, 0, recording.end() + Period, 4);
     QCOMPARE(extremes.size(), 4);
@@ -186,7 +167,7 @@ void tst_QPlcRecording::whatIsNotKnownIsNamed()
 {
     RecordedFlight flight;
     QPlcRecording recording;
-    QVERIFY(recording.open(record(&flight, 10)));
+    QVERIFY(recording.open(flight.record(10)));
     QPlcRecordedRows rows(recording, {"position.x", "power"}, 0, recording.end());
     QVERIFY(!rows.isValid() && !rows.next());
     QCOMPARE(rows.errorString(), QString("the recording has no signal 'power'"));
@@ -217,7 +198,7 @@ void tst_QPlcRecording::aFolderIsOneRecording()
     QTemporaryDir folder;
     for (const char *name : {"a_marked.mcap", "b.mcap"}) {
         RecordedFlight flight;
-        QVERIFY(QFile::copy(record(&flight, 100), folder.filePath(name)));
+        QVERIFY(QFile::copy(flight.record(100), folder.filePath(name)));
     }
     QPlcRecording recording;
     QVERIFY2(recording.open(folder.path()), qPrintable(recording.errorString()));
@@ -230,7 +211,7 @@ void tst_QPlcRecording::anUnfinishedFileIsRead()
 {
     RecordedFlight flight;
     QPlcRecording recording;
-    QVERIFY(recording.open(record(&flight, 300, false)));
+    QVERIFY(recording.open(flight.record(300, false)));
     QVERIFY(!recording.files().first().isFinished);
     QVERIFY(recording.columns({"on"}, recording.begin(), recording.end()).times.size() >= 200);
 }
@@ -238,7 +219,7 @@ void tst_QPlcRecording::anUnfinishedFileIsRead()
 void tst_QPlcRecording::aDamagedChunkIsLeftOutAndCounted()
 {
     RecordedFlight flight;
-    const QString name = record(&flight, 500);
+    const QString name = flight.record(500);
     QFile file(name);
     QVERIFY(file.open(QIODevice::ReadWrite));
     const QByteArray content = file.readAll();

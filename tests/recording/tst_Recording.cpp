@@ -12,26 +12,6 @@ namespace {
 
 constexpr RecordedTime Period = 10'000'000;
 
-/// Records \a cycles with a chunk for each hundred of them. \return the file
-QString record(RecordedFlight *flight, int cycles, bool isFinished = true)
-{
-    const QString name = QStringLiteral("flight.mcap");
-    if (!flight->begin(name) || !flight->start())
-        qFatal("%s", qPrintable(flight->error));
-    for (int i = 0; i < cycles; i += 100) {
-        flight->step(std::min(100, cycles - i));
-        flight->recorder.proceed(&flight->error);
-        flight->recorder.save(false, &flight->error);
-    }
-    if (!isFinished)
-        return flight->file;
-    flight->cycle.stop();
-    flight->recorder.proceed(&flight->error);
-    if (!flight->recorder.finish(&flight->error))
-        qFatal("%s", qPrintable(flight->error));
-    return flight->file;
-}
-
 Recording opened(const QStringList &files)
 {
     Recording recording;
@@ -105,7 +85,7 @@ private Q_SLOTS:
 void tst_Recording::rowsHaveTheValuesOfTheFlight()
 {
     RecordedFlight flight;
-    Recording recording = opened({record(&flight, 250)});
+    Recording recording = opened({flight.record(250)});
     QCOMPARE(recording.begin(), RecordedTime(0));
     QCOMPARE(recording.end(), 249 * Period);
     QVERIFY(!recording.isTimed());
@@ -126,7 +106,7 @@ void tst_Recording::rowsHaveTheValuesOfTheFlight()
 void tst_Recording::aRangeReadsItsChunksOnly()
 {
     RecordedFlight flight;
-    Recording recording = opened({record(&flight, 1000)});
+    Recording recording = opened({flight.record(1000)});
     RecordedRows rows(recording, {1}, 540 * Period, 559 * Period);
     int count = 0;
     while (rows.next())
@@ -141,7 +121,7 @@ void tst_Recording::aRangeReadsItsChunksOnly()
 void tst_Recording::signalsBehindATextAreFound()
 {
     RecordedFlight flight;
-    Recording recording = opened({record(&flight, 20)});
+    Recording recording = opened({flight.record(20)});
     RecordedRows rows(recording, {recording.indexOf("phase"), recording.indexOf("on")}, 0, recording.end());
     for (int i = 0; rows.next(); ++i) {
         QCOMPARE(QByteArray(rows.value(0), int(rows.size(0))), QByteArray(i % 7, 'a'));
@@ -152,7 +132,7 @@ void tst_Recording::signalsBehindATextAreFound()
 void tst_Recording::unfinishedFilesAreRead()
 {
     RecordedFlight flight;
-    Recording recording = opened({record(&flight, 300, false)});
+    Recording recording = opened({flight.record(300, false)});
     QVERIFY(!recording.files().front().isFinished);
     QCOMPARE(recording.end(), 299 * Period);
     RecordedRows rows(recording, {1}, 100 * Period, 199 * Period);
@@ -186,7 +166,7 @@ void tst_Recording::filesOfAFolderAreOneRecording()
 void tst_Recording::cyclesOfTwoFilesAreReadOnce()
 {
     RecordedFlight flight;
-    const QString file = record(&flight, 200);
+    const QString file = flight.record(200);
     const QString copy = flight.folder.filePath("copy.mcap");
     QVERIFY(QFile::copy(file, copy));
     Recording recording = opened({flight.folder.path()});
@@ -233,7 +213,7 @@ void tst_Recording::twoSimulationsAreRefused()
     second.phase.ring = second.ring;
     Recording recording;
     QString error;
-    QVERIFY(!recording.open({record(&first, 10), record(&second, 10)}, &error));
+    QVERIFY(!recording.open({first.record(10), second.record(10)}, &error));
     QVERIFY2(error.contains("different flights at the same time"), qPrintable(error));
 }
 
@@ -275,7 +255,7 @@ void tst_Recording::timesOfAPhaseInRealTimeAreThoseOfTheClock()
 void tst_Recording::aDamagedChunkIsLeftOutAndCounted()
 {
     RecordedFlight flight;
-    const QString file = record(&flight, 300);
+    const QString file = flight.record(300);
     QByteArray content = contentOf(file);
     const int chunk = content.indexOf("zstd", content.indexOf("zstd") + 4);
     content[chunk + 40] = char(content.at(chunk + 40) ^ 1);
@@ -294,7 +274,7 @@ void tst_Recording::aDamagedChunkIsLeftOutAndCounted()
 void tst_Recording::theOverviewHasTheExtremesOfTheRows()
 {
     RecordedFlight flight;
-    Recording recording = opened({record(&flight, 20000)});
+    Recording recording = opened({flight.record(20000)});
     const int signal = recording.indexOf("position.x");
     const int whole = recording.indexOf("position_x");
     // 128 cycles in each interval, and 1024: buckets that lie within the intervals
@@ -315,7 +295,7 @@ void tst_Recording::theOverviewHasTheExtremesOfTheRows()
 void tst_Recording::aDetailIsReadFromTheRows()
 {
     RecordedFlight flight;
-    Recording recording = opened({record(&flight, 500)});
+    Recording recording = opened({flight.record(500)});
     const int signal = recording.indexOf("position.x");
     QVERIFY(areSame(byOverview(recording, signal, 37), byRows(recording, signal, 37)));
     QVERIFY(recording.overview(recording.indexOf("phase"), 0, 0, 1000 * Period, 3).front().flags == 0);
@@ -326,7 +306,7 @@ void tst_Recording::aDetailIsReadFromTheRows()
 void tst_Recording::filesWithoutAnOverviewGetOne()
 {
     RecordedFlight flight;
-    const QString file = record(&flight, 5000, false);
+    const QString file = flight.record(5000, false);
     Recording unfinished = opened({file});
     QVERIFY(flight.recorder.finish(&flight.error));
     Recording finished = opened({file});
@@ -339,7 +319,7 @@ void tst_Recording::filesWithoutAnOverviewGetOne()
 void tst_Recording::recoveredFilesHaveAnOverview()
 {
     RecordedFlight flight;
-    const QString file = record(&flight, 5000, false);
+    const QString file = flight.record(5000, false);
     RecoveredFile recovered;
     QVERIFY(recoverRecording(file, &recovered, &flight.error));
     Recording recording = opened({file});
@@ -361,7 +341,7 @@ void tst_Recording::recoveredFilesHaveAnOverview()
 void tst_Recording::aDamagedOverviewShowsNoWrongValue()
 {
     RecordedFlight flight;
-    const QString file = record(&flight, 2000);
+    const QString file = flight.record(2000);
     Recording whole = opened({file});
     const mcap::NamedEntry entry = whole.files().front().attachments.back();
     QCOMPARE(entry.name, QByteArray(overview::Name));

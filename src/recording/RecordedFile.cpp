@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "RecordedFile.h"
+
+#include <algorithm>
+
+namespace qplc {
+
+bool RecordedFile::open(const QString &file, QString *error)
+{
+    mcap::Reader reader;
+    if (!reader.open(file, error))
+        return false;
+    name = file;
+    mcap::Outline outline;
+    isFinished = reader.readOutline(&outline);
+    if (!isFinished) {
+        index.emplace();
+        isFinished = reader.readIndex(&*index);
+        outline.attachments = index->attachments;
+        outline.messages = index->chunks.empty() ? 0 : 1;
+        outline.begin = index->chunks.empty() ? 0 : index->chunks.front().begin;
+        for (const mcap::ChunkEntry &chunk : index->chunks)
+            outline.end = std::max(outline.end, chunk.end);
+    }
+    attachments = std::move(outline.attachments);
+    isEmpty = outline.messages == 0;
+    begin = RecordedTime(outline.begin);
+    end = RecordedTime(outline.end);
+    const mcap::NamedEntry *entry = attachment("recording.txt");
+    mcap::Attachment text;
+    if (entry && reader.readAttachment(*entry, &text) && RingDescription::fromText(text.data, &description))
+        return true;
+    *error = unknownText(file);
+    return false;
+}
+
+QString RecordedFile::unknownText(const QString &file)
+{
+    return QStringLiteral("'%1' has no description of a plant: it is not a recording of QtPLC, or damaged at its begin")
+        .arg(file);
+}
+
+const mcap::NamedEntry *RecordedFile::attachment(const char *wanted) const
+{
+    const auto found = std::find_if(attachments.begin(), attachments.end(),
+                                    [wanted](const mcap::NamedEntry &entry) { return entry.name == wanted; });
+    return found == attachments.end() ? nullptr : &*found;
+}
+
+}  // namespace qplc
