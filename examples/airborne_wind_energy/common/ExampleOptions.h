@@ -40,7 +40,7 @@ QHostAddress defaultMulticastGroup();
 bool readVector(QPlcCoreApplication &application, const QString &option, Eigen::Vector3d *vector);
 
 void addModelOptions(QPlcCoreApplication &application);
-/// What the options say wins over \a kite. \return false, with the message out, when an option has
+/// What the options say wins over \a plant. \return false, with the message out, when an option has
 /// no valid value
 bool readModelOptions(QPlcCoreApplication &application, const PlantConfiguration &plant, ModelSettings *settings);
 /// --plant and --winch: what of the plant is hardware, and the data of the model.

@@ -11,26 +11,24 @@ namespace awe {
 QString KiteConfiguration::set(const QString &key, const QString &value)
 {
     SectionKeys keys(QStringLiteral("kite"));
-    const auto addNumber = [&keys](const char *name, double &number, double smallest, double largest,
-                                   const char *unit) { keys.addNumber(name, &number, smallest, largest, unit); };
-    PlantParameters::visitConstants(plant, addNumber);
+    keys.addConstants(&plant);
     keys.addChoice<AngleOfAttackRange>("angleOfAttack", &plant.angleOfAttackRange,
                                        {{"folded", AngleOfAttackRange::Folded}, {"full", AngleOfAttackRange::Full}});
     keys.addChoice<GroundContact>("ground", &plant.groundContact,
                                   {{"hold", GroundContact::Hold}, {"ignore", GroundContact::Ignore}});
     keys.addInteger("substeps", &substeps, 1, 100);
     keys.addVector("wind", &wind.meanVelocity, 100.0);
-    WindParameters::visitConstants(wind, addNumber);
+    keys.addConstants(&wind);
     keys.addChoice<TurbulenceModel>(
         "turbulenceModel", &wind.turbulenceModel,
         {{"first-order", TurbulenceModel::FirstOrder}, {"kaimal", TurbulenceModel::Kaimal}});
     keys.addSeed("seed", &wind.seed);
-    addNumber("elevation", elevation, -90.0, 90.0, "deg");
-    addNumber("azimuth", azimuth, -360.0, 360.0, "deg");
-    addNumber("distance", distance, 1e-3, 1e6, "m");
-    addNumber("tetherLength", tetherLength, 1e-3, 1e6, "m");
-    addNumber("pitchAngle", pitchAngle, -360.0, 360.0, "deg");
-    addNumber("yawAngle", yawAngle, -360.0, 360.0, "deg");
+    keys.addNumber("elevation", &elevation, -90.0, 90.0, "deg");
+    keys.addNumber("azimuth", &azimuth, -360.0, 360.0, "deg");
+    keys.addNumber("distance", &distance, 1e-3, 1e6, "m");
+    keys.addNumber("tetherLength", &tetherLength, 1e-3, 1e6, "m");
+    keys.addNumber("pitchAngle", &pitchAngle, -360.0, 360.0, "deg");
+    keys.addNumber("yawAngle", &yawAngle, -360.0, 360.0, "deg");
     keys.addVector("velocity", &velocity, 1000.0);
     return keys.set(key, value);
 }

@@ -8,6 +8,9 @@
 #include <QtCore/QFileInfo>
 #include <QtCore/QSet>
 
+#include <functional>
+#include <vector>
+
 // Resources of a static library are found only by programs that ask for them, outside of any
 // namespace.
 static void loadHardware()
@@ -67,10 +70,7 @@ QString setWind(AirParameters *air, const QString &key, const QString &value)
         "profile", &air->profile,
         {{"uniform", WindProfile::Uniform}, {"power", WindProfile::Power}, {"log", WindProfile::Log}});
     keys.addChoice<bool>("density", &air->isThinner, {{"constant", false}, {"falling", true}});
-    AirParameters::visitConstants(
-        *air, [&keys](const char *name, double &number, double smallest, double largest, const char *unit) {
-            keys.addNumber(name, &number, smallest, largest, unit);
-        });
+    keys.addConstants(air);
     return keys.set(key, value);
 }
 
@@ -81,10 +81,7 @@ QString setTether(TetherParameters *tether, const QString &key, const QString &v
         "kind", &tether->kind,
         {{"spring", TetherKind::Spring}, {"straight", TetherKind::Straight}, {"segments", TetherKind::Segments}});
     keys.addInteger("segments", &tether->segments, 1, TetherParameters::mostSegments);
-    TetherParameters::visitConstants(
-        *tether, [&keys](const char *name, double &number, double smallest, double largest, const char *unit) {
-            keys.addNumber(name, &number, smallest, largest, unit);
-        });
+    keys.addConstants(tether);
     return keys.set(key, value);
 }
 
@@ -93,8 +90,19 @@ class PlantReader
 {
 public:
     PlantReader(const QString &folder, PlantConfiguration *configuration)
-        : m_folder(folder)
-        , m_configuration(configuration)
+        : m_configuration(configuration)
+        , m_sections{
+              {winchSection,
+               [=](const QString &key, const QString &value) { return setWinch(configuration, folder, key, value); }},
+              {QStringLiteral("kite"),
+               [=](const QString &key, const QString &value) { return configuration->kite.set(key, value); }},
+              {QStringLiteral("wind"),
+               [=](const QString &key, const QString &value) {
+                   return setWind(&configuration->options.air, key, value);
+               }},
+              {QStringLiteral("tether"), [=](const QString &key, const QString &value) {
+                   return setTether(&configuration->options.tether, key, value);
+               }}}
     {
     }
 
@@ -106,51 +114,41 @@ public:
         if (line.startsWith(QLatin1Char('[')))
             return enter(line);
         const QString key = line.section(QLatin1Char('='), 0, 0).trimmed();
-        if (m_section.isEmpty())
+        if (!m_section)
             return QStringLiteral("'%1' is outside of a section; write one of %2 above it").arg(key, shownSections());
         if (!line.contains(QLatin1Char('=')))
             return QStringLiteral("'%1' has no value; write %1 = VALUE").arg(key);
-        const QString name = m_section + QLatin1Char('/') + key;
+        const QString name = m_section->name + QLatin1Char('/') + key;
         if (m_seen.contains(name))
             return QStringLiteral("'%1' is there twice; give it once").arg(key);
         m_seen.insert(name);
         const QString value = line.section(QLatin1Char('='), 1).trimmed();
-        return set(key, value);
+        return m_section->set(key, value);
     }
 
 private:
-    static QStringList sections()
+    struct Section
     {
-        return {winchSection, QStringLiteral("kite"), QStringLiteral("wind"), QStringLiteral("tether")};
-    }
-    static QString shownSections()
+        QString name;
+        /// Sets a key. \return empty, or what is wrong and the remedy
+        std::function<QString(const QString &key, const QString &value)> set;
+    };
+
+    QString shownSections() const
     {
         QStringList shown;
-        for (const QString &section : sections())
-            shown << QStringLiteral("[%1]").arg(section);
+        for (const Section &section : m_sections)
+            shown << QStringLiteral("[%1]").arg(section.name);
         return shown.join(QStringLiteral(", "));
-    }
-
-    QString set(const QString &key, const QString &value)
-    {
-        switch (sections().indexOf(m_section)) {
-        case 0:
-            return setWinch(m_configuration, m_folder, key, value);
-        case 1:
-            return m_configuration->kite.set(key, value);
-        case 2:
-            return setWind(&m_configuration->options.air, key, value);
-        }
-        return setTether(&m_configuration->options.tether, key, value);
     }
 
     QString enter(const QString &line)
     {
-        for (const QString &section : sections()) {
-            if (line != QStringLiteral("[%1]").arg(section))
+        for (const Section &section : m_sections) {
+            if (line != QStringLiteral("[%1]").arg(section.name))
                 continue;
-            m_section = section;
-            if (section == winchSection && !m_hasWinch)  // a file that speaks of the winch says all of it
+            m_section = &section;
+            if (section.name == winchSection && !m_hasWinch)  // a file that speaks of the winch says all of it
                 forgetWinch();
             return {};
         }
@@ -165,9 +163,9 @@ private:
         m_configuration->simulatedWinch.clear();
     }
 
-    QString m_folder;
     PlantConfiguration *m_configuration;
-    QString m_section;
+    const std::vector<Section> m_sections;
+    const Section *m_section = nullptr;  // that of the lines that come
     bool m_hasWinch = false;
     QSet<QString> m_seen;
 };

@@ -25,6 +25,14 @@ public:
 
     /// \param value  outlives this object
     void addNumber(const char *name, double *value, double smallest, double largest, const char *unit);
+    /// Each constant that \a parameters visits: PlantParameters and its like.
+    template<typename Parameters>
+    void addConstants(Parameters *parameters)
+    {
+        Parameters::visitConstants(*parameters,
+                                   [this](const char *name, double &value, double smallest, double largest,
+                                          const char *unit) { addNumber(name, &value, smallest, largest, unit); });
+    }
     void addInteger(const char *name, int *value, int smallest, int largest);
     /// An integer up to 2^53.
     void addSeed(const char *name, std::uint64_t *value);

@@ -11,9 +11,7 @@ namespace awe {
 std::string AirParameters::validate() const
 {
     RangeCheck check;
-    visitConstants(*this, [&check](const char *name, double value, double smallest, double largest, const char *unit) {
-        check.within(name, value, smallest, largest, unit);
-    });
+    check.constants(*this);
     return check.message();
 }
 

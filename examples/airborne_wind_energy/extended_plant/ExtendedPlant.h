@@ -76,6 +76,11 @@ public:
     /// Wing, tether and energy of the tether.
     PlantState state() const;
 
+    /// Of the winch, since reset() [J], > 0 when it has generated.
+    double electricalEnergy() const { return m_machine.energies().electrical; }
+    /// Of the turbines, since reset() [J].
+    double turbineEnergy() const { return single(m_state, TurbineEnergy); }
+
     /// true since the wing first was at z <= 0, until reset()
     bool hasCrashed() const { return m_thesis.hasCrashed() || m_crashed; }
 

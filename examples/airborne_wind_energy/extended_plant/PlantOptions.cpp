@@ -5,22 +5,10 @@
 
 namespace awe {
 
-namespace {
-
-template<typename Parameters>
-void checkConstants(const Parameters &parameters, RangeCheck *check)
-{
-    Parameters::visitConstants(parameters,
-                               [check](const char *name, double value, double smallest, double largest,
-                                       const char *unit) { check->within(name, value, smallest, largest, unit); });
-}
-
-}  // namespace
-
 std::string TetherParameters::validate() const
 {
     RangeCheck check;
-    checkConstants(*this, &check);
+    check.constants(*this);
     check.within("segments", segments, 1, mostSegments, "");
     return check.message();
 }
@@ -28,7 +16,7 @@ std::string TetherParameters::validate() const
 std::string SteeringParameters::validate() const
 {
     RangeCheck check;
-    checkConstants(*this, &check);
+    check.constants(*this);
     return check.message();
 }
 

@@ -146,11 +146,8 @@ void ClosedLoopFlight::recordStatistics()
     sample.tetherSpeed = m_commands.tetherSpeed;
     sample.power = m_outputs.power;
     sample.energy = m_outputs.energy;
-    if (!m_parameters.options.isThesis()) {
-        const PlantDetails details = m_plant.details(inputs());
-        sample.electricalEnergy = details.energies.electrical;
-        sample.turbineEnergy = details.turbineEnergy;
-    }
+    sample.electricalEnergy = m_plant.electricalEnergy();
+    sample.turbineEnergy = m_plant.turbineEnergy();
     sample.flightPhase = static_cast<std::int8_t>(m_commands.phase);
     m_statistics.step(sample);
 }

@@ -26,9 +26,7 @@ PlantState PlantParameters::stateAtRest(double elevation, double azimuth, double
 std::string PlantParameters::validate() const
 {
     RangeCheck check;
-    visitConstants(*this, [&check](const char *name, double value, double smallest, double largest, const char *unit) {
-        check.within(name, value, smallest, largest, unit);
-    });
+    check.constants(*this);
     check.within("step", step, 1e-6, 0.05, "s");
     for (int i = 0; i < 3; ++i) {
         check.within("initialState.position", initialState.position[i], -1e6, 1e6, "m");

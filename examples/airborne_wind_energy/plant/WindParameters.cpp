@@ -12,9 +12,7 @@ std::string WindParameters::validate() const
         check.within("meanVelocity", meanVelocity[i], -100.0, 100.0, "m/s");
     for (int i = 0; i < 3; ++i)
         check.within("turbulenceRatio", turbulenceRatio[i], 0.0, 10.0, "");
-    visitConstants(*this, [&check](const char *name, double value, double smallest, double largest, const char *unit) {
-        check.within(name, value, smallest, largest, unit);
-    });
+    check.constants(*this);
     check.within("step", step, 1e-6, 1.0, "s");
     return check.message();
 }
