@@ -74,7 +74,7 @@ public:
         struct Column             ///< a signal
         {
             int size = 1;               ///< numbers of a cycle: those of an array stand side by side
-            QVector<double> numbers;    ///< size for each cycle; NaN where there is none
+            QVector<double> numbers;    ///< size for each cycle; NaN: no number
             QVector<quint8> qualities;  ///< one for each cycle: QPlcQuality::fromByte()
         };
         QVector<Column> columns;  ///< in the order of the names

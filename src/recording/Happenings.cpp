@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Happenings.h"
 
+#include "RecordingMessages.h"
 #include "signals/MessageText.h"
 
 #include <QtCore/QJsonArray>
 #include <QtCore/QJsonDocument>
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -14,16 +16,11 @@ namespace qplc {
 
 namespace {
 
-constexpr std::pair<const char *, Happening::Topic> topicNames[] = {{"/events", Happening::Event},
-                                                                    {"/commands", Happening::Command},
-                                                                    {"/leases", Happening::Lease},
-                                                                    {"/statistics", Happening::Statistics}};
-
 std::optional<Happening::Topic> topicOf(const QByteArray &name)
 {
-    for (const auto &[each, topic] : topicNames) {
-        if (name == each)
-            return topic;
+    for (std::size_t i = 0; i < std::size(happeningChannels); ++i) {
+        if (name == happeningChannels[i])
+            return Happening::Topic(1U << i);
     }
     return std::nullopt;
 }
@@ -120,9 +117,9 @@ QString Happening::sentence() const
 QJsonObject Happening::toJson() const
 {
     QJsonObject object = text;
-    for (const auto &[name, each] : topicNames) {
-        if (each == topic)
-            object.insert(QStringLiteral("channel"), QLatin1String(name));
+    for (const char *channel : happeningChannels) {
+        if (topicOf(channel) == topic)
+            object.insert(QStringLiteral("channel"), QLatin1String(channel));
     }
     return object;
 }

@@ -99,7 +99,6 @@ bool PlantRecorder::begin(std::unique_ptr<mcap::FileSink> sink, QString *error)
     m_missing = 0;
     m_hasEndMetadata = false;
     const QByteArray ros = "ros1msg";
-    std::size_t happening = 0;
     m_plant = m_writer->addChannel("/plant", "ros1", PlantMessage::schemaName(), ros, m_message->schema());
     m_before = m_writer->addChannel("/plant_before", "ros1", PlantMessage::schemaName(), ros, m_message->schema());
     m_nodes = m_writer->addChannel("/nodes", "ros1", "qtplc/Nodes", ros, nodesSchema());
@@ -109,8 +108,9 @@ bool PlantRecorder::begin(std::unique_ptr<mcap::FileSink> sink, QString *error)
     m_rosters = m_writer->addChannel("/rosters", "json");
     m_gaps = m_writer->addChannel("/gaps", "json");
     m_digests = m_writer->addChannel("/digest", "json");
-    for (const char *topic : {"/events", "/commands", "/leases", "/statistics"})
-        m_happenings[happening++] = m_writer->addChannel(topic, "json");
+    static_assert(std::size(happeningChannels) == std::tuple_size_v<decltype(m_happenings)>);
+    for (std::size_t i = 0; i < m_happenings.size(); ++i)
+        m_happenings[i] = m_writer->addChannel(happeningChannels[i], "json");
     if (m_next > 0)
         addDigest(",\"continues\":true");
     if (!m_roster.isEmpty())

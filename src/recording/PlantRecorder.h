@@ -7,6 +7,7 @@
 #include "node/cycle/RingDescription.h"
 #include "node/cycle/RingReader.h"
 
+#include <array>
 #include <deque>
 #include <memory>
 #include <utility>
@@ -124,7 +125,7 @@ private:
     std::uint16_t m_rosters = 0;
     std::uint16_t m_gaps = 0;
     std::uint16_t m_digests = 0;
-    std::uint16_t m_happenings[4] = {};  // by RecordedText::Topic
+    std::array<std::uint16_t, 4> m_happenings{};  // by RecordedText::Topic
     QByteArray m_body;
     QByteArray m_exchange;  // of the newest message of /nodes
     QByteArray m_roster;    // newest message of /rosters

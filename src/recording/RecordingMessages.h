@@ -13,6 +13,9 @@ namespace qplc {
 /// Messages of a recording beside those of /plant, written and read:
 /// docs/design/recording-format.md.
 
+/// The channels of what has happened, in the order of RecordedText::Topic and of Happening::Topic.
+constexpr const char *happeningChannels[] = {"/events", "/commands", "/leases", "/statistics"};
+
 /// The description of a message of /nodes, as a file of ROS says it.
 QByteArray nodesSchema();
 /// The message of /nodes: what the master has exchanged with each node in the cycle of \a view.

@@ -149,7 +149,7 @@ bool PlotRuns::findBegins(Source *source, const QPlcPanelContext &context) const
     return isOther;
 }
 
-/// The first cycles at or after the events; when there is none yet, the time of the event.
+/// The first cycles at or after the events. For an event behind all cycles, its own time.
 std::deque<PlotRuns::Time> PlotRuns::eventsOf(const Source &source, const QPlcPanelContext &context) const
 {
     std::deque<Time> begins;

@@ -60,7 +60,7 @@ public:
     std::optional<Time> zero() const { return m_zero; }
     /// From zero() to the end of the longest run [ns]
     Time length() const;
-    /// A sentence for people; empty: there is none.
+    /// What is wrong, as a sentence for people; empty: nothing.
     QString problem() const { return m_problem; }
     /// The plant of the curves; empty: none is there.
     QString reference() const { return m_reference; }
