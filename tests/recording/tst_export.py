@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Exports a recording with qtplc and reads the tables with other programs: CSV with Python, Parquet
-as its format says, MATLAB with h5py, where that is installed.
+as its format says, MATLAB with h5py, MATLAB and CSV with Octave, where these are installed.
 
 usage: tst_export.py QTPLC MAKE_RECORDING
 """
 import csv
 import math
 import os
+import shutil
 import struct
 import subprocess
 import sys
@@ -33,6 +34,20 @@ with h5py.File(sys.argv[1], "r") as file:
     texts = ["".join(map(chr, column)).rstrip() for column in file["phase"][()].T]
     assert texts == ["a" * (n % 7) for n in number]
     assert (file["quality/position_x"][0] == 0).all() and file["force"].shape == (3, len(number))
+"""
+
+OCTAVE = """
+f = load(argv(){1});
+n = (0:799)';
+assert(double(f.cycle(:)), n);
+assert(double(f.position_x_2(:)), n);
+assert(max(abs(f.position_x(:) - sin(0.1 * n))) < 1e-14);
+assert(max(abs(f.time(:) - 0.01 * n)) < 1e-12);
+assert(all(f.quality.position_x(:) == 0));
+t = dlmread(argv(){2}, ",", 1, 0);
+assert(t(:, 2), n);
+assert(max(abs(t(2:end, 5) - sin(0.1 * n(2:end)))) < 1e-14);
+assert(all(t(:, 6) == 0));
 """
 
 
@@ -195,6 +210,20 @@ class Exports(unittest.TestCase):
         self.assertIn("position_x float64 (1, 800) MATLAB_class=double description=of the kite", read.stdout)
         self.assertIn("phase uint16 (12, 800) MATLAB_class=char MATLAB_int_decode=2", read.stdout)
         self.assertIn("class struct ['force', 'on', 'phase', 'position_x', 'position_x_2', 's_time']", read.stdout)
+
+    def test_octave_reads_the_tables(self):
+        octave = shutil.which("octave-cli")
+        if not octave:
+            self.skipTest("octave-cli is missing (Debian: octave)")
+        matlab, table = self.output("table.mat"), self.output("table.csv")
+        run(self.file, "-o", table)
+        if "mat" not in run(self.file, "-o", self.output("table.txt"), code=2):
+            self.skipTest("this qtplc was built without HDF5")
+        run(self.file, "-o", matlab)
+        script = self.folder / "read.m"
+        script.write_text(OCTAVE)
+        read = subprocess.run([octave, "--no-gui", "-q", script, matlab, table], capture_output=True, text=True)
+        self.assertEqual(read.returncode, 0, read.stderr)
 
     def test_a_file_that_is_there_is_replaced_by_force_only(self):
         output = self.output("there.csv")
