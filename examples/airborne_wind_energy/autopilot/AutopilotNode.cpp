@@ -2,6 +2,7 @@
 #include "AutopilotNode.h"
 
 #include "AngleMath.h"
+#include "OptionSignals.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +14,10 @@ AutopilotNode::AutopilotNode(const AutopilotGains &gains, int extraDeadTime)
     , m_autopilot(gains)
     , m_delayed(std::size_t(extraDeadTime))
 {
+    if (gains.turnRateFactor > 0.0)
+        m_steering.emplace(this, steeringCommandSignal);
+    if (gains.constantTether > 0.0)
+        m_turbineCoefficient.emplace(this, turbineCoefficientSignal);
 }
 
 void AutopilotNode::reset()
@@ -54,6 +59,10 @@ void AutopilotNode::send(const AutopilotOutputs &commands)
     m_yawSpeed = commands.yawSpeed;
     m_tetherSpeed = commands.tetherSpeed;
     m_phase = qint8(commands.phase);
+    if (m_steering)
+        *m_steering = commands.steering;
+    if (m_turbineCoefficient)
+        *m_turbineCoefficient = commands.turbineCoefficient;
 }
 
 }  // namespace awe

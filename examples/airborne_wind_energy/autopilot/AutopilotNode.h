@@ -5,6 +5,7 @@
 
 #include <QtPlcCore>
 
+#include <optional>
 #include <vector>
 
 namespace awe {
@@ -14,6 +15,8 @@ class AutopilotNode : public QPlcCompactSlaveNode
 {
     Q_OBJECT
 public:
+    /// \param gains  with a turn-rate factor the node writes the steering, with a constant tether
+    ///         the coefficient of the turbines
     /// \param extraDeadTime cycles by which the commands are delayed on top of those that the links
     ///         cost
     explicit AutopilotNode(const AutopilotGains &gains, int extraDeadTime = 0);
@@ -42,6 +45,8 @@ private:
     QPlcOutput<double> m_yawSpeed{this, "bodyControlYawSpeed"};      // [deg/s]
     QPlcOutput<double> m_tetherSpeed{this, "tetherSpeed"};           // [m/s]
     QPlcOutput<qint8> m_phase{this, "flightPhase"};
+    std::optional<QPlcOutput<double>> m_steering;            // [-], of a wing that the air turns
+    std::optional<QPlcOutput<double>> m_turbineCoefficient;  // [-], of turbines on board
 };
 
 }  // namespace awe

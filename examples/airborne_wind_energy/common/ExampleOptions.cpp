@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ExampleOptions.h"
 
+#include "OptionSignals.h"
+
 #include <limits>
 
 // Resources of a static library are found only by programs that ask for them, outside of any
@@ -14,7 +16,7 @@ namespace awe {
 
 namespace {
 
-const char *const plantOptions[] = {"plant"};
+const char *const plantOptions[] = {"plant", "mode"};
 const char *const modelOptions[] = {"wind", "turbulence", "seed"};
 const char *const autopilotOptions[] = {"gains", "force-limit", "dead-time"};
 
@@ -68,6 +70,37 @@ QString builtInSignals()
 {
     loadSignals();
     return QStringLiteral(":/signals/airborne_wind_energy.ini");
+}
+
+QString builtInOptionSignals()
+{
+    loadSignals();
+    return QStringLiteral(":/signals/airborne_wind_energy_options.ini");
+}
+
+bool addOptionSignals(QPlcCoreApplication &application, const PlantOptions &options)
+{
+    if (options.isThesis())
+        return true;
+    QStringList wanted;
+    for (const OptionSignal &signal : modelSignals(options))
+        wanted << QString::fromLatin1(signal.name);
+    if (options.steering.kind == SteeringKind::TurnRate)
+        wanted << QString::fromLatin1(steeringCommandSignal);
+    if (options.hasTurbines)
+        wanted << QString::fromLatin1(turbineCoefficientSignal);
+    QVector<QPlcParseError> errors;
+    const QPlcSignalTable all = QPlcSignalTable::fromIniFile(builtInOptionSignals(), &errors);
+    QString error = QPlcParseError::toString(errors);
+    QPlcSignalTable table = QPlcSignalIndexTable::current();
+    for (const QPlcSignalDefinition &signal : all) {
+        if (error.isEmpty() && wanted.contains(signal.name) && !table.contains(signal.name))
+            table.append(signal, &error);
+    }
+    if (!error.isEmpty())
+        return application.usageError(error), false;
+    QPlcSignalIndexTable::setCurrent(table);
+    return true;
 }
 
 QHostAddress defaultMulticastGroup()
@@ -125,10 +158,16 @@ void addPlantOptions(QPlcCoreApplication &application)
     add(application, "plant",
         QStringLiteral(
             "File that says what of the plant is hardware ([winch]), and the data of the model ([kite], [wind], "
-            "[tether]). Without one all is a model, that of the thesis."),
-        "FILE", "");
-    add(application, "winch", QStringLiteral("ideal or drive: in place of the word in the file of --plant."), "KIND",
-        "");
+            "[tether], [steering], [turbines]), or the name of a plant: %1. Without one all is a model, that of the "
+            "thesis.")
+            .arg(PlantConfiguration::names().join(QStringLiteral(", "))),
+        "PLANT", "");
+    add(application, "winch", QStringLiteral("ideal, machine or drive: in place of the word in the file of --plant."),
+        "KIND", "");
+    add(application, "mode",
+        QStringLiteral("pumping: the winch generates, or drag: turbines on board do. In place of the word in the file "
+                       "of --plant."),
+        "MODE", "");
 }
 
 bool readPlantOptions(QPlcCoreApplication &application, PlantConfiguration *configuration)
@@ -136,14 +175,10 @@ bool readPlantOptions(QPlcCoreApplication &application, PlantConfiguration *conf
     const QString builtIn = PlantConfiguration::builtInFile();
     const QString fileName = application.value(QStringLiteral("plant"));
     QString error;
-    if (!PlantConfiguration::read(fileName.isEmpty() ? builtIn : fileName, configuration, &error)) {
-        application.usageError(error);
-        return false;
-    }
-    const QString winch = application.value(QStringLiteral("winch"));
-    if (winch.isEmpty() || winchKindFromText(winch, &configuration->winch))
+    const PlantWords words{application.value(QStringLiteral("winch")), application.value(QStringLiteral("mode"))};
+    if (PlantConfiguration::read(fileName.isEmpty() ? builtIn : fileName, configuration, &error, words))
         return true;
-    application.usageError(QStringLiteral("--winch %1: use ideal or drive").arg(winch));
+    application.usageError(error);
     return false;
 }
 
@@ -160,14 +195,37 @@ void addAutopilotOptions(QPlcCoreApplication &application)
         "CYCLES", "");
 }
 
-bool readAutopilotOptions(QPlcCoreApplication &application, AutopilotSettings *settings)
+/// The set that --gains names, for a plant. \return false, with the message out, when there is none
+static bool readGains(QPlcCoreApplication &application, const PlantConfiguration &plant, AutopilotGains *gains)
 {
-    const QString gains = application.value(QStringLiteral("gains"));
-    if (gains != QLatin1String("default") && gains != QLatin1String("tuned")) {
-        application.usageError(QStringLiteral("--gains %1: use default or tuned").arg(gains));
-        return false;
+    const QString set = application.value(QStringLiteral("gains"));
+    const bool isTuned = set == QLatin1String("tuned");
+    const bool isSteered = plant.options.steering.kind == SteeringKind::TurnRate;
+    QString error;
+    if (!isTuned && set != QLatin1String("default"))
+        error = QStringLiteral("--gains %1: use default or tuned").arg(set);
+    else if (isTuned && (isSteered || plant.options.hasTurbines))
+        error = QStringLiteral("--gains tuned: there is no tuned set for %1; use default")
+                    .arg(plant.options.hasTurbines ? QStringLiteral("turbines on board")
+                                                   : QStringLiteral("a wing that the air turns"));
+    if (!error.isEmpty())
+        return application.usageError(error), false;
+    *gains = isSteered ? AutopilotGains::steered() : isTuned ? AutopilotGains::tuned() : AutopilotGains::safe();
+    if (isSteered)
+        *gains = gains->invertedFor(plant.options.steering.turnRateFactor, plant.options.steering.weightFactor);
+    if (plant.options.hasTurbines) {
+        gains->reelOutPitch = AutopilotGains::drag().reelOutPitch;
+        gains->constantTether = plant.turbines.tetherLength;
+        gains->turbineCoefficient = plant.turbines.coefficient;
     }
-    settings->gains = gains == QLatin1String("tuned") ? AutopilotGains::tuned() : AutopilotGains::safe();
+    return true;
+}
+
+bool readAutopilotOptions(QPlcCoreApplication &application, const PlantConfiguration &plant,
+                          AutopilotSettings *settings)
+{
+    if (!readGains(application, plant, &settings->gains))
+        return false;
     if (application.isSet(QStringLiteral("force-limit"))
         && !application.number(QStringLiteral("force-limit"), 100.0, 1e6, &settings->gains.forceLimit))
         return false;

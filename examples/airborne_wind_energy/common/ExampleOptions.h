@@ -32,6 +32,12 @@ int linkDeadTime(bool sameCycle);
 
 /// The table of the example, compiled into the programs.
 QString builtInSignals();
+/// Those of the options of a plant; addOptionSignals() adds some of them to a table.
+QString builtInOptionSignals();
+
+/// Adds the signals that the options of a plant need to the table of the process, unless the table
+/// has them already. \return false, with the message out, when a table is wrong
+bool addOptionSignals(QPlcCoreApplication &application, const PlantOptions &options);
 
 /// Administratively scoped: no router passes it on.
 QHostAddress defaultMulticastGroup();
@@ -43,13 +49,15 @@ void addModelOptions(QPlcCoreApplication &application);
 /// What the options say wins over \a plant. \return false, with the message out, when an option has
 /// no valid value
 bool readModelOptions(QPlcCoreApplication &application, const PlantConfiguration &plant, ModelSettings *settings);
-/// --plant and --winch: what of the plant is hardware, and the data of the model.
+/// --plant, --winch and --mode: what of the plant is hardware, and the data of the model.
 void addPlantOptions(QPlcCoreApplication &application);
-/// \return false, with the message out, when the file or a word in it cannot be meant
+/// \return false, with the message out, when the file or a word in it is not valid
 bool readPlantOptions(QPlcCoreApplication &application, PlantConfiguration *configuration);
 void addAutopilotOptions(QPlcCoreApplication &application);
+/// \param plant  decides which gains are the default ones
 /// \pre the application has an option --same-cycle
-bool readAutopilotOptions(QPlcCoreApplication &application, AutopilotSettings *settings);
+bool readAutopilotOptions(QPlcCoreApplication &application, const PlantConfiguration &plant,
+                          AutopilotSettings *settings);
 
 /// Those of the plant, model and autopilot options that were given, to be handed on to another
 /// program.

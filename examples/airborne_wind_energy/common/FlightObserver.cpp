@@ -5,12 +5,16 @@
 
 namespace awe {
 
-FlightObserver::FlightObserver(const FlightStatisticsParameters &parameters, WinchKind winch)
+FlightObserver::FlightObserver(const FlightStatisticsParameters &parameters, const PlantConfiguration &plant)
     : QPlcCompactSlaveNode(QStringLiteral("FlightObserver"), SilentZeroOrderHold)
     , m_statistics(parameters)
-    , m_tetherSpeed(this, winchSpeedSignal(winch))
+    , m_tetherSpeed(this, winchSpeedSignal(plant.winch))
 {
     setReceivesQuality(true);
+    if (plant.options.hasMachine)
+        m_electricalEnergy.emplace(this, "electricalEnergy");
+    if (plant.options.hasTurbines)
+        m_turbineEnergy.emplace(this, "turbineEnergy");
 }
 
 void FlightObserver::requireGoodValues() const
@@ -36,6 +40,10 @@ void FlightObserver::step(const QPlcCycle &)
     sample.tetherSpeed = m_tetherSpeed;
     sample.power = m_power;
     sample.energy = m_energy;
+    if (m_electricalEnergy)
+        sample.electricalEnergy = *m_electricalEnergy;
+    if (m_turbineEnergy)
+        sample.turbineEnergy = *m_turbineEnergy;
     sample.flightPhase = m_phase;
     m_statistics.step(sample);
 }

@@ -6,6 +6,8 @@
 
 #include <QtPlcCore>
 
+#include <optional>
+
 namespace awe {
 
 /// Watches a flight from its signals: a node without outputs in the process of the master. Values
@@ -14,7 +16,7 @@ class FlightObserver : public QPlcCompactSlaveNode
 {
     Q_OBJECT
 public:
-    explicit FlightObserver(const FlightStatisticsParameters &parameters, WinchKind winch = WinchKind::Ideal);
+    FlightObserver(const FlightStatisticsParameters &parameters, const PlantConfiguration &plant);
 
     /// \pre no cycle runs
     FlightReport report() const { return m_statistics.report(); }
@@ -43,6 +45,8 @@ private:
     QPlcInput<double> m_power{this, "power"};                      // [W]
     QPlcInput<double> m_energy{this, "energy"};                    // [J]
     QPlcInput<qint8> m_phase{this, "flightPhase"};
+    std::optional<QPlcInput<double>> m_electricalEnergy;  // [J], of a machine at the winch
+    std::optional<QPlcInput<double>> m_turbineEnergy;     // [J], of turbines on board
 };
 
 }  // namespace awe

@@ -46,6 +46,23 @@ QString winchRows(const QJsonObject &winch)
                   .arg(number(winch, "interruptions")));
 }
 
+/// What the options of the plant add to the power.
+QString powerRows(const QJsonObject &report)
+{
+    QString text;
+    const QJsonValue electrical = report.value(QStringLiteral("electrical_power_W"));
+    const double mechanical = number(report, "mean_power_W");
+    if (!electrical.isUndefined())
+        text += row("electrical power",
+                    QStringLiteral("%1 W, %2 % of the mean power")
+                        .arg(electrical.toDouble(), 0, 'f', 0)
+                        .arg(mechanical > 0.0 ? 100.0 * electrical.toDouble() / mechanical : 0.0, 0, 'f', 1));
+    const QJsonValue turbines = report.value(QStringLiteral("turbine_power_W"));
+    if (!turbines.isUndefined())
+        text += row("turbines on board", QStringLiteral("%1 W").arg(turbines.toDouble(), 0, 'f', 0));
+    return text;
+}
+
 QString notWritable(const QSaveFile &file)
 {
     return QStringLiteral("cannot write the report %1: %2; choose another file")
@@ -71,6 +88,7 @@ QString summary(const QJsonObject &report)
                     .arg(number(report, "mean_power_W"), 0, 'f', 0)
                     .arg(number(report, "eta"), 0, 'f', 3)
                     .arg(number(report, "eta_per_mean_cubed_wind"), 0, 'f', 3));
+    text += powerRows(report);
     text += row("reeling out, in",
                 QStringLiteral("%1 W, %2 W")
                     .arg(number(report, "reel_out_power_W"), 0, 'f', 0)

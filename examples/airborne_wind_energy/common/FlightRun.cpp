@@ -141,7 +141,7 @@ QString winchNode()
 FlightRun::FlightRun(QPlcMasterNode &master, const RunSettings &settings)
     : m_master(master)
     , m_settings(settings)
-    , m_observer(statisticsParameters(settings), settings.plant.winch)
+    , m_observer(statisticsParameters(settings), settings.plant)
     , m_display(master, settings.duration, settings.watch ? FlightDisplay::Picture : FlightDisplay::Line)
     , m_recorder(master, settings.recordFile, settings.recordLimits)
 {
@@ -401,6 +401,10 @@ QJsonObject FlightRun::makeReport() const
                        {QStringLiteral("lateness_p50_us"), double(statistics.latenessMedian) * 1e-3},
                        {QStringLiteral("lateness_p99_us"), double(statistics.lateness99) * 1e-3},
                        {QStringLiteral("image_digest"), QPlcMessage::fromHex64(statistics.imageDigest)}};
+    if (m_settings.plant.options.hasMachine)
+        report.insert(QStringLiteral("electrical_power_W"), flight.electricalPower);
+    if (m_settings.plant.options.hasTurbines)
+        report.insert(QStringLiteral("turbine_power_W"), flight.turbinePower);
     if (flight.crashed)
         report.insert(QStringLiteral("crashed_after_s"), flight.crashTime);
     if (!m_observer.sawKite())

@@ -11,6 +11,7 @@ namespace awe {
 QString KiteConfiguration::set(const QString &key, const QString &value)
 {
     SectionKeys keys(QStringLiteral("kite"));
+    keys.addChoice<FlightMode>("mode", &mode, {{"pumping", FlightMode::Pumping}, {"drag", FlightMode::Drag}});
     keys.addConstants(&plant);
     keys.addChoice<AngleOfAttackRange>("angleOfAttack", &plant.angleOfAttackRange,
                                        {{"folded", AngleOfAttackRange::Folded}, {"full", AngleOfAttackRange::Full}});
@@ -31,6 +32,11 @@ QString KiteConfiguration::set(const QString &key, const QString &value)
     keys.addNumber("yawAngle", &yawAngle, -360.0, 360.0, "deg");
     keys.addVector("velocity", &velocity, 1000.0);
     return keys.set(key, value);
+}
+
+bool KiteConfiguration::setMode(const QString &word)
+{
+    return set(QStringLiteral("mode"), word).isEmpty();
 }
 
 PlantParameters KiteConfiguration::plantIn(const WindParameters &windNow) const

@@ -12,12 +12,19 @@
 
 namespace awe {
 
+/// Where the power comes from.
+enum class FlightMode {
+    Pumping,  ///< the winch generates in cycles of reeling out and in
+    Drag      ///< turbines on board generate, and the tether keeps its length
+};
+
 /// The kite that the model computes, its tether, its wind and its start: section [kite] of the file
 /// of --plant. The values here hold without a file.
 struct KiteConfiguration
 {
     static constexpr double derived = std::numeric_limits<double>::quiet_NaN();
 
+    FlightMode mode = FlightMode::Pumping;
     PlantParameters plant;  // without its initial state, which is what follows
     WindParameters wind;
     int substeps = 1;               // Runge-Kutta steps in each cycle
@@ -33,6 +40,9 @@ struct KiteConfiguration
 
     /// Sets what \a key stands for to \a value. \return empty, or what is wrong and the remedy
     QString set(const QString &key, const QString &value);
+
+    /// "pumping", "drag". \return false when \a word is none of them
+    bool setMode(const QString &word);
 
     /// The plant with its initial state. \param wind  decides where downwind is
     PlantParameters plantIn(const WindParameters &wind) const;

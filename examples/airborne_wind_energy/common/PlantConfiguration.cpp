@@ -6,7 +6,7 @@
 #include <QtCore/QDir>
 #include <QtCore/QFile>
 #include <QtCore/QFileInfo>
-#include <QtCore/QSet>
+#include <QtCore/QHash>
 
 #include <functional>
 #include <vector>
@@ -23,6 +23,8 @@ namespace awe {
 namespace {
 
 const QString winchSection = QStringLiteral("winch");
+const QString turbineSection = QStringLiteral("turbines");
+const QString namedPlants = QStringLiteral(":/plants");
 constexpr int largestFile = 1 << 20;  // [byte]
 constexpr int longestLine = 1000;     // [characters] without its comment
 
@@ -53,7 +55,7 @@ QString setWinch(PlantConfiguration *configuration, const QString &folder, const
     if (key == QLatin1String("kind"))
         return winchKindFromText(value, &configuration->winch)
             ? QString()
-            : QStringLiteral("kind = %1: use ideal or drive").arg(value);
+            : QStringLiteral("kind = %1: use ideal, machine or drive").arg(value);
     if (key == QLatin1String("hardware"))
         configuration->winchHardware = value.isEmpty() ? QString() : QDir(folder).filePath(value);
     else if (key == QLatin1String("simulated"))
@@ -85,6 +87,23 @@ QString setTether(TetherParameters *tether, const QString &key, const QString &v
     return keys.set(key, value);
 }
 
+QString setSteering(SteeringParameters *steering, const QString &key, const QString &value)
+{
+    SectionKeys keys(QStringLiteral("steering"));
+    keys.addChoice<SteeringKind>("kind", &steering->kind,
+                                 {{"kinematic", SteeringKind::Kinematic}, {"turn-rate", SteeringKind::TurnRate}});
+    keys.addConstants(steering);
+    return keys.set(key, value);
+}
+
+QString setTurbines(TurbineSettings *turbines, const QString &key, const QString &value)
+{
+    SectionKeys keys(QStringLiteral("turbines"));
+    keys.addNumber("coefficient", &turbines->coefficient, 0.0, 10.0, "");
+    keys.addNumber("tetherLength", &turbines->tetherLength, 20.0, 1000.0, "m");
+    return keys.set(key, value);
+}
+
 /// Reads a file line by line into a configuration.
 class PlantReader
 {
@@ -100,14 +119,22 @@ public:
                [=](const QString &key, const QString &value) {
                    return setWind(&configuration->options.air, key, value);
                }},
-              {QStringLiteral("tether"), [=](const QString &key, const QString &value) {
+              {QStringLiteral("tether"),
+               [=](const QString &key, const QString &value) {
                    return setTether(&configuration->options.tether, key, value);
+               }},
+              {QStringLiteral("steering"),
+               [=](const QString &key, const QString &value) {
+                   return setSteering(&configuration->options.steering, key, value);
+               }},
+              {turbineSection, [=](const QString &key, const QString &value) {
+                   return setTurbines(&configuration->turbines, key, value);
                }}}
     {
     }
 
     /// Takes one line without its comment. \return empty, or what is wrong and the remedy
-    QString take(const QString &line)
+    QString take(const QString &line, int number)
     {
         if (line.size() > longestLine)
             return QStringLiteral("the line has %1 characters; write %2 at most").arg(line.size()).arg(longestLine);
@@ -119,12 +146,19 @@ public:
         if (!line.contains(QLatin1Char('=')))
             return QStringLiteral("'%1' has no value; write %1 = VALUE").arg(key);
         const QString name = m_section->name + QLatin1Char('/') + key;
-        if (m_seen.contains(name))
+        if (m_lines.contains(name))
             return QStringLiteral("'%1' is there twice; give it once").arg(key);
-        m_seen.insert(name);
+        m_lines.insert(name, number);
+        if (m_section->name == turbineSection)
+            m_turbineKey = key;
         const QString value = line.section(QLatin1Char('='), 1).trimmed();
         return m_section->set(key, value);
     }
+
+    /// The line of a key, "winch/kind"; 0 if the file does not have it.
+    int lineOf(const QString &name) const { return m_lines.value(name); }
+    /// The last key of [turbines]; empty if the file has none.
+    QString turbineKey() const { return m_turbineKey; }
 
 private:
     struct Section
@@ -167,8 +201,54 @@ private:
     const std::vector<Section> m_sections;
     const Section *m_section = nullptr;  // that of the lines that come
     bool m_hasWinch = false;
-    QSet<QString> m_seen;
+    QHash<QString, int> m_lines;  // of each key
+    QString m_turbineKey;
 };
+
+/// Reads the text of a file. \return empty, or what is wrong and the remedy
+QString take(PlantReader *reader, const QString &fileName, const QByteArray &content)
+{
+    int number = 0;
+    for (const QByteArray &text : content.split('\n')) {
+        ++number;
+        const QString line = withoutComment(text);
+        const QString wrong = line.isEmpty() ? QString() : reader->take(line, number);
+        if (!wrong.isEmpty())
+            return QStringLiteral("%1:%2: %3").arg(fileName).arg(number).arg(wrong);
+    }
+    return {};
+}
+
+/// \return empty, or which word of the command line is wrong and the remedy
+QString takeWords(const PlantWords &words, PlantConfiguration *configuration)
+{
+    if (!words.winch.isEmpty() && !winchKindFromText(words.winch, &configuration->winch))
+        return QStringLiteral("--winch %1: use ideal, machine or drive").arg(words.winch);
+    if (!words.mode.isEmpty() && !configuration->kite.setMode(words.mode))
+        return QStringLiteral("--mode %1: use pumping or drag").arg(words.mode);
+    return {};
+}
+
+/// What the file and the command line say together. \return empty, or what excludes each other and
+/// the remedy
+QString contradiction(const PlantReader &reader, const QString &fileName, const PlantWords &words,
+                      const PlantConfiguration &configuration)
+{
+    const auto place
+        = [&](const QString &key) { return QStringLiteral("%1:%2: ").arg(fileName).arg(reader.lineOf(key)); };
+    const bool isDrag = configuration.kite.mode == FlightMode::Drag;
+    if (isDrag && configuration.winch == WinchKind::Machine)
+        return (words.winch.isEmpty() ? place(QStringLiteral("winch/kind")) + QStringLiteral("kind = machine")
+                                      : QStringLiteral("--winch machine"))
+            + QStringLiteral(" and mode drag exclude each other, because the winch then only holds the tether; use "
+                             "kind = ideal in [winch], or mode = pumping in [kite]");
+    if (!isDrag && !reader.turbineKey().isEmpty())
+        return place(QStringLiteral("turbines/") + reader.turbineKey())
+            + QStringLiteral("'%1' has no meaning without turbines on board; write mode = drag in [kite], or leave out "
+                             "[turbines]")
+                  .arg(reader.turbineKey());
+    return {};
+}
 
 }  // namespace
 
@@ -178,11 +258,35 @@ QString PlantConfiguration::builtInFile()
     return QStringLiteral(":/hardware/plant.ini");
 }
 
-bool PlantConfiguration::read(const QString &fileName, PlantConfiguration *configuration, QString *error)
+QStringList PlantConfiguration::names()
 {
+    loadHardware();
+    QStringList names;
+    const QFileInfoList files = QDir(namedPlants).entryInfoList({QStringLiteral("*.ini")}, QDir::Files, QDir::Name);
+    for (const QFileInfo &file : files)
+        names << file.completeBaseName();
+    return names;
+}
+
+QString PlantConfiguration::description(const QString &name)
+{
+    loadHardware();
+    QFile file(QStringLiteral("%1/%2.ini").arg(namedPlants, name));
+    if (!file.open(QIODevice::ReadOnly))
+        return {};
+    const QString comment = QString::fromUtf8(file.readLine()).mid(2).trimmed();
+    return comment.section(QStringLiteral(". "), 0, 0) + QLatin1Char('.');
+}
+
+bool PlantConfiguration::read(const QString &plant, PlantConfiguration *configuration, QString *error,
+                              const PlantWords &words)
+{
+    const bool isName = names().contains(plant);
+    const QString fileName = isName ? QStringLiteral("%1/%2.ini").arg(namedPlants, plant) : plant;
     QFile file(fileName);
     if (!file.open(QIODevice::ReadOnly)) {
-        *error = QStringLiteral("cannot read the plant %1: %2; choose another file").arg(fileName, file.errorString());
+        *error = QStringLiteral("cannot read the plant %1: %2; choose another file, or one of %3")
+                     .arg(fileName, file.errorString(), names().join(QStringLiteral(", ")));
         return false;
     }
     if (fileName != builtInFile() && !read(builtInFile(), configuration, error))  // for a section that is left out
@@ -194,24 +298,26 @@ bool PlantConfiguration::read(const QString &fileName, PlantConfiguration *confi
         return false;
     }
     PlantReader reader(QFileInfo(fileName).path(), configuration);
-    int number = 0;
-    for (const QByteArray &text : content.split('\n')) {
-        ++number;
-        const QString line = withoutComment(text);
-        const QString wrong = line.isEmpty() ? QString() : reader.take(line);
-        if (wrong.isEmpty())
-            continue;
-        *error = QStringLiteral("%1:%2: %3").arg(fileName).arg(number).arg(wrong);
-        return false;
-    }
-    return true;
+    *error = take(&reader, fileName, content);
+    if (error->isEmpty())
+        *error = takeWords(words, configuration);
+    if (error->isEmpty())
+        *error = contradiction(reader, fileName, words, *configuration);
+    configuration->options.hasMachine = configuration->winch == WinchKind::Machine;
+    configuration->options.hasTurbines = configuration->kite.mode == FlightMode::Drag;
+    return error->isEmpty();
 }
 
 bool winchKindFromText(const QString &word, WinchKind *kind)
 {
-    if (word != QLatin1String("ideal") && word != QLatin1String("drive"))
+    if (word == QLatin1String("ideal"))
+        *kind = WinchKind::Ideal;
+    else if (word == QLatin1String("machine"))
+        *kind = WinchKind::Machine;
+    else if (word == QLatin1String("drive"))
+        *kind = WinchKind::Drive;
+    else
         return false;
-    *kind = word == QLatin1String("drive") ? WinchKind::Drive : WinchKind::Ideal;
     return true;
 }
 

@@ -9,8 +9,23 @@
 namespace awe {
 
 enum class WinchKind {
-    Ideal,  ///< does what the autopilot wants, at once: a part of the model
-    Drive   ///< hardware behind the node Winch, which tells what it really does
+    Ideal,    ///< does what the autopilot wants, at once: a part of the model
+    Machine,  ///< an electrical machine that has to follow what the autopilot wants: a part of the model
+    Drive     ///< hardware behind the node Winch, which tells what it really does
+};
+
+/// What the autopilot does with turbines on board: section [turbines].
+struct TurbineSettings
+{
+    double coefficient = 0.1106;  // c_dt on the eight: half of c_d at the best angle of attack [-]
+    double tetherLength = 150.0;  // [m]
+};
+
+/// Words of the command line that are stronger than those of a plant file; empty: none.
+struct PlantWords
+{
+    QString winch;  // kind of [winch]
+    QString mode;   // mode of [kite]
 };
 
 /// What of the plant is a model, and what is hardware, and the data of the model.
@@ -21,19 +36,27 @@ struct PlantConfiguration
     QString winchHardware;   // configuration of the node Winch
     QString simulatedWinch;  // CAN bus of the simulated drive; empty: the drive is a real one
     KiteConfiguration kite;
-    PlantOptions options;  // sections [wind] and [tether]
+    PlantOptions options;  // sections [wind], [tether], [steering], and what winch and mode ask for
+    TurbineSettings turbines;
 
     bool hasDrive() const { return winch == WinchKind::Drive; }
 
     /// The one that is compiled into the programs.
     static QString builtInFile();
-    /// Reads the file \a fileName. Relative names in it begin at its folder. A section that it
-    /// leaves out is that of the built-in file.
-    /// \return false, with file, line, value and remedy in \a error
-    static bool read(const QString &fileName, PlantConfiguration *configuration, QString *error);
+    /// Plants that have a name instead of a file, in alphabetical order: files of plants/ that are
+    /// compiled into the programs.
+    static QStringList names();
+    /// What the plant \a name is, in a sentence: the first one of its file.
+    static QString description(const QString &name);
+    /// Reads the file \a plant, or the plant of that name. Relative names in it begin at its
+    /// folder. A section that it leaves out is that of the built-in file.
+    /// \return false, with file, line, value and remedy in \a error; also if what the file and \a
+    ///         words say excludes each other
+    static bool read(const QString &plant, PlantConfiguration *configuration, QString *error,
+                     const PlantWords &words = PlantWords());
 };
 
-/// "ideal", "drive". \return false when \a word is none of them
+/// "ideal", "machine", "drive". \return false when \a word is none of them
 bool winchKindFromText(const QString &word, WinchKind *kind);
 
 /// The signal that tells the speed of the tether [m/s]: what is wanted, or what the drive does.

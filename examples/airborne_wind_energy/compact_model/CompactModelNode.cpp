@@ -10,6 +10,25 @@ CompactModelNode::CompactModelNode(const KiteSimulation &simulation, WinchKind w
 {
     if (winch == WinchKind::Drive)
         m_winchLoad.emplace(this, "winchLoad");
+    addOptions();
+}
+
+void CompactModelNode::addOptions()
+{
+    const PlantOptions &options = m_simulation.options();
+    if (options.steering.kind == SteeringKind::TurnRate)
+        m_steering.emplace(this, steeringCommandSignal);
+    if (options.hasTurbines)
+        m_turbines.emplace(this, turbineCoefficientSignal);
+    for (OptionSignal &signal : modelSignals(options)) {
+        OptionOutput output;
+        if (signal.number)
+            output.number = std::make_unique<QPlcOutput<double>>(this, signal.name.constData());
+        else
+            output.vector = std::make_unique<QPlcOutput<Vector>>(this, signal.name.constData());
+        output.signal = std::move(signal);
+        m_options.push_back(std::move(output));
+    }
 }
 
 void CompactModelNode::collect(const PlantOutputs &outputs)
@@ -33,6 +52,12 @@ void CompactModelNode::collect(const PlantOutputs &outputs)
     m_crashed = outputs.crashed;
     if (m_winchLoad)
         *m_winchLoad = outputs.groundTension;
+    for (const OptionOutput &output : m_options) {
+        if (output.number)
+            *output.number = output.signal.number(m_simulation.details());
+        else
+            *output.vector = output.signal.vector(m_simulation.details());
+    }
 }
 
 }  // namespace awe

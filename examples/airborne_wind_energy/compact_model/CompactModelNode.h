@@ -2,11 +2,14 @@
 #pragma once
 
 #include "KiteSimulation.h"
+#include "OptionSignals.h"
 #include "PlantConfiguration.h"
 
 #include <QtPlcCore>
 
+#include <memory>
 #include <optional>
+#include <vector>
 
 namespace awe {
 
@@ -21,9 +24,18 @@ private:
     using Vector = Eigen::Vector3d;
 
     void reset() override { collect(m_simulation.reset()); }
-    void step(const QPlcCycle &) override { collect(m_simulation.step(m_pitchSpeed, m_yawSpeed, m_tetherSpeed)); }
+    void step(const QPlcCycle &) override
+    {
+        collect(m_simulation.step(m_pitchSpeed, m_yawSpeed, m_tetherSpeed, steering(), turbines()));
+    }
     void outputs() override { collect(m_simulation.outputs()); }
-    void update(const QPlcCycle &) override { m_simulation.update(m_pitchSpeed, m_yawSpeed, m_tetherSpeed); }
+    void update(const QPlcCycle &) override
+    {
+        m_simulation.update(m_pitchSpeed, m_yawSpeed, m_tetherSpeed, steering(), turbines());
+    }
+    double steering() const { return m_steering ? m_steering->value() : 0.0; }
+    double turbines() const { return m_turbines ? m_turbines->value() : 0.0; }
+    void addOptions();
     void collect(const PlantOutputs &outputs);
 
     KiteSimulation m_simulation;
@@ -50,6 +62,17 @@ private:
     QPlcOutput<double> m_energy{this, "energy"};                                // [J]
     QPlcOutput<bool> m_crashed{this, "crashed"};
     std::optional<QPlcOutput<double>> m_winchLoad;  // [N]
+
+    /// A signal of an option of the plant: a number or a vector.
+    struct OptionOutput
+    {
+        OptionSignal signal;
+        std::unique_ptr<QPlcOutput<double>> number;
+        std::unique_ptr<QPlcOutput<Vector>> vector;
+    };
+    std::vector<OptionOutput> m_options;
+    std::optional<QPlcInput<double>> m_steering;  // [-], -1 ... 1
+    std::optional<QPlcInput<double>> m_turbines;  // [-], drag coefficient
 };
 
 }  // namespace awe

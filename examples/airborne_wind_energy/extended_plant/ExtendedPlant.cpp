@@ -360,8 +360,12 @@ PlantDetails ExtendedPlant::details(const PlantInputs &inputs) const
     PlantDetails details;
     details.windAt6m = airAt(stationHeight, inputs).wind;
     details.tetherSpeed = drumSpeed(inputs);
-    if (m_isThesis)
+    if (m_isThesis) {
+        details.airDensity = m_parameters.airDensity;
         return details;
+    }
+    const AirAt air = airAt(pointIn(m_state, m_points).z(), inputs);
+    details.airDensity = air.density;
     details.steering = single(m_state, Steering);
     details.turbineEnergy = single(m_state, TurbineEnergy);
     details.machineSpeed = m_machine.speed();
@@ -370,7 +374,7 @@ PlantDetails ExtendedPlant::details(const PlantInputs &inputs) const
     details.energies = m_machine.energies();
     if (isHeld())
         return details;
-    details.turbinePower = wing(m_state, airAt(pointIn(m_state, m_points).z(), inputs), inputs).turbinePower;
+    details.turbinePower = wing(m_state, air, inputs).turbinePower;
     details.electricalPower = m_machine.electricalPower();
     return details;
 }

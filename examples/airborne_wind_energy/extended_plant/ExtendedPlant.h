@@ -18,6 +18,7 @@ struct PlantDetails
     double steering = 0.0;                               // u_s of the actuator [-]
     double tetherSpeed = 0.0;                            // of the drum [m/s], > 0 reels out
     Eigen::Vector3d windAt6m = Eigen::Vector3d::Zero();  // [3] [m/s]: where stations on the ground measure it
+    double airDensity = 0.0;                             // at the wing [kg/m^3]
     double turbinePower = 0.0;                           // [W]
     double turbineEnergy = 0.0;                          // [J]
     double machineSpeed = 0.0;                           // [rad/s], > 0 reels out

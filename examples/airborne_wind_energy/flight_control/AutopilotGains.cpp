@@ -134,6 +134,14 @@ AutopilotGains AutopilotGains::steered()
     return gains;
 }
 
+AutopilotGains AutopilotGains::invertedFor(double turnRateFactor, double weightFactor) const
+{
+    AutopilotGains gains = *this;
+    gains.turnRateFactor = turnRateFactor;
+    gains.weightFactor = weightFactor;
+    return gains;
+}
+
 AutopilotGains AutopilotGains::drag()
 {
     AutopilotGains gains;

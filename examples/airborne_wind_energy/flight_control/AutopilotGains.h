@@ -107,6 +107,9 @@ struct AutopilotGains
 
     /// For a wing that the air turns (SteeringController): a wider eight, which it can follow.
     static AutopilotGains steered();
+    /// The same, for a wing with another turn-rate law. \param turnRateFactor  c_1 [rad/m] \param
+    /// weightFactor  c_2 [m/s^2]
+    AutopilotGains invertedFor(double turnRateFactor, double weightFactor) const;
     /// For turbines on board: a tether of 150 m that stays as it is.
     static AutopilotGains drag();
 

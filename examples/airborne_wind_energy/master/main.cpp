@@ -172,6 +172,8 @@ int main(int argc, char **argv)
     QPlcSignalIndexTable table;
     if (!table.initializeFromIniFile(application.value(QStringLiteral("signals"))))
         return application.usageError(table.errorString());
+    if (!awe::addOptionSignals(application, settings.run.plant.options))
+        return application.exitCode();
 
     QPlcMasterNode master;
     master.setRealTimeOptions(settings.realTime);

@@ -4,9 +4,18 @@
 #include "ExtendedPlant.h"
 #include "Wind.h"
 
+#include <array>
 #include <stdexcept>
 
 namespace awe {
+
+/// What the options of the plant show of one instant, beside PlantOutputs.
+struct KiteDetails
+{
+    PlantOutputs outputs;
+    PlantDetails plant;
+    std::array<Eigen::Vector3d, TetherParameters::mostSegments> nodes;  // of the tether, without its ends [m]
+};
 
 /// The plant in its wind: what the model nodes compute, one way for both of them.
 ///
@@ -25,8 +34,11 @@ public:
         : m_plant(divided(plant, substeps), options)
         , m_wind(wind)
         , m_substeps(substeps)
+        , m_isThesis(options.isThesis())
     {
     }
+
+    const PlantOptions &options() const { return m_plant.options(); }
 
     /// Back to the begin; outputs of the initial state with the inputs at rest.
     PlantOutputs reset()
@@ -38,34 +50,57 @@ public:
     }
 
     /// One step of 10 ms. \param pitchSpeed [deg/s] \param yawSpeed [deg/s] \param tetherSpeed
-    /// [m/s], > 0 reels out
-    PlantOutputs step(double pitchSpeed, double yawSpeed, double tetherSpeed)
+    /// [m/s], > 0 reels out \param steering [-] \param turbineCoefficient [-]: see PlantInputs
+    PlantOutputs step(double pitchSpeed, double yawSpeed, double tetherSpeed, double steering = 0.0,
+                      double turbineCoefficient = 0.0)
     {
-        m_inputs = {pitchSpeed, yawSpeed, tetherSpeed, m_wind.velocity(), m_wind.turbulence()};
-        const PlantOutputs outputs = m_plant.outputs(m_inputs);
+        setInputs(pitchSpeed, yawSpeed, tetherSpeed, steering, turbineCoefficient);
+        const PlantOutputs outputs = shown(m_inputs);
         move();
         return outputs;
     }
 
     // The same in two phases.
-    PlantOutputs outputs() const
+    PlantOutputs outputs()
     {
         PlantInputs inputs = m_inputs;
         inputs.windVelocity = m_wind.velocity();
         inputs.turbulence = m_wind.turbulence();
-        return m_plant.outputs(inputs);
+        return shown(inputs);
     }
-    void update(double pitchSpeed, double yawSpeed, double tetherSpeed)
+    void update(double pitchSpeed, double yawSpeed, double tetherSpeed, double steering = 0.0,
+                double turbineCoefficient = 0.0)
     {
-        m_inputs = {pitchSpeed, yawSpeed, tetherSpeed, m_wind.velocity(), m_wind.turbulence()};
+        setInputs(pitchSpeed, yawSpeed, tetherSpeed, steering, turbineCoefficient);
         move();
     }
+
+    /// Of the instant that the last outputs belong to. \pre the plant has options
+    const KiteDetails &details() const { return m_details; }
 
 private:
     static PlantParameters divided(PlantParameters plant, int substeps)
     {
         plant.step /= substeps;
         return plant;
+    }
+
+    void setInputs(double pitchSpeed, double yawSpeed, double tetherSpeed, double steering, double turbineCoefficient)
+    {
+        m_inputs
+            = {pitchSpeed, yawSpeed, tetherSpeed, m_wind.velocity(), m_wind.turbulence(), steering, turbineCoefficient};
+    }
+
+    PlantOutputs shown(const PlantInputs &inputs)
+    {
+        const PlantOutputs outputs = m_plant.outputs(inputs);
+        if (m_isThesis)
+            return outputs;
+        m_details.outputs = outputs;
+        m_details.plant = m_plant.details(inputs);
+        for (int node = 1; node < m_plant.segmentCount(); ++node)
+            m_details.nodes[std::size_t(node - 1)] = m_plant.position(node);
+        return outputs;
     }
 
     void move()
@@ -85,7 +120,9 @@ private:
     ExtendedPlant m_plant;
     Wind m_wind;
     int m_substeps;
+    bool m_isThesis;
     PlantInputs m_inputs;  // of the last step
+    KiteDetails m_details;
 };
 
 }  // namespace awe

@@ -10,12 +10,19 @@ QPlcValue triple(const Eigen::Vector3d &vector)
     return std::array<double, 3>{vector.x(), vector.y(), vector.z()};
 }
 
+/// 0 for a signal that the plant does not have.
+double realOf(const QPlcSignalList &inputs, QPlcSignalIndex index)
+{
+    return index == QPlcInvalidSignalIndex ? 0.0 : inputs.value(index).toReal();
+}
+
 }  // namespace
 
 ModelNode::ModelNode(const KiteSimulation &simulation, WinchKind winch)
     : QPlcSlaveNode(QStringLiteral("Model"), ErrorZeroOrderHold)
     , m_simulation(simulation)
     , m_winch(winch)
+    , m_optionSignals(modelSignals(simulation.options()))
 {
 }
 
@@ -25,6 +32,10 @@ QPlcSignalIndexList ModelNode::declareInputSignals()
     m_pitchSpeed = inputs.insert(QStringLiteral("bodyControlPitchSpeed"));
     m_yawSpeed = inputs.insert(QStringLiteral("bodyControlYawSpeed"));
     m_tetherSpeed = inputs.insert(QString::fromLatin1(winchSpeedSignal(m_winch)));
+    if (m_simulation.options().steering.kind == SteeringKind::TurnRate)
+        m_steering = inputs.insert(QString::fromLatin1(steeringCommandSignal));
+    if (m_simulation.options().hasTurbines)
+        m_turbines = inputs.insert(QString::fromLatin1(turbineCoefficientSignal));
     return inputs;
 }
 
@@ -50,6 +61,9 @@ QPlcSignalIndexList ModelNode::declareOutputSignals()
     m_crashed = outputs.insert(QStringLiteral("crashed"));
     if (m_winch == WinchKind::Drive)
         m_winchLoad = outputs.insert(QStringLiteral("winchLoad"));
+    m_optionIndices.clear();
+    for (const OptionSignal &signal : m_optionSignals)
+        m_optionIndices.push_back(outputs.insert(QString::fromLatin1(signal.name)));
     return outputs;
 }
 
@@ -60,8 +74,9 @@ QPlcSignalList ModelNode::initialOutputSignals()
 
 QPlcSignalList ModelNode::realTimeout(const QPlcSignalList &inputSignals)
 {
-    return collect(m_simulation.step(inputSignals.value(m_pitchSpeed).toReal(), inputSignals.value(m_yawSpeed).toReal(),
-                                     inputSignals.value(m_tetherSpeed).toReal()));
+    return collect(m_simulation.step(realOf(inputSignals, m_pitchSpeed), realOf(inputSignals, m_yawSpeed),
+                                     realOf(inputSignals, m_tetherSpeed), realOf(inputSignals, m_steering),
+                                     realOf(inputSignals, m_turbines)));
 }
 
 QPlcSignalList ModelNode::outputSignals()
@@ -71,8 +86,9 @@ QPlcSignalList ModelNode::outputSignals()
 
 void ModelNode::updateStates(const QPlcSignalList &inputSignals)
 {
-    m_simulation.update(inputSignals.value(m_pitchSpeed).toReal(), inputSignals.value(m_yawSpeed).toReal(),
-                        inputSignals.value(m_tetherSpeed).toReal());
+    m_simulation.update(realOf(inputSignals, m_pitchSpeed), realOf(inputSignals, m_yawSpeed),
+                        realOf(inputSignals, m_tetherSpeed), realOf(inputSignals, m_steering),
+                        realOf(inputSignals, m_turbines));
 }
 
 QPlcSignalList ModelNode::collect(const PlantOutputs &outputs) const
@@ -97,6 +113,12 @@ QPlcSignalList ModelNode::collect(const PlantOutputs &outputs) const
     list.insert(m_crashed, outputs.crashed);
     if (m_winch == WinchKind::Drive)
         list.insert(m_winchLoad, outputs.groundTension);
+    for (std::size_t i = 0; i < m_optionSignals.size(); ++i) {
+        const OptionSignal &signal = m_optionSignals[i];
+        const KiteDetails &details = m_simulation.details();
+        list.insert(m_optionIndices[i],
+                    signal.number ? QPlcValue(signal.number(details)) : triple(signal.vector(details)));
+    }
     return list;
 }
 

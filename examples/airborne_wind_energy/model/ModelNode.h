@@ -2,6 +2,7 @@
 #pragma once
 
 #include "KiteSimulation.h"
+#include "OptionSignals.h"
 #include "PlantConfiguration.h"
 
 #include <QtPlcCore>
@@ -52,6 +53,12 @@ private:
     QPlcSignalIndex m_energy = QPlcInvalidSignalIndex;
     QPlcSignalIndex m_crashed = QPlcInvalidSignalIndex;
     QPlcSignalIndex m_winchLoad = QPlcInvalidSignalIndex;
+
+    // Of the options of the plant
+    const std::vector<OptionSignal> m_optionSignals;
+    std::vector<QPlcSignalIndex> m_optionIndices;  // as many
+    QPlcSignalIndex m_steering = QPlcInvalidSignalIndex;
+    QPlcSignalIndex m_turbines = QPlcInvalidSignalIndex;
 };
 
 }  // namespace awe

@@ -117,7 +117,9 @@ bool readModel(QPlcCoreApplication &application, Settings *settings)
     QString error;
     if (!settings->isExported && kind != QLatin1String("compact"))
         error = QStringLiteral("--model %1: use compact or lawe").arg(kind);
-    const QStringList given = awe::givenModelOptions(application) + awe::givenPlantOptions(application);
+    QStringList given = awe::givenModelOptions(application) + awe::givenPlantOptions(application);
+    if (settings->run.plant.options.hasMachine)
+        given << QStringLiteral("--winch=machine");
     if (settings->isExported && !given.isEmpty())
         error = QStringLiteral("--model lawe and %1 exclude each other, because the exported model has its own "
                                "parameters: use --model compact")
@@ -165,7 +167,7 @@ bool readOptions(QPlcCoreApplication &application, Settings *settings)
     if (!canTransport(application, *settings))
         return false;
     if (!awe::readModelOptions(application, settings->run.plant, &settings->model)
-        || !awe::readAutopilotOptions(application, &settings->autopilot))
+        || !awe::readAutopilotOptions(application, settings->run.plant, &settings->autopilot))
         return false;
     settings->run.nominalWindSpeed = settings->model.wind.meanVelocity.norm();
     settings->run.awaitedNodes = QStringList{QStringLiteral("Model"), QStringLiteral("Autopilot")};
@@ -231,7 +233,14 @@ int flyInProcesses(QPlcCoreApplication &application, const Settings &settings)
     if (!settings.isExported)  // that one is generated, and has no options of the example
         arguments.model += awe::givenPlantOptions(application) + awe::givenModelOptions(application);
     arguments.autopilot = table + processor + order + awe::givenAutopilotOptions(application);
+    if (!settings.isExported)
+        arguments.autopilot += awe::givenPlantOptions(application);
     arguments.transport = settings.transport;
+    const QString winch = QStringLiteral("winch");
+    if (application.isSet(winch) && !settings.run.plant.hasDrive()) {
+        for (QStringList *program : {&arguments.master, &arguments.model, &arguments.autopilot})
+            *program << QStringLiteral("--winch=%1").arg(application.value(winch));
+    }
     if (settings.run.plant.hasDrive())
         addWinch(application, settings.run, &arguments);
     arguments.watch = settings.run.watch;
@@ -306,6 +315,8 @@ int main(int argc, char **argv)
                              QStringLiteral("awe_sil --processes --transport udp --gains tuned"),
                              QStringLiteral("awe_sil --processes --transport udp-multicast"),
                              QStringLiteral("awe_sil --plant drag-fifth.ini --duration 120"),
+                             QStringLiteral("awe_sil --plant realistic --duration 1860"),
+                             QStringLiteral("awe_sil --plant drag --duration 1860"),
                              QStringLiteral("awe_sil --plant reel-in.ini --controls 0,0,-4 --duration 25"),
                              QStringLiteral("awe_sil --winch drive --duration 120 --report flight.json")});
     addOptions(application);
@@ -315,5 +326,7 @@ int main(int argc, char **argv)
     QPlcSignalIndexTable table;
     if (!table.initializeFromIniFile(application.value(QStringLiteral("signals"))))
         return application.usageError(table.errorString());
+    if (!awe::addOptionSignals(application, settings.run.plant.options))
+        return application.exitCode();
     return settings.processes ? flyInProcesses(application, settings) : flyInOneProcess(application, settings);
 }

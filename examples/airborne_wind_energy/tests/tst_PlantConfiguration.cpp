@@ -23,6 +23,10 @@ private Q_SLOTS:
     void everyKeyAcceptsExactlyItsDocumentedRange();
     void kiteStartsInTheConfiguredState();
     void optionsOfThePlantAreRead();
+    void namedPlantsAreFiles();
+    void wordsOfTheCommandLineAreStronger();
+    void contradictionIsRefused_data();
+    void contradictionIsRefused();
     void sectionThatIsLeftOutIsTheBuiltInOne();
     void withoutAnAzimuthTheKiteStartsDownwind();
     void badLineIsNamedWithItsRemedy_data();
@@ -74,7 +78,12 @@ struct ShownKey
 {
     QString section, name, value, text;
 
-    QString line(const QString &wanted) const { return QStringLiteral("[%1]\n%2 = %3\n").arg(section, name, wanted); }
+    bool isOfTurbines() const { return section == QLatin1String("turbines"); }
+    QString line(const QString &wanted) const
+    {
+        const QString mode = isOfTurbines() ? QStringLiteral("[kite]\nmode = drag\n") : QString();
+        return QStringLiteral("[%1]\n%2 = %3\n").arg(section, name, wanted) + mode;
+    }
 };
 
 static QVector<ShownKey> shownKeys()
@@ -100,9 +109,9 @@ void tst_PlantConfiguration::builtInFileDescribesTheKiteOfTheThesis()
 {
     QByteArray text;
     const QVector<ShownKey> keys = shownKeys();
-    QCOMPARE(keys.size(), 39);
+    QCOMPARE(keys.size(), 48);
     for (const ShownKey &key : keys) {
-        if (key.name != QLatin1String("azimuth"))  // without it: downwind
+        if (key.name != QLatin1String("azimuth") && !key.isOfTurbines())  // without it: downwind
             text += key.line(key.value).toUtf8();
     }
     PlantConfiguration shown, silent;
@@ -111,6 +120,7 @@ void tst_PlantConfiguration::builtInFileDescribesTheKiteOfTheThesis()
     QVERIFY2(PlantConfiguration::read(PlantConfiguration::builtInFile(), &silent, &error), qPrintable(error));
     const WindParameters wind;
     const TetherParameters tether;
+    const SteeringParameters steering;
     PlantParameters expected;
     expected.groundContact = GroundContact::Hold;
     for (const PlantConfiguration &configuration : {shown, silent}) {
@@ -125,6 +135,8 @@ void tst_PlantConfiguration::builtInFileDescribesTheKiteOfTheThesis()
         WindParameters::visitConstants(wind, collect(&wanted));
         TetherParameters::visitConstants(configuration.options.tether, collect(&values));
         TetherParameters::visitConstants(tether, collect(&wanted));
+        SteeringParameters::visitConstants(configuration.options.steering, collect(&values));
+        SteeringParameters::visitConstants(steering, collect(&wanted));
         QCOMPARE(values, wanted);
         QVERIFY(configuration.options.isThesis());
         const AirParameters &air = configuration.options.air;
@@ -174,7 +186,7 @@ void tst_PlantConfiguration::everyKeyAcceptsExactlyItsDocumentedRange()
                      qPrintable(error));
         }
     }
-    QCOMPARE(ranges, 33);
+    QCOMPARE(ranges, 40);
 }
 
 void tst_PlantConfiguration::kiteStartsInTheConfiguredState()
@@ -212,6 +224,86 @@ void tst_PlantConfiguration::optionsOfThePlantAreRead()
     QCOMPARE(plant.options.tether.diameter, 0.005);
 }
 
+void tst_PlantConfiguration::namedPlantsAreFiles()
+{
+    const QStringList expected{QStringLiteral("drag"), QStringLiteral("realistic"), QStringLiteral("thesis")};
+    QCOMPARE(PlantConfiguration::names(), expected);
+    PlantConfiguration thesis, realistic, drag;
+    QString error;
+    QVERIFY2(PlantConfiguration::read(QStringLiteral("thesis"), &thesis, &error), qPrintable(error));
+    QVERIFY(thesis.options.isThesis());
+    QVERIFY2(PlantConfiguration::read(QStringLiteral("realistic"), &realistic, &error), qPrintable(error));
+    const PlantOptions options = realistic.options, known = PlantOptions::realistic();
+    QVERIFY(options.hasMachine && !options.hasTurbines);
+    QCOMPARE(realistic.winch, WinchKind::Machine);
+    QVERIFY(!realistic.hasDrive());
+    QCOMPARE(options.air.profile, known.air.profile);
+    QCOMPARE(options.air.referenceHeight, known.air.referenceHeight);
+    QCOMPARE(options.tether.kind, known.tether.kind);
+    QCOMPARE(options.tether.segments, known.tether.segments);
+    QCOMPARE(options.steering.kind, known.steering.kind);
+    QCOMPARE(options.steering.turnRateFactor, known.steering.turnRateFactor);
+    QVERIFY2(PlantConfiguration::read(QStringLiteral("drag"), &drag, &error), qPrintable(error));
+    QVERIFY(drag.options.hasTurbines && !drag.options.hasMachine);
+    QCOMPARE(drag.kite.plantIn(drag.kite.wind).initialState.tetherLength, drag.turbines.tetherLength);
+    for (const QString &name : expected) {
+        const QString sentence = PlantConfiguration::description(name);
+        QVERIFY2(sentence.size() > 20 && sentence.size() < 120 && !sentence.startsWith(QLatin1Char(';')),
+                 qPrintable(sentence));
+    }
+    QVERIFY(!PlantConfiguration::read(QStringLiteral("thesi"), &drag, &error));
+    QVERIFY2(error.endsWith(QLatin1String("choose another file, or one of drag, realistic, thesis")),
+             qPrintable(error));
+}
+
+void tst_PlantConfiguration::wordsOfTheCommandLineAreStronger()
+{
+    PlantConfiguration plant;
+    QString error;
+    const QString realistic = QStringLiteral("realistic");
+    const auto read = [&](const QString &winch, const QString &mode) {
+        return PlantConfiguration::read(realistic, &plant, &error, {winch, mode});
+    };
+    QVERIFY2(read(QStringLiteral("ideal"), QStringLiteral("drag")), qPrintable(error));
+    QVERIFY(plant.options.hasTurbines && !plant.options.hasMachine);
+    QVERIFY(!read(QStringLiteral("steam"), {}));
+    QCOMPARE(error, QStringLiteral("--winch steam: use ideal, machine or drive"));
+    QVERIFY(!read({}, QStringLiteral("fast")));
+    QCOMPARE(error, QStringLiteral("--mode fast: use pumping or drag"));
+}
+
+void tst_PlantConfiguration::contradictionIsRefused_data()
+{
+    QTest::addColumn<QByteArray>("text");
+    QTest::addColumn<QString>("winch");
+    QTest::addColumn<QString>("mode");
+    QTest::addColumn<QString>("expected");
+    const QString machine = QStringLiteral(" and mode drag exclude each other, because the winch then only holds the "
+                                           "tether; use kind = ideal in [winch], or mode = pumping in [kite]");
+    QTest::newRow("machine, mode in the file") << QByteArray("[kite]\nmode = drag\n[winch]\nkind = machine\n")
+                                               << QString() << QString() << "plant.ini:4: kind = machine" + machine;
+    QTest::newRow("machine, mode given") << QByteArray("[winch]\nkind = machine\n") << QString()
+                                         << QStringLiteral("drag") << "plant.ini:2: kind = machine" + machine;
+    QTest::newRow("machine given") << QByteArray("[kite]\nmode = drag\n") << QStringLiteral("machine") << QString()
+                                   << "--winch machine" + machine;
+    QTest::newRow("turbines without their mode")
+        << QByteArray("[turbines]\ncoefficient = 0.2\n") << QString() << QString()
+        << QStringLiteral("plant.ini:2: 'coefficient' has no meaning without turbines on board; write mode = drag in "
+                          "[kite], or leave out [turbines]");
+}
+
+void tst_PlantConfiguration::contradictionIsRefused()
+{
+    QFETCH(QByteArray, text);
+    QFETCH(QString, winch);
+    QFETCH(QString, mode);
+    QFETCH(QString, expected);
+    PlantConfiguration plant;
+    QString error;
+    QVERIFY(!PlantConfiguration::read(write(text), &plant, &error, {winch, mode}));
+    QVERIFY2(error.endsWith(expected), qPrintable(error));
+}
+
 void tst_PlantConfiguration::sectionThatIsLeftOutIsTheBuiltInOne()
 {
     PlantConfiguration builtIn, kite, winch;
@@ -245,11 +337,16 @@ void tst_PlantConfiguration::badLineIsNamedWithItsRemedy_data()
     const auto add = [](const char *name, const char *text, const char *expected) {
         QTest::newRow(name) << QByteArray(text) << QString::fromUtf8(expected);
     };
-    add("kind", "[winch]\nkind = steam\n", "plant.ini:2: kind = steam: use ideal or drive");
+    add("kind", "[winch]\nkind = steam\n", "plant.ini:2: kind = steam: use ideal, machine or drive");
     add("key of the winch", "[winch]\n; a comment\nkin = drive\n",
         "plant.ini:3: 'kin' is not a key of [winch]; use one of kind, hardware, simulated");
     add("section", "[kites]\n",
-        "plant.ini:1: '[kites]' is not a section of a plant; use one of [winch], [kite], [wind], [tether]");
+        "plant.ini:1: '[kites]' is not a section of a plant; use one of [winch], [kite], [wind], [tether], "
+        "[steering], [turbines]");
+    add("mode", "[kite]\nmode = fast\n", "plant.ini:2: mode = fast: use pumping or drag");
+    add("word of the steering", "[steering]\nkind = wheel\n", "kind = wheel: use kinematic or turn-rate");
+    add("key of the turbines", "[turbines]\nnumber = 2\n",
+        "plant.ini:2: 'number' is not a key of [turbines]; use one of coefficient, tetherLength");
     add("word of the wind", "[wind]\nprofile = strong\n", "profile = strong: use uniform, power or log");
     add("word of the tether", "[tether]\nkind = rope\n", "kind = rope: use spring, straight or segments");
     add("key of the tether", "[tether]\nmass = 1\n", "'mass' is not a key of [tether]; use one of kind, segments, ");
@@ -259,7 +356,7 @@ void tst_PlantConfiguration::badLineIsNamedWithItsRemedy_data()
     add("close key of the kite", "[kite]\nmas = 3\n",
         "plant.ini:2: 'mas' is not a key of [kite]; did you mean 'mass'?");
     add("key of the kite", "[kite]\nqqqqqqqqqqqq = 3\n",
-        "'qqqqqqqqqqqq' is not a key of [kite]; use one of mass, area,");
+        "'qqqqqqqqqqqq' is not a key of [kite]; use one of mode, mass, area,");
     add("negative mass", "[kite]\n\nmass = -3\n", "plant.ini:3: mass = -3: use a number from 0.001 to 1e+06 kg");
     add("no number", "[kite]\narea = wide\n", "plant.ini:2: area = wide: use a number from 0.001 to 1e+06 m²");
     add("not a number", "[kite]\ndragFactor = nan\n", "dragFactor = nan: use a number from 0.001 to 1000");

@@ -45,8 +45,8 @@ void tst_ProgramOptions::helpNamesEveryOption_data()
     QTest::addColumn<QString>("options");
     const char *const node = "--master --signals --name --watchdog --critical --stay --same-cycle --priority --cpu "
                              "--lock-memory --enable-fault-injection --faults";
-    const char *const model = " --wind --turbulence --seed --plant --winch";
-    const char *const autopilot = " --gains --force-limit --dead-time";
+    const char *const model = " --wind --turbulence --seed --plant --winch --mode";
+    const char *const autopilot = " --gains --force-limit --dead-time --plant --winch --mode";
     const char *const run
         = " --lockstep --real-time --scale --external --overrun --duration --report --record --watch --signals";
     const auto row = [](const char *program, const QByteArray &options) {
@@ -56,9 +56,10 @@ void tst_ProgramOptions::helpNamesEveryOption_data()
     row("awe_compact_model", QByteArray(node) + model);
     row("awe_autopilot", QByteArray(node) + autopilot);
     row("awe_master",
-        QByteArray("--listen --port --multicast --insecure-network --beacon --start-with --mean-wind --plant --winch "
-                   "--manifest --priority --cpu "
-                   "--lock-memory --enable-fault-injection --faults")
+        QByteArray(
+            "--listen --port --multicast --insecure-network --beacon --start-with --mean-wind --plant --winch --mode "
+            "--manifest --priority --cpu "
+            "--lock-memory --enable-fault-injection --faults")
             + run);
     row("awe_sil", QByteArray("--processes --transport --same-cycle --controls --model") + run + model + autopilot);
 }
@@ -142,11 +143,16 @@ void tst_ProgramOptions::badOptionsAreRefusedWithOneSentence_data()
     file.open(QIODevice::WriteOnly);
     file.write("[kite]\nmass = 0\n");
     file.close();
-    for (const char *program : {"awe_master", "awe_model", "awe_compact_model", "awe_sil"})
+    for (const char *program : {"awe_master", "awe_model", "awe_compact_model", "awe_autopilot", "awe_sil"}) {
         row(program, qPrintable(QStringLiteral("--plant ") + plant),
             qPrintable(plant + QStringLiteral(":2: mass = 0: use a number from 0.001 to 1e+06 kg")));
+        row(program, "--plant real", "choose another file, or one of drag, realistic, thesis");
+        row(program, "--winch steam", "--winch steam: use ideal, machine or drive");
+        row(program, "--plant realistic --mode drag", "kind = machine and mode drag exclude each other");
+    }
     for (const char *program : {"awe_autopilot", "awe_sil"}) {
         row(program, "--gains best", "--gains best: use default or tuned");
+        row(program, "--gains tuned --plant drag", "--gains tuned: there is no tuned set for turbines on board");
         row(program, "--force-limit 99", "--force-limit 99");
         row(program, "--force-limit strong", "--force-limit strong");
         row(program, "--dead-time 1", "--dead-time 1: use a whole number of 2 ...");
@@ -190,6 +196,8 @@ void tst_ProgramOptions::badOptionsAreRefusedWithOneSentence_data()
     row("awe_sil", "--processes --wind 1,2", "--wind 1,2");
     row("awe_sil", "--model list", "--model list: use compact or lawe");
     row("awe_sil", "--model lawe --turbulence 0.1", "--model lawe and --turbulence=0.1 exclude each other");
+    row("awe_sil", "--model lawe --plant realistic", "--model lawe and --plant=realistic exclude each other");
+    row("awe_sil", "--model lawe --winch machine", "--model lawe and --winch=machine exclude each other");
     row("awe_sil", "--processes --watch", "--watch draws on a terminal");
     row("awe_sil", "--controls 0,0", "--controls 0,0: use three numbers X,Y,Z");
     row("awe_sil", "--controls 0,0,1 --processes", "leave out --processes and --winch drive");

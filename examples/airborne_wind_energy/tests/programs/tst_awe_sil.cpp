@@ -70,6 +70,10 @@ private Q_SLOTS:
     void sameCycleFlightIsIdenticalOverEveryTransport_data();
     void sameCycleFlightIsIdenticalOverEveryTransport();
     void sameCycleFlightEqualsTheSingleLoopFlight();
+    void plantWithOptionsIsTheSameInEveryProcess_data();
+    void plantWithOptionsIsTheSameInEveryProcess();
+    void optionsAddTheirFiguresToTheReport();
+    void plantWithOptionsEqualsTheSingleLoopFlight();
     void reportContainsTheAgeOfEveryLink_data();
     void reportContainsTheAgeOfEveryLink();
     void anotherSeedIsAnotherFlight();
@@ -243,6 +247,71 @@ void tst_awe_sil::sameCycleFlightEqualsTheSingleLoopFlight()
     QVERIFY(seen("max_tether_force_N") == expected.maximumTetherForce);
     QVERIFY(seen("pumping_cycles") == expected.pumpingCycles);
     QVERIFY(expected.pumpingCycles >= 1 && expected.energy > 0.0);
+}
+
+void tst_awe_sil::plantWithOptionsIsTheSameInEveryProcess_data()
+{
+    QTest::addColumn<QString>("options");
+    QTest::addColumn<bool>("isThesis");
+    QTest::newRow("thesis") << QStringLiteral("--plant thesis") << true;
+    QTest::newRow("realistic") << QStringLiteral("--plant realistic") << false;
+    QTest::newRow("realistic, ideal winch") << QStringLiteral("--plant realistic --winch ideal") << false;
+    QTest::newRow("realistic, same cycle") << QStringLiteral("--plant realistic --same-cycle") << false;
+    QTest::newRow("drag") << QStringLiteral("--plant drag") << false;
+    QTest::newRow("mode drag") << QStringLiteral("--mode drag") << false;
+    QTest::newRow("machine") << QStringLiteral("--winch machine") << false;
+}
+
+/// The three programs read the plant by themselves, and agree on its signals. Without options it is
+/// the flight without --plant.
+void tst_awe_sil::plantWithOptionsIsTheSameInEveryProcess()
+{
+    QFETCH(QString, options);
+    QFETCH(bool, isThesis);
+    const QString digest = QStringLiteral("image_digest");
+    const QJsonObject alone = fly(options), processes = fly(options + QStringLiteral(" --processes"));
+    QCOMPARE(alone.value(QStringLiteral("cycles")).toInt(), 1000);
+    QCOMPARE(processes.value(digest), alone.value(digest));
+    QCOMPARE(alone.value(digest) == fly({}).value(digest), isThesis);
+}
+
+void tst_awe_sil::optionsAddTheirFiguresToTheReport()
+{
+    const auto has
+        = [](const QJsonObject &flight, const char *field) { return flight.value(QLatin1String(field)).isDouble(); };
+    const QJsonObject thesis = fly({}), machine = fly(QStringLiteral("--winch machine")),
+                      drag = fly(QStringLiteral("--plant drag"));
+    QVERIFY(!has(thesis, "electrical_power_W") && !has(thesis, "turbine_power_W"));
+    QVERIFY(has(machine, "electrical_power_W") && !has(machine, "turbine_power_W"));
+    QVERIFY(!has(drag, "electrical_power_W") && has(drag, "turbine_power_W"));
+    QVERIFY(machine.value(QStringLiteral("electrical_power_W")).toDouble()
+            < machine.value(QStringLiteral("mean_power_W")).toDouble());
+    QVERIFY(drag.value(QStringLiteral("turbine_power_W")).toDouble() > 500.0);
+}
+
+/// As sameCycleFlightEqualsTheSingleLoopFlight(). The loop counts the electrical energy a cycle
+/// later, and does not round it.
+void tst_awe_sil::plantWithOptionsEqualsTheSingleLoopFlight()
+{
+    awe::ClosedLoopParameters parameters;
+    parameters.options = awe::PlantOptions::realistic();
+    parameters.gains = awe::AutopilotGains::steered();
+    parameters.deadTime = 0;
+    parameters.precision = awe::SignalPrecision::Real32;
+    parameters.wind.turbulenceIntensity = 0.15;
+    const Eigen::Vector3d &wind = parameters.wind.meanVelocity;
+    parameters.plant.initialState
+        = awe::PlantParameters::stateAtRest(30.0, std::atan2(wind.y(), wind.x()) * 180.0 / M_PI, 100.0);
+    awe::ClosedLoopFlight loop(parameters);
+    loop.fly(199.99);
+    const awe::FlightReport expected = loop.report();
+    const QJsonObject flight = fly(QStringLiteral("--plant realistic --same-cycle --duration 200"));
+    const auto seen = [&](const char *figure) { return flight.value(QLatin1String(figure)).toDouble(); };
+    QVERIFY(seen("energy_J") == expected.energy);
+    QVERIFY(seen("min_altitude_m") == expected.minimumAltitude);
+    QVERIFY(seen("max_tether_force_N") == expected.maximumTetherForce);
+    QVERIFY(std::abs(seen("electrical_power_W") - expected.electricalPower) < 1.0);
+    QVERIFY(expected.pumpingCycles >= 1 && expected.electricalPower > 0.0);
 }
 
 void tst_awe_sil::reportContainsTheAgeOfEveryLink_data()
