@@ -138,6 +138,13 @@ QString clockSourceRemedy(bool hasTsc)
         : QStringLiteral("see why the kernel has dropped the time stamp counter: sudo dmesg | grep -i tsc");
 }
 
+QString realTimeShareRemedy()
+{
+    return QStringLiteral(
+        "sudo sysctl kernel.sched_rt_runtime_us=950000, and the same line in a file of /etc/sysctl.d; with -1 nothing "
+        "stops a cycle that hangs");
+}
+
 QString swapRemedy()
 {
     return QStringLiteral("sudo swapoff -a, or let programs lock their memory");

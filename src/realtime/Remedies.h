@@ -36,6 +36,8 @@ QString idleStateRemedy(int longestExit);
 /// \param hasTsc  whether the time stamp counter could be chosen
 QString clockSourceRemedy(bool hasTsc);
 QString swapRemedy();
+/// The kernel pauses threads with real-time policies too often.
+QString realTimeShareRemedy();
 /// Threads wake late, datagrams take long: something else has the processor.
 QString latencyRemedy();
 /// Datagrams do not come back.

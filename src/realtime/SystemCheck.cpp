@@ -17,6 +17,7 @@ constexpr std::int64_t latestRealTimeWakeUp = 100'000;    // [ns], of 99 %
 constexpr std::int64_t latestOrdinaryWakeUp = 1'000'000;  // [ns], of 99 %
 constexpr std::int64_t longestRoundTrip = 1'000'000;      // [ns], of 99 %
 constexpr int longestIdleExit = 100;                      // [us]
+constexpr int smallestRealTimeShare = 90;                 // [per cent]: kernels come with 95
 
 Finding finding(const char *subject, Finding::Verdict verdict, const QString &found, const QString &remedy = QString())
 {
@@ -94,6 +95,14 @@ Finding judgeIdleStates(const SystemFacts &facts)
                    idleStateRemedy(longestIdleExit));
 }
 
+Finding judgeRealTimeShare(const SystemFacts &facts)
+{
+    if (!facts.realTimeShare)
+        return unknown("real-time share", QStringLiteral("/proc/sys/kernel/sched_rt_runtime_us cannot be read"));
+    return finding("real-time share", *facts.realTimeShare >= smallestRealTimeShare,
+                   QStringLiteral("%1 % of a processor").arg(*facts.realTimeShare), realTimeShareRemedy());
+}
+
 /// "unlimited", "8192 KiB"
 QString memoryLimitText(const QString &limit)
 {
@@ -130,8 +139,8 @@ Finding judgeSwap(const SystemFacts &facts, bool canLock)
 
 QVector<Finding> judgeFacts(const SystemFacts &facts)
 {
-    return {judgeKernel(facts), judgeProcessors(facts), judgeClockSource(facts), judgeGovernor(facts),
-            judgeIdleStates(facts)};
+    return {judgeKernel(facts),   judgeProcessors(facts), judgeClockSource(facts),
+            judgeGovernor(facts), judgeIdleStates(facts), judgeRealTimeShare(facts)};
 }
 
 QVector<Finding> judgeEffects(const SystemFacts &facts, const WakeUps &ordinary, const WakeUps &realTime)

@@ -79,6 +79,19 @@ std::optional<int> swapSpaceOf(const Reader &reader)
     return size;
 }
 
+/// Runtime of a period, both in us; the runtime -1 has no limit.
+std::optional<int> realTimeShareOf(const Reader &reader)
+{
+    constexpr int all = 100;
+    const auto runtime = reader.text(QStringLiteral("proc/sys/kernel/sched_rt_runtime_us"));
+    const qint64 period
+        = reader.text(QStringLiteral("proc/sys/kernel/sched_rt_period_us")).value_or(QString()).toLongLong();
+    if (!runtime || period <= 0)
+        return std::nullopt;
+    const qint64 us = runtime->toLongLong();
+    return us < 0 ? all : int(us * all / period);
+}
+
 QVector<SystemFacts::IdleState> idleStatesOf(const Reader &reader)
 {
     const QString folder = QStringLiteral("sys/devices/system/cpu/cpu0/cpuidle");
@@ -122,6 +135,7 @@ SystemFacts SystemFacts::read(const QString &root)
     facts.clockSource = reader.text(clocks + QLatin1String("current_clocksource")).value_or(QString());
     facts.clockSources = reader.words(clocks + QLatin1String("available_clocksource"));
     facts.swapSpace = swapSpaceOf(reader);
+    facts.realTimeShare = realTimeShareOf(reader);
     facts.idleStates = idleStatesOf(reader);
     facts.priorityLimit = limitOf(reader, QStringLiteral("Max realtime priority"));
     facts.memoryLimit = limitOf(reader, QStringLiteral("Max locked memory"));

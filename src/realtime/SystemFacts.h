@@ -21,17 +21,18 @@ struct SystemFacts
         bool isEnabled;
     };
 
-    QString kernel;                   // "6.1.0-18-rt-amd64"
-    QString preemption;               // "PREEMPT_RT", "PREEMPT_DYNAMIC", "PREEMPT", "no PREEMPT"
-    QString processors;               // online: "0-3"
-    std::optional<QString> isolated;  // from the scheduler: "2,3"; empty text: no processor
-    QStringList governors;            // of all processors, each once
-    QString clockSource;              // "tsc"
-    QStringList clockSources;         // that could be chosen
-    std::optional<int> swapSpace;     // [KiB]; 0: none in use
-    QVector<IdleState> idleStates;    // of the first processor
-    QString priorityLimit;            // soft limit as `ulimit -r` shows it: "0", "99", "unlimited"
-    QString memoryLimit;              // that of locked memory: "8388608" [byte], "unlimited"
+    QString kernel;                    // "6.1.0-18-rt-amd64"
+    QString preemption;                // "PREEMPT_RT", "PREEMPT_DYNAMIC", "PREEMPT", "no PREEMPT"
+    QString processors;                // online: "0-3"
+    std::optional<QString> isolated;   // from the scheduler: "2,3"; empty text: no processor
+    QStringList governors;             // of all processors, each once
+    QString clockSource;               // "tsc"
+    QStringList clockSources;          // that could be chosen
+    std::optional<int> swapSpace;      // [KiB]; 0: none in use
+    std::optional<int> realTimeShare;  // [per cent] of a processor that threads with real-time policies may take
+    QVector<IdleState> idleStates;     // of the first processor
+    QString priorityLimit;             // soft limit as `ulimit -r` shows it: "0", "99", "unlimited"
+    QString memoryLimit;               // that of locked memory: "8388608" [byte], "unlimited"
 
     /// \param root  folder that has proc and sys
     static SystemFacts read(const QString &root = QStringLiteral("/"));

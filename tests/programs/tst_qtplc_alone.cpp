@@ -195,9 +195,10 @@ void tst_qtplc_alone::doctorExaminesThisComputer()
         QVERIFY(!finding["found"].toString().isEmpty());
         isHealthy = isHealthy && verdict != "to cure";
     }
-    QCOMPARE(subjects,
-             (QStringList{"versions", "kernel", "processors", "clock source", "governor", "idle states", "scheduling",
-                          "locked memory", "swap", "wake-up", "wake-up FIFO", "loopback"}));
+    QCOMPARE(
+        subjects,
+        (QStringList{"versions", "kernel", "processors", "clock source", "governor", "idle states", "real-time share",
+                     "scheduling", "locked memory", "swap", "wake-up", "wake-up FIFO", "loopback"}));
     QCOMPARE(document.value("ok").toBool(), isHealthy);
     QCOMPARE(outcome.exitCode, isHealthy ? 0 : 1);
     QCOMPARE(outcome.errors, QString());

@@ -42,6 +42,7 @@ private:
         facts.governors = QStringList{"performance"};
         facts.clockSource = "tsc";
         facts.swapSpace = 0;
+        facts.realTimeShare = 95;
         facts.idleStates = {{"C1", 2, true}};
         facts.priorityLimit = "99";
         facts.memoryLimit = "unlimited";
@@ -82,7 +83,7 @@ void tst_SystemCheck::suitableComputerNeedsNoRemedy()
     const SystemFacts facts = fitFacts();
     const QVector<Finding> findings
         = qplc::judgeFacts(facts) + qplc::judgeEffects(facts, wakeUps(60'000), wakeUps(5'000));
-    QCOMPARE(findings.size(), 10);
+    QCOMPARE(findings.size(), 11);
     for (const Finding &finding : findings) {
         QVERIFY2(finding.verdict == Finding::Ok, qPrintable(finding.subject));
         QVERIFY(!finding.found.isEmpty());
@@ -133,6 +134,9 @@ void tst_SystemCheck::findingsNameTheActualSetting_data()
     }) << "clock source"
                                                        << "acpi_pm"
                                                        << "dmesg";
+    QTest::newRow("real-time share") << with([](SystemFacts &facts) { facts.realTimeShare = 50; }) << "real-time share"
+                                     << "50 %"
+                                     << "sudo sysctl kernel.sched_rt_runtime_us=950000";
     QTest::newRow("idle state") << with([](SystemFacts &facts) {
         facts.idleStates.append({"C6", 133, true});
     }) << "idle states"

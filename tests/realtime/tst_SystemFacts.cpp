@@ -22,6 +22,7 @@ private Q_SLOTS:
     void noIsolatedProcessorsDiffersFromUnknown();
     void governorsAreNamedOnce();
     void swapSpacesAddUp();
+    void realTimeShareIsRuntimeOfPeriod();
     void idleStatesTellTheirLatency();
     void softLimitsAreRead();
     void clockSourcesAreListed();
@@ -50,7 +51,7 @@ void tst_SystemFacts::emptyRootGivesNoFacts()
 {
     const SystemFacts facts = read();
     QVERIFY(facts.kernel.isEmpty() && facts.preemption.isEmpty() && facts.processors.isEmpty());
-    QVERIFY(!facts.isolated && !facts.swapSpace);
+    QVERIFY(!facts.isolated && !facts.swapSpace && !facts.realTimeShare);
     QVERIFY(facts.governors.isEmpty() && facts.clockSource.isEmpty() && facts.clockSources.isEmpty());
     QVERIFY(facts.idleStates.isEmpty() && facts.priorityLimit.isEmpty() && facts.memoryLimit.isEmpty());
 }
@@ -122,6 +123,18 @@ void tst_SystemFacts::swapSpacesAddUp()
           "/dev/sda5                               partition\t999420\t\t0\t\t-2\n"
           "/swapfile                               file\t\t1024\t\t0\t\t-3\n");
     QCOMPARE(read().swapSpace.value(), 999420 + 1024);
+}
+
+void tst_SystemFacts::realTimeShareIsRuntimeOfPeriod()
+{
+    write("proc/sys/kernel/sched_rt_period_us", "1000000\n");
+    QVERIFY(!read().realTimeShare);
+    write("proc/sys/kernel/sched_rt_runtime_us", "950000\n");
+    QCOMPARE(read().realTimeShare.value(), 95);
+    write("proc/sys/kernel/sched_rt_runtime_us", "-1\n");
+    QCOMPARE(read().realTimeShare.value(), 100);
+    write("proc/sys/kernel/sched_rt_period_us", "0\n");
+    QVERIFY(!read().realTimeShare);
 }
 
 void tst_SystemFacts::idleStatesTellTheirLatency()
