@@ -11,6 +11,12 @@ namespace tools {
 
 namespace messages = qplc::messages;
 
+namespace {
+
+constexpr int joinPause = 200;  // [ms] between two questions whether the phase that is joined still runs
+
+}  // namespace
+
 SignalListener::SignalListener(const CommandCall &call, const QString &purpose, const QPlcSignalTable &table,
                                const QStringList &names, int pause)
     : m_call(call)
@@ -37,6 +43,9 @@ SignalListener::SignalListener(const CommandCall &call, const QString &purpose, 
     m_node.setBufferSize(10000);
     m_timer.setTimerType(Qt::PreciseTimer);
     m_timer.setInterval(pause);
+    m_joinTimer.setSingleShot(true);
+    m_joinTimer.setInterval(joinPause);
+    connect(&m_joinTimer, &QTimer::timeout, this, &SignalListener::askForState);
     connect(&m_timer, &QTimer::timeout, this, [this] { takeCycles(); });
     connect(&m_node, &QPlcSlaveNode::realTimeHasStarted, this, [this] {
         m_isRunning = true;
@@ -70,8 +79,13 @@ void SignalListener::handleState(const messages::State &state)
     m_period = double(state.period.count()) * 1e-9;
     m_state = state.state;
     m_isRunning = messages::hasCycles(m_state);
-    if (!m_isRunning && m_node.state() != QPlcSlaveNode::Disconnected)
+    const QPlcSlaveNode::State own = m_node.state();
+    if (own == QPlcSlaveNode::Disconnected)
+        return;
+    if (!m_isRunning)
         askForValues(std::make_shared<Values>());
+    else if (own != QPlcSlaveNode::RealTime && own != QPlcSlaveNode::SafeStop)
+        m_joinTimer.start();  // a phase that ends before it has begun here is told by nobody
 }
 
 void SignalListener::handleValues(const std::vector<messages::SignalEntry> &values)

@@ -69,6 +69,7 @@ private:
     QVector<int> m_offsets;  // and of their values in a frame [byte]
     QPlcIOBufferSlaveNode m_node;
     QTimer m_timer;
+    QTimer m_joinTimer;
     double m_period = 0.0;  // [s]
     qplc::messages::MasterState m_state = qplc::messages::MasterState::Unknown;
     bool m_isRunning = false;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "../common/Waiting.h"
 #include "ProcessPlant.h"
+#include "signals/PayloadLayout.h"
 
 #include <QtPlcCore>
 
@@ -28,14 +29,16 @@ public:
         + command.split(QLatin1Char(' '), Qt::SkipEmptyParts);
     }
     /// Runs qtplc while this master answers.
-    Outcome qtplc(const QString &command)
+    Outcome qtplc(const QString &command) { return run(withMaster(command)); }
+    Outcome run(const QStringList &arguments)
     {
-        Program program(programPath("qtplc"), withMaster(command));
+        Program program(programPath("qtplc"), arguments);
         (void)waitUntil([&program] { return program.state() == QProcess::NotRunning; }, Program::patience);
         return {program.waitForEnd(), program.output(), program.errors()};
     }
 
     QMap<int, QPlcMessage> answers;  // by kind of the request; others are answered as a master that does not know them
+    QMap<int, QPlcMessage> further;  // by kind of the request: what follows the answer
     QVector<QPlcMessage> requests;
     std::function<void(const QPlcMessage &request)> prepare = [](const QPlcMessage &) {};
 
@@ -52,6 +55,8 @@ private:
         const QPlcMessage unknown(QPlcMessage::Failed,
                                   {{"error", "MalformedMessage"}, {"text", "a master does not handle it"}});
         socket->sendMessage(answers.value(message.kind(), unknown));
+        if (further.contains(message.kind()))
+            socket->sendMessage(further.value(message.kind()));
     }
     QTcpServer m_server;
 };
@@ -138,6 +143,7 @@ private Q_SLOTS:
     void olderMasterIsReported_data();
     void olderMasterIsReported();
     void otherRefusalIsShownAsItIs();
+    void echoShowsTheValuesWhenAPhaseEndsWhileItJoins();
     void answerOfAnotherKindIsRefused();
     void malformedAnswersDoNotCrash_data();
     void malformedAnswersDoNotCrash();
@@ -397,6 +403,38 @@ void tst_qtplc_answers::malformedAnswersDoNotCrash()
     m_master->answers.insert(QPlcMessage::GetEvents, QPlcMessage(QPlcMessage::Events, fields));
     for (const char *command : {"jitter", "jitter --hist", "schedule", "leases", "events"})
         QCOMPARE(m_master->qtplc(command).exitCode, 0);
+}
+
+/// It is registered while cycles run, and hears nothing more: the phase has ended before it could
+/// begin for this listener.
+void tst_qtplc_answers::echoShowsTheValuesWhenAPhaseEndsWhileItJoins()
+{
+    const QPlcSignalTable table = QPlcSignalTable::fromIni("[power]\ntype = Real32\n");
+    const auto hash = [&table](const QVector<QPlcSignalIndex> &signalList) {
+        return QPlcMessage::fromHex64(qplc::PayloadLayout(table, signalList).hash());
+    };
+    m_master->answers[QPlcMessage::Register] = QPlcMessage(
+        QPlcMessage::Registered,
+        {{"node", 1}, {"inputsHash", hash({0})}, {"outputsHash", hash({})}, {"token", QPlcMessage::fromHex64(1)}});
+    m_master->further[QPlcMessage::Register] = QPlcMessage(QPlcMessage::CyclicChannelAttached, {});
+    m_master->answers[QPlcMessage::GetSignals]
+        = QPlcMessage(QPlcMessage::Signals,
+                      {{"signals", QJsonArray{QJsonObject{{"name", "power"}, {"value", "42"}, {"quality", 0}}}}});
+    int questions = 0;
+    m_master->prepare = [&](const QPlcMessage &request) {
+        if (request.kind() != QPlcMessage::GetState)
+            return;
+        const bool runs = ++questions <= 3;  // before it joins, when it has joined, and a little later
+        m_master->answers[QPlcMessage::GetState]
+            = QPlcMessage(QPlcMessage::State, {{"state", runs ? "RealTime" : "Off"}, {"period", 1e7}});
+    };
+    QStringList arguments = m_master->withMaster("echo power --count 1");
+    arguments.first().replace("--master=", "--master=udp://");
+    const Outcome outcome = m_master->run(arguments);
+    QCOMPARE(outcome.errors, QString());
+    QCOMPARE(outcome.exitCode, 0);
+    QVERIFY2(outcome.output.contains("42"), qPrintable(outcome.output));
+    QCOMPARE(questions, 4);
 }
 
 QTEST_GUILESS_MAIN(tst_qtplc_answers)
