@@ -103,8 +103,9 @@ public:
     /// How a step() has ended.
     enum class StepResult : quint8 {
         Complete,  ///< all nodes except listeners have answered
-        /// A node was lost, or did not answer within the longest wait: the signals that it writes
-        /// have no new values, as if it were late in real time.
+        /// A node was lost, in this step or since the last one, or did not answer within the
+        /// longest wait: the signals that it writes have no new values, as if it were late in real
+        /// time.
         Late,
         /// The plant stops safely, also because of this step: nodes have safe values and compute
         /// nothing.

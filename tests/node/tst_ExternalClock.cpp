@@ -33,6 +33,8 @@ private Q_SLOTS:
     void aNodeThatHangsMayStopThePlant_data();
     void aNodeThatHangsMayStopThePlant();
     void aLostNodeMakesTheStepLate();
+    void aNodeLostBetweenStepsMakesTheNextOneLate_data();
+    void aNodeLostBetweenStepsMakesTheNextOneLate();
     void aLostCriticalNodeStopsThePlantSafely();
 
     void safeStopReachesNodesWithoutSteps();
@@ -434,6 +436,30 @@ void tst_ExternalClock::aLostNodeMakesTheStepLate()
     QTRY_COMPARE(master.nodes().size(), 0);
     QCOMPARE(master.state(), QPlcMasterNode::RealTime);
     QCOMPARE(stepAside(master), StepResult::Complete);  // it is not asked any more
+    master.stop();
+}
+
+void tst_ExternalClock::aNodeLostBetweenStepsMakesTheNextOneLate_data()
+{
+    QTest::addColumn<int>("steps");
+    QTest::newRow("before its first cycle") << 0;
+    QTest::newRow("after an answer") << 3;
+}
+
+void tst_ExternalClock::aNodeLostBetweenStepsMakesTheNextOneLate()
+{
+    QFETCH(int, steps);
+    External master(100ms);
+    CounterNode counter;
+    EchoNode echo;
+    QVERIFY(master.listen() && master.admit(counter, "local") && master.admit(echo, "udp") && master.begin());
+    for (int step = 0; step < steps; ++step)
+        QCOMPARE(stepAside(master), StepResult::Complete);
+    echo.disconnectFromMaster();
+    QTRY_COMPARE(master.nodes().size(), 1);
+    QCOMPARE(stepAside(master), StepResult::Late);
+    QCOMPARE(stepAside(master), StepResult::Complete);  // it is told once
+    QCOMPARE(master.state(), QPlcMasterNode::RealTime);
     master.stop();
 }
 

@@ -322,6 +322,7 @@ MasterCycle::Step MasterCycle::runStep() noexcept
     CycleClock::Tick tick = m_clock->next([] { return false; });
     if (m_setInputs)
         tick.cycle = m_givenNumber;
+    m_hasLost = false;
     runCycle(tick);
     const bool isLast = isBeyondLimit(m_number + 1);
     const bool hasFailed = m_exchange.hasFailed();
@@ -334,7 +335,8 @@ MasterCycle::Step MasterCycle::runStep() noexcept
         return Step::Safe;
     if (hasFailed)
         return Step::Stopped;
-    return !m_roster->anyRemote || m_exchange.isComplete() ? Step::Complete : Step::Late;
+    const bool isComplete = !m_roster->anyRemote || m_exchange.isComplete();
+    return isComplete && !m_hasLost ? Step::Complete : Step::Late;
 }
 
 /// The cycles of a safe stop, where nobody else runs them.
@@ -480,6 +482,8 @@ void MasterCycle::adopt(Roster *roster, std::int64_t last) noexcept
 
 void MasterCycle::leave(NodeSlot &slot) noexcept
 {
+    const bool isMissed = slot.asked && !slot.answered;  // the last cycle has told so
+    m_hasLost = m_hasLost || (slot.peer && !slot.listener && !isMissed);
     slot.statistics.fold();
     m_signalGuard.leave(*slot.paste, slot.written);
     if (slot.peer)

@@ -78,7 +78,7 @@ public:
     /// How a step has ended.
     enum class Step : std::uint8_t {
         Complete,  ///< all nodes have answered
-        Late,      ///< a node that was asked has not; the cycles go on without it
+        Late,      ///< a node that was asked has not, or has left since; the cycles go on without it
         Safe,      ///< the cycles are safe: nothing is computed any more
         Stopped,   ///< no cycles, or they have been stopped meanwhile
         Busy       ///< another thread is in a step: nothing has been done
@@ -228,6 +228,7 @@ private:
     std::int64_t m_wallStart = 0;     // [ns since 1970]
     std::int64_t m_nextTerm = 0;      // [ns] no term of the roster is over before
     bool m_hasNewNodes = false;       // since the last cycle, or their signals have been taken over
+    bool m_hasLost = false;           // nodes since the last cycle, which had their answers
     bool m_hasSetValues = false;      // since the last cycle, or signals have moved on their slopes
     bool m_hasEnded = false;          // External: the limit is reached, or a node has failed
     std::uint64_t m_givenNumber = 0;  // of the step at hand, if m_setInputs is there
