@@ -3,10 +3,16 @@
 // 1 kHz, into its ring. `qtplc record`, a process of its own, writes them into a folder. Prints
 // which share of a core the recorder takes by its own processor time, its resident memory, and the
 // bytes of a cycle. Exit code 1: a cycle is missing.
+//
+// recorder_load stall: a master in real time has 10 000 signals at 1 kHz, and the disk of its
+// recorder stalls for 10 s. Prints what a cycle takes before and meanwhile. Exit code 1: a cycle is
+// neither in the files nor in a gap.
 #include "node/cycle/MasterCycle.h"
 #include "node/cycle/RingDescription.h"
 #include "protocol/LittleEndian.h"
+#include "recording/Disk.h"
 #include "recording/RecordedPhases.h"
+#include "recording/RecorderThread.h"
 #include "recording/Verification.h"
 
 #include <QtCore/QCoreApplication>
@@ -15,6 +21,7 @@
 #include <QtCore/QProcess>
 #include <QtCore/QTemporaryDir>
 
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -28,6 +35,7 @@ using namespace qplc;
 using Clock = std::chrono::steady_clock;
 
 constexpr double WarmUp = 3.0;  // [s]
+constexpr int Stall = 10;       // [s], as long as statistics look back
 
 struct Load
 {
@@ -47,7 +55,7 @@ public:
         for (std::size_t i = 0; i < m_noise.size(); ++i)
             m_noise[i] = float(std::sin(double(i)) + 0.01 * double(i * 2654435761U >> 22 & 1023U));
     }
-    bool begin(QString *error)
+    bool begin(QString *error, QPlcClock clock = QPlcClock::external())
     {
         RingDescription description;
         description.plant = QStringLiteral("load");
@@ -55,15 +63,15 @@ public:
         description.session = 1;
         description.phase = 1;
         description.period = std::int64_t(1e9 / m_rate);
-        description.clock = QStringLiteral("real-time");
+        description.clock = clock.isTimed() ? QStringLiteral("real-time") : QStringLiteral("external");
         description.table = m_table.toIni();
         MasterCycle::Phase phase;
         phase.period = std::chrono::nanoseconds(description.period);
-        phase.clock = QPlcClock::external();
+        phase.clock = clock;
         phase.ring = std::make_shared<RecordRing>();
         const std::size_t size = CycleTap::usualSize(m_cycle.image(), 0);
         m_ringBytes = RecordRing::capacityFor(m_rate, 60.0, size, RingMemory::folder());
-        if (!phase.ring->create(RingMemory::folder() + "/qtplc-ring-load", m_ringBytes, description.toText(), error))
+        if (!phase.ring->create(ringFile(), m_ringBytes, description.toText(), error))
             return false;
         m_begin = Clock::now();
         return m_cycle.start(phase);
@@ -78,6 +86,8 @@ public:
         }
     }
     void end() { m_cycle.stop(); }
+    static QByteArray ringFile() { return RingMemory::folder() + "/qtplc-ring-load"; }
+    const MasterCycle &cycle() const { return m_cycle; }
     std::uint64_t cycles() const { return m_number; }
     std::size_t ringBytes() const { return m_ringBytes; }
 
@@ -198,6 +208,102 @@ bool measure(const Load &load, double seconds)
     return isGood;
 }
 
+/// That of the machine, but for one write that takes some seconds.
+class StallingDisk final : public Disk
+{
+public:
+    std::unique_ptr<mcap::FileSink> create(const QString &file, QString *error) override
+    {
+        std::unique_ptr<mcap::FileSink> sink = machine().create(file, error);
+        return sink ? std::make_unique<Sink>(std::move(sink), &m_stall) : nullptr;
+    }
+    std::uint64_t freeBytes(const QString &folder) override { return machine().freeBytes(folder); }
+    void stallOnce() { m_stall = true; }
+
+private:
+    class Sink final : public mcap::FileSink
+    {
+    public:
+        Sink(std::unique_ptr<mcap::FileSink> sink, std::atomic<bool> *stall)
+            : m_sink(std::move(sink))
+            , m_stall(stall)
+        {
+        }
+        bool append(const QByteArray &bytes, QString *error) override
+        {
+            if (m_stall->exchange(false))
+                std::this_thread::sleep_for(std::chrono::seconds(Stall));
+            return m_sink->append(bytes, error);
+        }
+        bool reserve(std::uint64_t bytes, QString *error) override { return m_sink->reserve(bytes, error); }
+        bool sync(QString *error) override { return m_sink->sync(error); }
+        std::uint64_t size() const override { return m_sink->size(); }
+
+    private:
+        std::unique_ptr<mcap::FileSink> m_sink;
+        std::atomic<bool> *m_stall;
+    };
+
+    std::atomic<bool> m_stall{false};
+};
+
+/// Each cycle of the master is in the files or in a gap, and the rest is that of the flight.
+bool isExact(const QString &folder, const Master &master)
+{
+    RecordedPhase phase;
+    QString error;
+    if (!findPhase(folder, &phase, &error)) {
+        std::fprintf(stderr, "%s\n", qPrintable(error));
+        return false;
+    }
+    const VerifiedPhase verified = verifyPhase(phase);
+    const quint64 missing = master.cycle().tap().missing();
+    const quint64 computed = master.cycle().cycleStatistics().read(QPlcDistribution::FiguresOnly).cycles;
+    if (verified.problems.isEmpty() && verified.hasEnd && verified.missing == missing
+        && verified.cycles + verified.missing == computed && missing > 0)
+        return true;
+    std::fprintf(stderr, "%llu cycles in files and %llu in gaps, of %llu with %llu in no record; %s\n",
+                 static_cast<unsigned long long>(verified.cycles), static_cast<unsigned long long>(verified.missing),
+                 static_cast<unsigned long long>(computed), static_cast<unsigned long long>(missing),
+                 qPrintable(verified.problems.join(QLatin1Char('\n'))));
+    return false;
+}
+
+bool measureStall()
+{
+    const QTemporaryDir folder;
+    QString error;
+    StallingDisk disk;
+    RecorderLoop::Settings settings;
+    settings.folder = folder.filePath(QStringLiteral("recordings"));
+    settings.limits.leastFree = 0;
+    RecorderThread recorder(settings, disk);
+    Master master({10'000, 1000.0});
+    if (!recorder.start(&error) || !master.begin(&error, QPlcClock::realTime())
+        || !recorder.add(Master::ringFile(), &error)) {
+        std::fprintf(stderr, "%s\n", qPrintable(error));
+        return false;
+    }
+    const auto wait = [](int seconds) { std::this_thread::sleep_for(std::chrono::seconds(seconds)); };
+    const auto execution
+        = [&master] { return master.cycle().cycleStatistics().read(QPlcDistribution::FiguresOnly).execution.last10s; };
+    wait(int(WarmUp) + Stall);
+    const QPlcDistribution before = execution();
+    disk.stallOnce();
+    wait(Stall);
+    const QPlcDistribution meanwhile = execution();
+    wait(2);
+    master.end();
+    recorder.waitForEnds(std::chrono::seconds(30));
+    const bool isGood = recorder.stop(&error) && isExact(settings.folder, master);
+    std::printf(
+        "disk stalled for %d s, 10000 signals at 1000 Hz: a cycle takes %.1f us (p50) and %.1f us (p99) before, "
+        "%.1f us and %.1f us meanwhile; %llu cycles in gaps\n",
+        Stall, double(before.p50) * 1e-3, double(before.p99) * 1e-3, double(meanwhile.p50) * 1e-3,
+        double(meanwhile.p99) * 1e-3, static_cast<unsigned long long>(master.cycle().tap().missing()));
+    return isGood;
+}
+
 }  // namespace
 
 int main(int argc, char **argv)
@@ -205,9 +311,11 @@ int main(int argc, char **argv)
     const QTemporaryDir rings(QStringLiteral("/dev/shm/qtplc-load-XXXXXX"));  // those of others are not recorded
     qputenv("QTPLC_RING_DIR", rings.path().toUtf8());
     const QCoreApplication application(argc, argv);
+    if (argc == 2 && qstrcmp(argv[1], "stall") == 0)
+        return measureStall() ? 0 : 1;
     const double seconds = argc > 1 ? QByteArray(argv[1]).toDouble() : 20.0;
     if (argc > 2 || !(seconds >= 1.0 && seconds <= 3600.0)) {
-        std::fprintf(stderr, "usage: recorder_load [SECONDS], from 1 to 3600\n");
+        std::fprintf(stderr, "usage: recorder_load [SECONDS], from 1 to 3600; or recorder_load stall\n");
         return 2;
     }
     bool isGood = true;

@@ -6,6 +6,7 @@
 #include <QtCore/QFile>
 
 #include <cerrno>
+#include <cstring>
 #include <fcntl.h>
 #include <unistd.h>
 #include <zstd.h>
@@ -14,7 +15,9 @@ namespace qplc::mcap {
 
 namespace {
 
-constexpr std::uint64_t ReservedAtOnce = 1U << 20;  // [byte]: few calls of the system
+constexpr std::uint64_t ReservedAtOnce = 1U << 20;                     // [byte]: few calls of the system
+constexpr int ChunkHeadSize = RecordHeadSize + 3 * 8 + 4 + 4 + 4 + 8;  // before the bytes of a compressed one
+constexpr int LeastRoom = 64 * 1024;                                   // [byte] for messages in memory
 constexpr int Level = 1;  // of zstd: 1.57 : 1 for a flight of the example, and 1.60 : 1 with level 3
 
 class DiskFile final : public FileSink
@@ -124,6 +127,10 @@ Writer::Writer(std::unique_ptr<FileSink> sink)
     : m_sink(std::move(sink))
     , m_compressor(std::make_unique<Compressor>())
 {
+    // Buffers that are as large as their largest content stay: new ones cost a page fault for each
+    // page.
+    m_chunk.reserve(LeastRoom);
+    m_record.reserve(LeastRoom);
 }
 
 Writer::~Writer() = default;
@@ -202,16 +209,36 @@ void Writer::addMessage(std::uint16_t channel, std::uint32_t sequence, std::uint
     m_chunk.append(bytes, int(size));
 }
 
-QByteArray Writer::compressed(QByteArray *compression) const
+/// Makes the record of the messages in memory, in a buffer that stays.
+void Writer::makeRecord(ChunkEntry *chunk)
 {
-    QByteArray result(int(ZSTD_compressBound(std::size_t(m_chunk.size()))), Qt::Uninitialized);
-    const std::size_t size = ZSTD_compressCCtx(m_compressor->context, result.data(), std::size_t(result.size()),
-                                               m_chunk.constData(), std::size_t(m_chunk.size()), Level);
-    if (ZSTD_isError(size) != 0)
-        return m_chunk;  // without memory for it: as it is
-    *compression = "zstd";
-    result.truncate(int(size));
-    return result;
+    chunk->begin = m_messages.front().time;
+    chunk->end = m_messages.back().time;
+    chunk->size = std::uint64_t(m_chunk.size());
+    const auto size = std::size_t(m_chunk.size());
+    m_record.resize(ChunkHeadSize + int(ZSTD_compressBound(size)));
+    const std::size_t packed
+        = ZSTD_compressCCtx(m_compressor->context, m_record.data() + ChunkHeadSize,
+                            std::size_t(m_record.size() - ChunkHeadSize), m_chunk.constData(), size, Level);
+    const bool isPacked = ZSTD_isError(packed) == 0;  // without memory for it: as it is
+    chunk->compression = isPacked ? "zstd" : "";
+    chunk->compressedSize = isPacked ? packed : size;
+    chunk->offset = this->size();
+    const Fields fields = Fields()
+                              .number(chunk->begin)
+                              .number(chunk->end)
+                              .number(chunk->size)
+                              .number(crc32(m_chunk.constData(), size))
+                              .text(chunk->compression)
+                              .number(chunk->compressedSize);
+    const std::uint64_t length = std::uint64_t(fields.bytes().size()) + chunk->compressedSize;
+    const QByteArray head = Fields().number(std::uint8_t(ChunkOpcode)).number(length).raw(fields.bytes()).bytes();
+    if (isPacked)
+        std::memcpy(m_record.data(), head.constData(), std::size_t(head.size()));
+    else
+        m_record.replace(0, m_record.size(), head + m_chunk);
+    m_record.resize(head.size() + int(chunk->compressedSize));
+    chunk->length = std::uint64_t(m_record.size());
 }
 
 /// At most [byte], with the summary of \a next.
@@ -237,26 +264,9 @@ bool Writer::flush(QString *error)
     if (m_messages.empty())
         return true;
     ChunkEntry chunk;
-    chunk.begin = m_messages.front().time;
-    chunk.end = m_messages.back().time;
-    const QByteArray bytes = compressed(&chunk.compression);
-    chunk.compressedSize = std::uint64_t(bytes.size());
-    chunk.size = std::uint64_t(m_chunk.size());
-    chunk.offset = size();
-    const QByteArray record = recordOf(ChunkOpcode,
-                                       Fields()
-                                           .number(chunk.begin)
-                                           .number(chunk.end)
-                                           .number(chunk.size)
-                                           .number(crc32(m_chunk.constData(), std::size_t(m_chunk.size())))
-                                           .text(chunk.compression)
-                                           .number(chunk.compressedSize)
-                                           .raw(bytes)
-                                           .bytes());
-    chunk.length = std::uint64_t(record.size());
-    const QByteArray indexes = messageIndexes(m_messages, chunk.offset + chunk.length, &chunk);
-    const QByteArray all = record + indexes;
-    if (!m_sink->reserve(std::uint64_t(all.size()) + summarySize(chunk), error) || !append(all, error))
+    makeRecord(&chunk);
+    m_record += messageIndexes(m_messages, chunk.offset + chunk.length, &chunk);
+    if (!m_sink->reserve(std::uint64_t(m_record.size()) + summarySize(chunk), error) || !append(m_record, error))
         return false;
     m_index.chunks.push_back(chunk);
     m_chunkIndexSize += std::uint64_t(chunk.record().size());

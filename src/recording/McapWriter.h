@@ -62,7 +62,7 @@ public:
 
 private:
     bool append(const QByteArray &bytes, QString *error) { return m_sink->append(bytes, error); }
-    QByteArray compressed(QByteArray *compression) const;
+    void makeRecord(ChunkEntry *chunk);
     void beginChunk();
     void addToPreamble(const QByteArray &record);
     std::uint64_t summarySize(const ChunkEntry &next) const;
@@ -72,6 +72,7 @@ private:
     std::unique_ptr<Compressor> m_compressor;
     Index m_index;
     QByteArray m_chunk;
+    QByteArray m_record;         // of the chunk that is written
     std::size_t m_preamble = 0;  // [byte] of channels and schemas in it
     std::vector<MessageEntry> m_messages;
     std::uint64_t m_chunkIndexSize = 0;  // [byte] of the summary, for the chunks in the file

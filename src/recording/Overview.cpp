@@ -4,8 +4,8 @@
 #include "protocol/LittleEndian.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
+#include <limits>
 
 namespace qplc::overview {
 
@@ -60,14 +60,6 @@ bool hasItsCrc(const QByteArray &bytes)
     return size >= 0 && mcap::crc32(bytes.constData(), std::size_t(size)) == wanted;
 }
 
-template<typename Number>
-bool isNumber(Number number)
-{
-    if constexpr (std::is_floating_point_v<Number>)
-        return !std::isnan(number);
-    return true;
-}
-
 /// Takes the values of \a from into those of \a to.
 void merge(QPlcSignalType::Scalar scalar, const char *fromMinimum, const char *fromMaximum, quint8 from,
            char *toMinimum, char *toMaximum, quint8 *to)
@@ -84,6 +76,38 @@ void merge(QPlcSignalType::Scalar scalar, const char *fromMinimum, const char *f
         }
     });
     *to |= from;
+}
+
+/// Of a bucket without values: any value is smaller.
+template<typename Number>
+constexpr Number Largest = std::numeric_limits<Number>::has_infinity ? std::numeric_limits<Number>::infinity()
+                                                                     : std::numeric_limits<Number>::max();
+template<typename Number>
+constexpr Number Smallest = std::numeric_limits<Number>::has_infinity ? -std::numeric_limits<Number>::infinity()
+                                                                      : std::numeric_limits<Number>::lowest();
+
+/// A value that is no number is neither smaller nor larger.
+template<typename Number, std::size_t Count>
+void extend(const char *__restrict values, char *__restrict minimum, char *__restrict maximum)
+{
+    for (std::size_t at = 0; at < Count * sizeof(Number); at += sizeof(Number)) {
+        const auto value = loadLittle<Number>(values + at);
+        const auto low = loadLittle<Number>(minimum + at);
+        const auto high = loadLittle<Number>(maximum + at);
+        storeLittle(value < low ? value : low, minimum + at);
+        storeLittle(value > high ? value : high, maximum + at);
+    }
+}
+
+template<typename Number>
+void extendAll(const char *values, std::size_t count, char *minimum, char *maximum)
+{
+    constexpr std::size_t Block = 16;  // a known number: the compiler takes several at once
+    std::size_t at = 0;
+    for (; count >= Block; count -= Block, at += Block * sizeof(Number))
+        extend<Number, Block>(values + at, minimum + at, maximum + at);
+    for (; count > 0; --count, at += sizeof(Number))
+        extend<Number, 1>(values + at, minimum + at, maximum + at);
 }
 
 }  // namespace
@@ -137,10 +161,46 @@ void Bucket::add(const Bucket &other)
 }
 
 Builder::Builder(const ProcessImage &image, std::size_t mostBytes)
-    : m_mostBytes(mostBytes)
+    : m_qualities(quint32(image.totalSize() - std::size_t(image.table().size())))
+    , m_signalCount(std::size_t(image.table().size()))
+    , m_mostBytes(mostBytes)
 {
     for (const Column &column : columnsOf(image))
         m_values.push_back({column, {}, {}, {}});
+    makeRuns();
+}
+
+void Builder::makeRuns()
+{
+    std::size_t place = 0;
+    for (std::size_t i = 0; i < m_values.size(); ++i) {
+        const Column &column = m_values[i].column;
+        const std::size_t size = sizeOf(column.scalar);
+        const bool goesOn = !m_runs.empty() && m_runs.back().scalar == column.scalar
+            && m_runs.back().offset + m_runs.back().count * size == column.offset;
+        if (!goesOn)
+            m_runs.push_back({column.scalar, column.offset, place, i, 0});
+        ++m_runs.back().count;
+        place += size;
+    }
+    m_minimum.resize(place);
+    m_maximum.resize(place);
+    m_flags.resize(m_values.size());
+    forgetNewest();
+}
+
+void Builder::forgetNewest()
+{
+    for (const Run &run : m_runs) {
+        withType(run.scalar, [&](auto type) {
+            using Number = decltype(type);
+            for (std::size_t i = 0; i < run.count; ++i) {
+                storeLittle(Largest<Number>, m_minimum.data() + run.place + i * sizeof(Number));
+                storeLittle(Smallest<Number>, m_maximum.data() + run.place + i * sizeof(Number));
+            }
+        });
+    }
+    std::fill(m_flags.begin(), m_flags.end(), quint8(0));
 }
 
 std::size_t Builder::bytesOfBucket() const
@@ -176,23 +236,65 @@ void Builder::add(quint64 cycle, std::int64_t start, const char *image)
     m_hasCycle = true;
     if (cycle / m_length >= m_first + m_count)
         append(cycle);
-    for (Values &values : m_values) {
-        const std::size_t size = sizeOf(values.column.scalar);
-        const char *bytes = image + values.column.offset;
-        quint8 flags = flagOf(QPlcQuality::fromByte(quint8(image[values.column.quality])));
-        withType(values.column.scalar, [&](auto type) {
-            if (!isNumber(loadLittle<decltype(type)>(bytes)))
-                flags &= quint8(~HasValue);
+    const char *qualities = image + m_qualities;
+    static_assert(QPlcQuality::fromByte(0).isGood());
+    const bool isGood = *qualities == 0 && std::memcmp(qualities, qualities + 1, m_signalCount - 1) == 0;
+    if (!isGood)
+        return addQualities(image);
+    for (const Run &run : m_runs)
+        withType(run.scalar, [&](auto type) {
+            extendAll<decltype(type)>(image + run.offset, run.count, m_minimum.data() + run.place,
+                                      m_maximum.data() + run.place);
         });
-        const std::size_t last = values.minimum.size() - size;
-        merge(values.column.scalar, bytes, bytes, flags, values.minimum.data() + last, values.maximum.data() + last,
-              &values.flags.back());
+}
+
+/// A cycle in which some values are not good.
+void Builder::addQualities(const char *image)
+{
+    for (const Run &run : m_runs)
+        withType(run.scalar, [&](auto type) {
+            using Number = decltype(type);
+            for (std::size_t i = 0; i < run.count; ++i) {
+                const quint32 quality = m_values[run.first + i].column.quality;
+                const quint8 flags = flagOf(QPlcQuality::fromByte(quint8(image[quality])));
+                const std::size_t at = i * sizeof(Number);
+                m_flags[run.first + i] |= flags & quint8(~HasValue);
+                if (flags & HasValue)
+                    extend<Number, 1>(image + run.offset + at, m_minimum.data() + run.place + at,
+                                      m_maximum.data() + run.place + at);
+            }
+        });
+}
+
+/// Takes the newest bucket to the others.
+void Builder::store()
+{
+    if (m_count == 0)
+        return;
+    for (const Run &run : m_runs) {
+        for (std::size_t i = 0; i < run.count; ++i) {
+            Values &values = m_values[run.first + i];
+            const std::size_t size = sizeOf(run.scalar);
+            const char *minimum = m_minimum.data() + run.place + i * size;
+            const char *maximum = m_maximum.data() + run.place + i * size;
+            quint8 flags = m_flags[run.first + i];
+            withType(run.scalar, [&](auto type) {
+                using Number = decltype(type);
+                if (loadLittle<Number>(minimum) <= loadLittle<Number>(maximum))
+                    flags |= HasValue;
+            });
+            const std::size_t last = values.minimum.size() - size;
+            merge(run.scalar, minimum, maximum, flags, values.minimum.data() + last, values.maximum.data() + last,
+                  &values.flags.back());
+        }
     }
+    forgetNewest();
 }
 
 /// Makes room for the bucket of \a cycle, behind all others.
 void Builder::append(quint64 cycle)
 {
+    store();
     const quint64 most = std::max<quint64>(m_mostBytes / bytesOfBucket(), 2);
     while (cycle / m_length - m_first >= most)
         join();
@@ -204,7 +306,7 @@ void Builder::append(quint64 cycle)
     }
 }
 
-/// Each bucket is twice as long.
+/// Each bucket is twice as long. The newest one has been stored.
 void Builder::join()
 {
     const quint64 first = m_first / 2;
@@ -231,6 +333,7 @@ void Builder::join()
 QByteArray Builder::bytes() const
 {
     std::vector<Builder> levels{*this};
+    levels.front().store();
     while (levels.back().m_count > FewBuckets) {
         Builder coarse = levels.back();
         for (quint64 factor = 1; factor < Coarser; factor *= 2)

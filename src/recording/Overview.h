@@ -71,7 +71,8 @@ public:
     static constexpr std::size_t UsualBytes = 4 << 20;  // of the buckets
 
     explicit Builder(const ProcessImage &image, std::size_t mostBytes = UsualBytes);
-    /// Cycles come in the order of their numbers.
+    /// Cycles come in the order of their numbers. A recorder calls it for each cycle, so it costs
+    /// about as much as to copy the values.
     /// \param start  time of cycle 0 [ns]
     void add(quint64 cycle, std::int64_t start, const char *image);
     /// All cycles in the records of a chunk.
@@ -89,11 +90,33 @@ private:
         std::vector<quint8> flags;
     };
 
+    /// Columns of one type, side by side in the image.
+    struct Run
+    {
+        QPlcSignalType::Scalar scalar = QPlcSignalType::Invalid;
+        quint32 offset = 0;     // in the image
+        std::size_t place = 0;  // in m_minimum and m_maximum [byte]
+        std::size_t first = 0;  // column
+        std::size_t count = 0;
+    };
+
+    void makeRuns();
+    void forgetNewest();
+    void addQualities(const char *image);
+    void store();
     void append(quint64 bucket);
     void join();
     std::size_t bytesOfBucket() const;
 
     std::vector<Values> m_values;
+    // The newest bucket grows here, all columns side by side, and joins the others when it is
+    // complete. The smallest value is larger than the largest one: there was none.
+    std::vector<Run> m_runs;
+    std::vector<char> m_minimum;
+    std::vector<char> m_maximum;
+    std::vector<quint8> m_flags;
+    quint32 m_qualities = 0;  // in the image
+    std::size_t m_signalCount = 0;
     std::size_t m_mostBytes;
     std::int64_t m_start = 0;
     quint64 m_length = 64;

@@ -80,6 +80,8 @@ private Q_SLOTS:
     void recoveredFilesHaveAnOverview();
     void aDamagedOverviewShowsNoWrongValue();
     void theOverviewIsBounded();
+    void theOverviewHasEachKindOfValueAndQuality_data();
+    void theOverviewHasEachKindOfValueAndQuality();
 };
 
 void tst_Recording::rowsHaveTheValuesOfTheFlight()
@@ -382,6 +384,59 @@ void tst_Recording::theOverviewIsBounded()
     QCOMPARE(buckets.front().maximum, 99999.0);
     QCOMPARE(buckets.back().maximum, 99999.0);
     QCOMPARE(int(buckets.at(1).flags), 0);
+}
+
+/// Values of all types side by side, some of them at the ends of their type, or no numbers.
+void tst_Recording::theOverviewHasEachKindOfValueAndQuality_data()
+{
+    QTest::addColumn<int>("kinds");  // of qualities: 0: all are good
+    QTest::newRow("good") << 0;
+    QTest::newRow("all") << 1;
+}
+
+void tst_Recording::theOverviewHasEachKindOfValueAndQuality()
+{
+    QFETCH(int, kinds);
+    const QPlcSignalTable table = QPlcSignalTable::fromIni(
+        "[a]\ntype = Real32[37]\n[b]\ntype = UInt8\n[c]\ntype = Int16[5]\n[text]\ntype = String(3)\n"
+        "[d]\ntype = Real64\n[e]\ntype = Real64[20]\n[f]\ntype = UInt64\n[g]\ntype = Int8[17]\n");
+    ProcessImage image(table);
+    const std::vector<overview::Column> columns = overview::columnsOf(image);
+    overview::Builder builder(image);
+    std::vector<std::vector<overview::Bucket>> wanted(columns.size(), std::vector<overview::Bucket>(7));
+    auto bits = [state = quint64(1)]() mutable {
+        state = state * 6364136223846793005ULL + 1442695040888963407ULL;
+        return quint32(state >> 33);
+    };
+    const float reals[] = {std::nanf(""), INFINITY, -INFINITY, 0.0F, -1.5F};
+    for (quint64 cycle = 0; cycle < 64 * 7; ++cycle) {
+        for (std::uint32_t at = 0; at < image.size(); ++at)
+            image.data()[at] = char(bits());
+        for (const overview::Column &column : columns) {
+            if (column.scalar == QPlcSignalType::Real32 && bits() % 3 == 0)
+                storeLittle(reals[bits() % 5], image.data() + column.offset);
+        }
+        for (QPlcSignalIndex i = 0; i < QPlcSignalIndex(table.size()); ++i)
+            image.data()[image.qualityOffset(i)] = char(kinds == 0 || bits() % 2 ? 0 : bits() % 255);
+        builder.add(cycle, 0, image.data());
+        for (std::size_t i = 0; i < columns.size(); ++i) {
+            const double number = overview::numberAt(columns[i].scalar, image.data() + columns[i].offset);
+            overview::Bucket bucket{number, number, 0};
+            bucket.flags = overview::flagOf(QPlcQuality::fromByte(quint8(image.data()[columns[i].quality])));
+            if (std::isnan(number))
+                bucket.flags &= quint8(~overview::HasValue);
+            wanted[i][std::size_t(cycle / 64)].add(bucket);
+        }
+    }
+    overview::File file;
+    QVERIFY(file.open(builder.bytes(), image));
+    QVERIFY(file.open(builder.bytes(), image));  // to ask does not change it
+    QCOMPARE(int(file.levels().front().length), 64);
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+        std::vector<overview::Bucket> buckets;
+        QVERIFY(file.read(file.levels().front(), int(i), 0, 7, &buckets));
+        QVERIFY2(areSame(buckets, wanted[i]), qPrintable(QString::number(i)));
+    }
 }
 
 QTEST_GUILESS_MAIN(tst_Recording)
