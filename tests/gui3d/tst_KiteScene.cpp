@@ -19,6 +19,7 @@ class tst_KiteScene : public QObject
 private Q_SLOTS:
     void aPathBecomesItsJoinedLines();
     void unknownKiteStateDrawsNothing();
+    void tetherRunsThroughItsNodes();
     void forcesKeepTheirScaleUntilALargerOneComes();
     void theModelOfTheKiteIsReadWhole();
 };
@@ -53,6 +54,21 @@ void tst_KiteScene::unknownKiteStateDrawsNothing()
     scene.position = QVector3D(50, 0, 50);
     QVERIFY(draw() > 200);
     QCOMPARE(scene.content().labels.back().text, QStringLiteral("100 N"));
+}
+
+/// A sagging tether of three segments: three straight lines, none of them a curve that was made up.
+void tst_KiteScene::tetherRunsThroughItsNodes()
+{
+    QPlcScene3D scene;
+    scene.position = QVector3D(60, 0, 60);
+    KiteState kite;
+    kite.tetherLength = 90.0;
+    drawTether(&scene, kite, {});
+    const int madeUp = scene.content().lines.lines();
+    QVERIFY(madeUp > 3);
+    kite.tetherNodes = {QVector3D(20, 0, 15), QVector3D(40, 0, 35)};
+    drawTether(&scene, kite, {});
+    QCOMPARE(scene.content().lines.lines() - madeUp, 3);
 }
 
 void tst_KiteScene::forcesKeepTheirScaleUntilALargerOneComes()

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "DemoFlight.h"
 
+#include "PlantConfiguration.h"
+
 #include <QtCore/QEvent>
 #include <QtGui/QClipboard>
 
@@ -29,7 +31,10 @@ DemoFlight::DemoFlight(QPlcControlCenter *window)
         m_clock.start();
         (m_plant.*how)();
     };
-    connect(&m_flyAction, &QAction::triggered, this, [begun] { begun(&DemoPlant::start); });
+    connect(&m_flyAction, &QAction::triggered, this, [this, begun] {
+        m_plant.setPlant({});
+        begun(&DemoPlant::start);
+    });
     connect(&m_restartAction, &QAction::triggered, this, [begun] { begun(&DemoPlant::restart); });
     connect(&m_partsAction, &QAction::triggered, this, &DemoFlight::showParts);
     connect(&m_copyAction, &QAction::triggered, this, &DemoFlight::copyCommands);
@@ -37,8 +42,28 @@ DemoFlight::DemoFlight(QPlcControlCenter *window)
     connect(&m_plant, &DemoPlant::failed, this, &DemoFlight::showFailure);
     connect(&m_watch, &QTimer::timeout, this, &DemoFlight::watch);
     m_window.addStartAction(&m_flyAction);
+    addPlants();
     m_window.addHelpAction(&m_partsAction);
     m_window.installEventFilter(this);
+}
+
+/// The demo kite is that of the thesis.
+void DemoFlight::addPlants()
+{
+    const QStringList names = PlantConfiguration::names();
+    for (const QString &name : names) {
+        if (name == QLatin1String("thesis"))
+            continue;
+        auto action = std::make_unique<QAction>(tr("Fly the plant '%1'").arg(name));
+        action->setToolTip(PlantConfiguration::description(name));
+        connect(action.get(), &QAction::triggered, this, [this, name] {
+            m_clock.start();
+            m_plant.setPlant(name);
+            m_plant.start();
+        });
+        m_window.addStartAction(action.get());
+        m_plantActions.push_back(std::move(action));
+    }
 }
 
 void DemoFlight::begin(const QElapsedTimer &clock)

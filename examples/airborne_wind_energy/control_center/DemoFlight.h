@@ -7,6 +7,9 @@
 #include <QtPlcGui>
 #include <QtWidgets/QAction>
 
+#include <memory>
+#include <vector>
+
 namespace awe {
 
 /// The demo in the window: the button of the start page, the connection, and what has to be said of
@@ -31,6 +34,7 @@ protected:
     bool eventFilter(QObject *watched, QEvent *event) override;
 
 private:
+    void addPlants();
     void connectWindow(const QString &address);
     void disconnectWindow();
     void watch();
@@ -43,6 +47,7 @@ private:
     QString m_name;     // of the plant in the window; empty: none
     QString m_address;  // to which it is connected
     QAction m_flyAction;
+    std::vector<std::unique_ptr<QAction>> m_plantActions;  // of the other plants that have a name
     QAction m_restartAction;
     QAction m_partsAction;
     QAction m_copyAction;

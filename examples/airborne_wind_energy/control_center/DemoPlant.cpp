@@ -114,7 +114,7 @@ QString DemoPlant::commands() const
 
 void DemoPlant::start()
 {
-    if (m_hasFailed)
+    if (m_hasFailed || (isRunning() && m_plant != m_flownPlant))
         restart();
     else if (m_isListening)
         Q_EMIT listening(address());
@@ -175,9 +175,16 @@ void DemoPlant::startMaster()
 {
     m_isRestarting = false;
     m_hasFailed = false;
+    m_flownPlant = m_plant;
     run(masterName,
-        {QStringLiteral("--real-time"), QStringLiteral("--stay"), portOption + QString::number(m_port),
-         QStringLiteral("--start-with=Model,Autopilot")});
+        QStringList{QStringLiteral("--real-time"), QStringLiteral("--stay"), portOption + QString::number(m_port),
+                    QStringLiteral("--start-with=Model,Autopilot")}
+            + plantOption());
+}
+
+QStringList DemoPlant::plantOption() const
+{
+    return m_flownPlant.isEmpty() ? QStringList() : QStringList{QStringLiteral("--plant=") + m_flownPlant};
 }
 
 /// The master says where it listens, then nodes can come.
@@ -197,8 +204,8 @@ void DemoPlant::readMaster(Program *master)
 void DemoPlant::startNodes()
 {
     const QString master = QStringLiteral("--master=udp://%1").arg(address());
-    run(modelName, {master, QStringLiteral("--turbulence=0.1")});
-    run(autopilotName, {master});
+    run(modelName, QStringList{master, QStringLiteral("--turbulence=0.1")} + plantOption());
+    run(autopilotName, QStringList{master} + plantOption());
 }
 
 void DemoPlant::ended(Program *program)

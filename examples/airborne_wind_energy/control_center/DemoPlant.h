@@ -27,6 +27,9 @@ public:
     explicit DemoPlant(const QString &folder = QString(), QObject *parent = nullptr);
     ~DemoPlant() override;
 
+    /// The plant that the next start() or restart() flies: see PlantConfiguration::names(). Empty:
+    /// that of the thesis.
+    void setPlant(const QString &name) { m_plant = name; }
     /// Starts the programs, anew if one of them has ended; while they run, listening() comes at
     /// once. failed() when one of them is not there.
     void start();
@@ -54,11 +57,14 @@ private:
     void startMaster();
     void readMaster(Program *master);
     void startNodes();
+    QStringList plantOption() const;
     void ended(Program *program);
     void blame(const Program &program);
     void terminate();
 
     QDir m_folder;
+    QString m_plant;                                   // name; empty: that of the thesis
+    QString m_flownPlant;                              // of the programs that run
     std::vector<std::unique_ptr<Program>> m_programs;  // in the order of their start
     QTimer m_patience;                                 // with programs that are asked to end
     quint16 m_port = 0;                                // 0: none yet

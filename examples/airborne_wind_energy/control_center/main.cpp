@@ -2,6 +2,7 @@
 #include "DemoFlight.h"
 #include "ScreenshotTask.h"
 #include "Settings.h"
+#include "kite/OptionFigures.h"
 #include "kite/WindWindow.h"
 
 #ifdef QTPLC_HAS_GUI3D
@@ -49,7 +50,8 @@ bool prepare(QPlcGuiApplication &application, QPlcControlCenter &window, const a
     const auto add
         = [&](const QString &name, const QString &file) { return window.addLayout(name, builtInLayout(file), &error); };
     if (!add(QStringLiteral("Airborne wind energy"), QStringLiteral("airborne_wind_energy"))
-        || !add(QStringLiteral("Four views"), QStringLiteral("four_views")))
+        || !add(QStringLiteral("Four views"), QStringLiteral("four_views"))
+        || !add(QStringLiteral("Options of the plant"), QStringLiteral("plant_options")))
         return application.usageError(error), false;
     if (settings.screenshot.isEmpty())
         window.restoreView();
@@ -129,6 +131,7 @@ int main(int argc, char **argv)
 
     QPlcControlCenter window;
     window.addPanel<awe::WindWindow>();
+    window.addPanel<awe::OptionFigures>();
 #ifdef QTPLC_HAS_GUI3D
     window.addPanel<awe::KiteView>();
 #endif

@@ -112,6 +112,15 @@ void drawTether(QPlcScene3D *scene, const KiteState &kite, const QVector3D &brid
     if (!scene->position)
         return;
     const QVector3D end = bridlePoint(*scene, bridle);
+    if (!kite.tetherNodes.empty()) {
+        QVector3D before;  // the winch
+        for (const QVector3D &node : kite.tetherNodes) {
+            scene->addLine(before, node, scene->theme.text, 1.4f);
+            before = node;
+        }
+        scene->addLine(before, end, scene->theme.text, 1.4f);
+        return;
+    }
     // A body that is drawn larger than it is has its bridle nearer: the tether hangs no more for
     // that.
     const float slack = float(kite.tetherLength.value_or(0.0)) - scene->position->length();

@@ -20,7 +20,8 @@ void drawTrail(QPlcScene3D *scene, const FlightTrail &trail, const ColorScale &s
 void drawWindAxes(QPlcScene3D *scene, const KiteState &kite);
 /// Meridians and parallels of the quarter sphere downwind.
 void drawSmallEarth(QPlcScene3D *scene);
-/// \param bridle  where the tether ends, in the axes of the body [m]
+/// Straight between the nodes of the tether if they are known, else as a curve that is as long as
+/// the tether. \param bridle  where the tether ends, in the axes of the body [m]
 void drawTether(QPlcScene3D *scene, const KiteState &kite, const QVector3D &bridle);
 /// The relative wind and the aerodynamic force, with their sizes.
 void drawVectors(QPlcScene3D *scene, const KiteState &kite, float forceUnit);

@@ -23,6 +23,7 @@ constexpr TextKey textKeys[] = {
     {"positionOrientation", &KiteSettings::positionOrientation},
     {"force", &KiteSettings::force},
     {"tetherLength", &KiteSettings::tetherLength},
+    {"tetherNode", &KiteSettings::tetherNode},
     {"color", &KiteSettings::color},
 };
 

@@ -22,6 +22,7 @@ KiteSettingsEditor::KiteSettingsEditor(const KiteSettings &settings, QWidget *pa
     addSignal(tr("Elevation and azimuth"), &KiteSettings::positionOrientation);
     addSignal(tr("Aerodynamic force"), &KiteSettings::force);
     addSignal(tr("Tether length"), &KiteSettings::tetherLength);
+    addSignal(tr("Nodes of the tether"), &KiteSettings::tetherNode);
 }
 
 KiteSettingsEditor::~KiteSettingsEditor()

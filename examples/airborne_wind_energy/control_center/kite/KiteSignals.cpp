@@ -89,6 +89,23 @@ std::optional<double> KiteSignals::number(const QString &reference) const
     return signal.quality.isUsable() && std::isfinite(number) ? std::optional<double>(number) : std::nullopt;
 }
 
+/// All of them, or none: a tether without one of its nodes would have a false shape.
+std::vector<QVector3D> KiteSignals::tetherNodes() const
+{
+    std::vector<QVector3D> nodes;
+    if (!m_settings.tetherNode.contains(QLatin1String("%1")))
+        return nodes;
+    for (int number = 1;; ++number) {
+        const QString reference = m_settings.tetherNode.arg(number);
+        if (!find(reference))
+            return nodes;
+        const std::optional<QVector3D> node = vectorOf(reference);
+        if (!node)
+            return {};
+        nodes.push_back(*node);
+    }
+}
+
 KiteState KiteSignals::state() const
 {
     KiteState state;
@@ -97,6 +114,7 @@ KiteState KiteSignals::state() const
     state.wind = vectorOf(m_settings.wind);
     state.force = vectorOf(m_settings.force);
     state.tetherLength = number(m_settings.tetherLength);
+    state.tetherNodes = tetherNodes();
     state.value = number(m_settings.color);
     if (!m_context)
         return state;

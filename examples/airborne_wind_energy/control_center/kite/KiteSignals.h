@@ -7,6 +7,8 @@
 #include "KiteSettings.h"
 #include <QPlcPanelContext.h>
 
+#include <vector>
+
 namespace awe {
 
 /// A kite at one time, as far as it is known: a value that stands in for that of a lost writer is
@@ -20,6 +22,7 @@ struct KiteState
     std::optional<QQuaternion> body;                 // body to earth
     std::optional<QQuaternion> course;               // the same without pitch
     std::optional<double> tetherLength;              // [m]
+    std::vector<QVector3D> tetherNodes;              // [m], earth, from the ground; empty: not known
     std::optional<double> value;                     // of the signal that colours
     std::optional<QPlcPanelContext::Time> pastTime;  // these are the values of that time; none: now
     bool isStale = false;                            // the plant is lost, or its cycles stay away
@@ -66,6 +69,7 @@ Q_SIGNALS:
     void changed();
 
 private:
+    std::vector<QVector3D> tetherNodes() const;
     QPlcPanelContext::Signal find(const QString &reference) const;
     std::optional<double> number(const QString &reference) const;
 

@@ -17,6 +17,7 @@
 namespace {
 
 const QString fileName = QStringLiteral(AWE_LAYOUTS "/airborne_wind_energy.json");
+const QString plantOptions = QStringLiteral(AWE_LAYOUTS "/plant_options.json");
 const QString fourViews = QStringLiteral(AWE_LAYOUTS "/four_views.json");
 
 QByteArray layoutText(const QString &name = fileName)
@@ -130,6 +131,7 @@ void tst_BuiltInLayout::everySignalIsInTheTable_data()
     QTest::addColumn<int>("least");
     QTest::newRow("Airborne wind energy") << fileName << 15;
     QTest::newRow("Four views") << fourViews << 10;
+    QTest::newRow("Options of the plant") << plantOptions << 2;
 }
 
 void tst_BuiltInLayout::everySignalIsInTheTable()

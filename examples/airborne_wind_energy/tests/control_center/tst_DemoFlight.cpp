@@ -9,6 +9,7 @@
 #include <QtWidgets/QAbstractButton>
 #include <QtWidgets/QLabel>
 
+#include <algorithm>
 #include <csignal>
 
 namespace {
@@ -34,6 +35,7 @@ private Q_SLOTS:
     void initTestCase();
     void cleanup();
     void oneClickOnTheStartPageFliesTheKite();
+    void startPageOffersThePlants();
     void killedProgramIsReportedAndOneClickRestartsTheFlight_data();
     void killedProgramIsReportedAndOneClickRestartsTheFlight();
     void hintShowsTheProgramsOfTheDemo();
@@ -69,6 +71,33 @@ void tst_DemoFlight::oneClickOnTheStartPageFliesTheKite()
     QVERIFY(!window.isStartPageShown());
     QCOMPARE(window.plants(), QStringList{QStringLiteral("demo")});
     QVERIFY(window.isConnected(QStringLiteral("demo")));
+}
+
+/// All three programs get the plant, and the window sees its signals.
+void tst_DemoFlight::startPageOffersThePlants()
+{
+    QPlcControlCenter window;
+    awe::DemoFlight demo(&window);
+    QSignalSpy flying(&demo, &awe::DemoFlight::flying);
+    window.resize(1366, 768);
+    window.show();
+    QVERIFY(QTest::qWaitForWindowExposed(&window));
+    QVERIFY(visibleButton(window, QStringLiteral("Fly the plant 'drag'")));
+    QVERIFY(!visibleButton(window, QStringLiteral("Fly the plant 'thesis'")));
+    QAbstractButton *button = visibleButton(window, QStringLiteral("Fly the plant 'realistic'"));
+    QVERIFY(button);
+    QString error;
+    QVERIFY2(awe::writeScreenshot(&window, QStringLiteral(AWE_SCREENSHOTS "/awe_start_page.png"), &error),
+             qPrintable(error));
+    QTest::mouseClick(button, Qt::LeftButton);
+    QVERIFY(flying.wait(Program::patience));
+    QAbstractButton *parts = visibleButton(window, QStringLiteral("What is this built of?"));
+    QVERIFY(parts);
+    QTest::mouseClick(parts, Qt::LeftButton);
+    int plants = 0;
+    for (const QLabel *label : window.findChildren<QLabel *>())
+        plants = std::max(plants, label->text().count(QStringLiteral("--plant=realistic")));
+    QCOMPARE(plants, 3);
 }
 
 void tst_DemoFlight::killedProgramIsReportedAndOneClickRestartsTheFlight_data()
