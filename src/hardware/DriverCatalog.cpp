@@ -17,6 +17,8 @@ DriverCatalog::DriverCatalog()
     add(QStringLiteral("can"),
         {QStringLiteral("messages of a CAN bus: SocketCAN, Qt Serial Bus, or a fake bus of this computer"),
          createCanDriver});
+    add(QStringLiteral("canopen"),
+        {QStringLiteral("a device on a CANopen bus, drives with the profile CiA 402 among them"), createCanOpenDriver});
     add(QStringLiteral("gpio"), {QStringLiteral("switches and lamps at the lines of a GPIO chip"), createGpioDriver});
     add(QStringLiteral("i2c-registers"),
         {QStringLiteral("any I2C device, its registers named by the configuration"), createI2cRegistersDriver});

@@ -2,6 +2,7 @@
 #include "../common/Waiting.h"
 #include "DriverBench.h"
 #include "FakeDevices.h"
+#include "conformance/CanOpenTestDevices.h"
 #include "conformance/CanTestDevices.h"
 #include "conformance/GpioTestDevices.h"
 #include "conformance/I2cTestDevices.h"
@@ -166,6 +167,7 @@ private:
 void tst_DriverConformance::initTestCase()
 {
     addCanDevices(&m_devices);
+    addCanOpenDevices(&m_devices);
     addGpioDevices(&m_devices);
     addI2cDevices(&m_devices);
     addModbusDevices(&m_devices);
