@@ -577,6 +577,52 @@ DBC_WORDS = ["BO_ ", "SG_ ", "VAL_ ", "SIG_VALTYPE_ ", "SG_MUL_VAL_ ", "BA_ ", "
 # fmt: on
 
 
+# ---- CANopen: EDS files as they are, and what devices send ---------------------------------------
+
+EDS_HEAD = "[DeviceInfo]\nVendorNumber=0x29C\nProductNumber=7\n"
+EDS_FILES = {
+    "variables": EDS_HEAD + "[1000]\nParameterName=Device type\nObjectType=0x7\nDataType=0x0007\nAccessType=ro\n"
+    "DefaultValue=0x00020192\n[6060]\nParameterName=Modes\nDataType=0x0002\nAccessType=rww\nDefaultValue=-1\n",
+    "record": "[1018]\nParameterName=Identity\nObjectType=0x9\nSubNumber=2\n"
+    "[1018sub0]\nDataType=5\nDefaultValue=1\n[1018Sub1]\nParameterName=Vendor-ID\nDataType=7\nAccessType=ro\n",
+    "pdo": "[1800sub1]\nDataType=0x0007\nDefaultValue=$NODEID+0x180\n[1A00sub0]\nDataType=0x5\nDefaultValue=1\n"
+    "[1A00sub1]\nDataType=0x0007\nDefaultValue=0x60410010\nParameterValue=0x60640020\n",
+    "compact": "[2001]\nParameterName=Inputs\nObjectType=0x8\nCompactSubObj=3\nDataType=0x0004\nAccessType=ro\n",
+    "texts and floats": "[1008]\nDataType=0x0009\nDefaultValue=drive\n[2002]\nDataType=0x0008\nDefaultValue=1.5\n",
+    "everything wrong": "[1000]\nDataType=0x10000\nDefaultValue=twelve\n[1000]\nx\n[1018sub1]\nCompactSubObj=999\n",
+}
+# fmt: off
+EDS_WORDS = ["[1000]", "[1018sub1]", "sub", "DeviceInfo", "VendorNumber", "ParameterName", "ObjectType", "DataType",
+             "AccessType", "DefaultValue", "ParameterValue", "CompactSubObj", "SubNumber", "PDOMapping", "$NODEID",
+             "$NODEID+0x180", "0x0007", "0x0002", "const", "ro", "=", "-1", "18446744073709551615", "0xFFFFFFFF"]
+# fmt: on
+
+
+def eds_files():
+    return {name: text.encode() for name, text in EDS_FILES.items()}
+
+
+def sdo():
+    """What was asked for (a byte), and frames of 8 bytes that the device answers."""
+    read, write, neither = bytes([0]), bytes([1 | 20 << 2]), bytes([2])
+    address = bytes([0x08, 0x10, 0x00])
+    return {
+        "expedited": read + b"\x4b" + address + b"\x37\x02\0\0",
+        "in segments": read + b"\x41" + address + b"\x0a\0\0\0" + b"\0abcdefg" + b"\x19hij\0\0\0\0",
+        "without size": read + b"\x40" + address + bytes(4) + b"\x01abcdefg",
+        "aborted": read + b"\x80" + address + b"\0\0\x02\x06",
+        "of another object": read + b"\x43\x41\x60\0" + bytes(4) + b"\x43" + address + bytes(4),
+        "wrong toggle": read + b"\x41" + address + b"\x0e\0\0\0" + b"\0abcdefg" * 2,
+        "too large": read + b"\x41" + address + b"\xff" * 4,
+        "written in segments": write
+        + b"\x60"
+        + address
+        + bytes(4)
+        + b"".join(bytes([command]) + bytes(7) for command in (0x20, 0x30, 0x20)),
+        "heartbeats": neither + b"\x05\x07\x01\x05" + b"\x05\x07\x01\x00" + b"\x85\0\x08\x10\x23\x03" + bytes(5),
+    }
+
+
 # ---- descriptions of FMUs: the text as it is -----------------------------------------------------
 
 
@@ -669,6 +715,7 @@ def dictionaries():
     return {
         "keys.dict": dictionary(KEYS),
         "dbc.dict": dictionary(DBC_WORDS),
+        "eds.dict": dictionary(EDS_WORDS),
         "fmu.dict": dictionary(FMU_WORDS),
         "manifest.dict": dictionary(MANIFEST_WORDS),
         "rights.dict": dictionary(RIGHTS_WORDS),
@@ -693,6 +740,8 @@ def main():
         ("local_link", local_links()),
         ("dbc_file", dbc_files()),
         ("fmu_description", fmu_descriptions()),
+        ("eds_file", eds_files()),
+        ("sdo", sdo()),
         ("nmea", nmea()),
         ("key_file", {name: text.encode() for name, text in KEY_FILES.items()}),
         ("beacon", beacons()),
