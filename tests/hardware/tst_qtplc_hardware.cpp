@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The program of hardware nodes, as a process.
 #include "../common/Waiting.h"
+#include "FakeDevices.h"
 #include "NodeFixtures.h"
+#include "canopen/CanOpenPeer.h"
 
 #include <QtCore/QProcess>
 #include <QtCore/QTemporaryDir>
@@ -16,6 +18,7 @@ private Q_SLOTS:
     void watchdogIsActiveUnlessDisabled();
     void invalidConfigurationEndsWithExitCodeTwo_data();
     void invalidConfigurationEndsWithExitCodeTwo();
+    void aScanListsTheDevicesOfABus();
 
 private:
     struct Run
@@ -109,6 +112,26 @@ void tst_qtplc_hardware::invalidConfigurationEndsWithExitCodeTwo()
     QVERIFY2(refused.errors.contains(error), qPrintable(refused.errors));
     QCOMPARE(run({}).code, 2);
     QCOMPARE(run({"a", "b"}).code, 2);
+}
+
+void tst_qtplc_hardware::aScanListsTheDevicesOfABus()
+{
+    const FakeDevices folder;
+    const Run nobody = run({"scan", "fake:scan"});
+    QCOMPARE(nobody.code, 1);
+    QVERIFY2(nobody.errors.contains("no CANopen device answers at fake:scan; check"), qPrintable(nobody.errors));
+    peer::Bus bus(QStringLiteral("scan"));
+    bus.addDevice(5).makeDrive();
+    QVERIFY(bus.open());
+    bus.start();
+    const Run scan = run({"scan", "fake:scan"});
+    bus.stop();
+    QCOMPARE(scan.code, 0);
+    QVERIFY2(scan.output.startsWith("node   5") && scan.output.contains("drive (402)")
+                 && scan.output.contains("vendor 0x11110005"),
+             qPrintable(scan.output));
+    QCOMPARE(scan.output.count('\n'), 1);
+    QCOMPARE(run({"scan"}).code, 2);
 }
 
 QTEST_GUILESS_MAIN(tst_qtplc_hardware)

@@ -19,7 +19,9 @@ public:
     /// Gets the frames that are no answers to an SDO of this client.
     using Listener = std::function<void(const CanFrame &)>;
 
-    /// \param bus  open, outlives this \param device  of the bus, for messages
+    /// \param bus  open, outlives this
+    /// \param device  of the bus, for messages
+    /// \param node  0: no device; for send() and waitUntil() alone
     CanOpenClient(CanBus &bus, const QString &device, int node, std::chrono::nanoseconds answerTime);
 
     void setListener(Listener listener) { m_listener = std::move(listener); }
@@ -31,6 +33,8 @@ public:
     bool write(ObjectAddress address, const QByteArray &value);
     /// Sends a command of network management to the device.
     bool command(NmtCommand command);
+    /// Gives a frame to the bus, and waits while it takes none.
+    bool send(const CanFrame &frame);
     /// Takes frames until \a isDone says so. \return false when the time is over
     bool waitUntil(const std::function<bool()> &isDone, std::chrono::nanoseconds time);
 
@@ -50,7 +54,6 @@ private:
     bool writeNumber(ObjectAddress address, quint64 bits, int size);
     bool run(SdoTransfer *transfer);
     bool exchange(SdoTransfer *transfer);
-    bool send(const CanFrame &frame);
     /// Takes what has come in. \return false when the bus is lost
     bool receive(SdoTransfer *transfer);
     void waitForFrames(std::chrono::nanoseconds time) const;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The program of a node whose signals are wired to devices, as a file says: see QPlcHardwareNode.
+#include "hardware/canopen/CanOpenScan.h"
+
 #include <QtPlcHardware>
 
 #include <QtCore/QTextStream>
@@ -46,6 +48,43 @@ void printWires(const QPlcHardwareNode &node)
     }
 }
 
+QString hexText(quint32 number)
+{
+    return QStringLiteral("0x%1").arg(number, 8, 16, QLatin1Char('0'));
+}
+
+/// Lists the devices of a CANopen bus.
+int scan(const QString &bus)
+{
+    QVector<qplc::CanOpenScan::Device> devices;
+    QString error;
+    if (!qplc::CanOpenScan::run(bus, std::chrono::milliseconds(500), &devices, &error)) {
+        QTextStream(stderr) << error << Qt::endl;
+        return QPlcNodeApplication::Failure;
+    }
+    if (devices.isEmpty()) {
+        QTextStream(stderr) << "no CANopen device answers at " << bus
+                            << "; check power, wires, terminators and bit rate" << Qt::endl;
+        return QPlcNodeApplication::Failure;
+    }
+    for (const auto &device : qAsConst(devices)) {
+        const QString state = qplc::nmtStateText(device.state);
+        if (!device.hasAnswered) {
+            print(QStringLiteral("node %1  %2  no answer to SDO: a master, or a device that is stopped")
+                      .arg(device.node, 3)
+                      .arg(state, -15));
+            continue;
+        }
+        print(QStringLiteral("node %1  %2  %3  vendor %4  product %5  revision %6  serial %7  %8")
+                  .arg(device.node, 3)
+                  .arg(state, -15)
+                  .arg(qplc::CanOpenScan::profileText(device.type), -24)
+                  .arg(hexText(device.vendor), hexText(device.product), hexText(device.revision),
+                       hexText(device.serial), device.name));
+    }
+    return QPlcNodeApplication::Success;
+}
+
 /// Shows what comes from the devices, without a master, until a signal ends it.
 int monitor(QPlcNodeApplication &application, QPlcHardwareNode &node)
 {
@@ -72,10 +111,11 @@ int main(int argc, char **argv)
                                               "drives), as a configuration file describes it."));
     application.setExamples({QStringLiteral("qtplc_hardware winch.ini --master 192.168.1.5 --stay"),
                              QStringLiteral("qtplc_hardware winch.ini --monitor"),
-                             QStringLiteral("qtplc_hardware --drivers")});
+                             QStringLiteral("qtplc_hardware --drivers"), QStringLiteral("qtplc_hardware scan can0")});
     application.addPositionalArgument(
         QStringLiteral("configuration"),
-        QStringLiteral("Configuration file: the devices, and the signals of their channels."),
+        QStringLiteral("Configuration file: the devices, and the signals of their channels. Or: scan BUS, which lists "
+                       "the devices of a CANopen bus."),
         QStringLiteral("CONFIGURATION"));
     application.addOption(
         {QStringLiteral("check"), QStringLiteral("Reads the configuration, shows the wires, and ends.")});
@@ -89,10 +129,13 @@ int main(int argc, char **argv)
         printKinds();
         return QPlcNodeApplication::Success;
     }
-    if (application.positionalArguments().size() != 1)
+    const QStringList words = application.positionalArguments();
+    if (words.size() == 2 && words.first() == QLatin1String("scan"))
+        return scan(words.last());
+    if (words.size() != 1)
         return application.usageError(QStringLiteral("name one configuration: qtplc_hardware winch.ini"));
     QPlcHardwareNode node;
-    if (!node.configureFromFile(application.positionalArguments().first()))
+    if (!node.configureFromFile(words.first()))
         return application.usageError(QPlcParseError::toString(node.configurationErrors()));
     if (node.name().isEmpty() && !application.isSet(QStringLiteral("name")))
         return application.usageError(

@@ -2,6 +2,7 @@
 // The driver canopen against devices that were written from the standard alone.
 #include "CanOpenBench.h"
 #include "hardware/canopen/CanOpenClient.h"
+#include "hardware/canopen/CanOpenScan.h"
 #include "hardware/canopen/Cia402Axis.h"
 
 #include <QtTest/QtTest>
@@ -75,6 +76,7 @@ private Q_SLOTS:
     void whatADeviceRefusesIsToldWithItsReason();
     void aHundredObjectsAreReadAndWritten();
     void aDeviceThatNeverStartsIsNotOpen();
+    void aScanFindsAllDevicesAndChangesNothing();
     // Cycle
     void nothingIsSentBeforeItsValueIsKnown();
     void lossOfTheHeartbeatIsSeenAfterTwoOfThem();
@@ -230,6 +232,39 @@ void tst_CanOpenDriver::aDeviceThatNeverStartsIsNotOpen()
     const QString error = bench.open();
     QVERIFY2(error.contains("does not become Operational (it is Pre-operational); look at its error"),
              qPrintable(error));
+}
+
+void tst_CanOpenDriver::aScanFindsAllDevicesAndChangesNothing()
+{
+    CanOpenBench bench;
+    bench.bus.addDevice(1);
+    bench.bus.addDevice(5).makeDrive();
+    peer::Device &last = bench.bus.addDevice(127);
+    last.isSilentToSdo = true;
+    last.set(0x1017, 0, 20);
+    bench.bus.devices[1]->set(0x1017, 0, 20);
+    const QByteArray name("Servo \x1b[2J\0", 11);
+    bench.bus.devices[1]->add(0x1008, 0, 0, 4).value = name;
+    QVERIFY(bench.bus.open());
+    bench.bus.start();
+    QVector<qplc::CanOpenScan::Device> found;
+    QString error;
+    QVERIFY2(qplc::CanOpenScan::run("fake:bench", 500ms, &found, &error), qPrintable(error));
+    bench.bus.stop();
+    QCOMPARE(found.size(), 3);
+    QCOMPARE(found[0].node, 1);
+    QCOMPARE(found[0].state, qplc::NmtState::Unknown);
+    QCOMPARE(found[1].vendor, 0x11110005U);
+    QCOMPARE(found[1].serial, 0x44440005U);
+    QCOMPARE(found[1].state, qplc::NmtState::PreOperational);
+    QCOMPARE(found[1].name, QString("Servo ?[2J"));
+    QCOMPARE(qplc::CanOpenScan::profileText(found[1].type), QString("drive (402)"));
+    QCOMPARE(found[2].node, 127);
+    QVERIFY(!found[2].hasAnswered);
+    for (const auto &device : bench.bus.devices)
+        QCOMPARE(device->nmt, peer::Device::PreOperational);
+    QVERIFY(!qplc::CanOpenScan::run("fake:", 500ms, &found, &error));
+    QVERIFY(!error.isEmpty());
 }
 
 // ---- cycle ----
