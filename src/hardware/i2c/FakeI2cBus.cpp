@@ -14,13 +14,16 @@ std::unique_ptr<FakeI2cBus> FakeI2cBus::open(const QString &device, int address,
 
 bool FakeI2cBus::answers() const noexcept
 {
-    if (!m_memory.isThere())
+    if (!m_memory.isThere()) {
         errno = ENODEV;
-    else if (m_memory.at(std::size_t(m_address)).load() == 0)
-        errno = ENXIO;
-    else
-        return true;
-    return false;
+        return false;
+    }
+    auto &mark = m_memory.at(std::size_t(m_address));
+    const quint8 now = mark.load();
+    if (now > 1)
+        mark.store(quint8(now - 1));
+    errno = ENXIO;
+    return now == 1;
 }
 
 bool FakeI2cBus::read(quint8 first, quint8 *bytes, int count) noexcept

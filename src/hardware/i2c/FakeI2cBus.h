@@ -7,11 +7,13 @@
 namespace qplc {
 
 /// A device on a bus that is played: see FakeMemory. The file has a byte for each of the 128
-/// addresses, 1 where a device answers; behind them the 256 registers of address 0, those of
+/// addresses, 1 where a device answers, and SilentTwice where it does so after two transfers that
+/// fail; behind them the 256 registers of address 0, those of
 /// address 1, and so on.
 class FakeI2cBus : public I2cBus
 {
 public:
+    static constexpr quint8 SilentTwice = 3;
     static constexpr std::size_t Addresses = 128;
     static constexpr std::size_t Registers = 256;
     static constexpr std::size_t Size = Addresses + Addresses * Registers;  // [byte] of the file

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "I2cBus.h"
+#include "I2cDevice.h"
 #include "I2cRegister.h"
 #include "QPlcDriverSettings.h"
 #include "QPlcReadChannel.h"
@@ -31,6 +31,7 @@ protected:
         settings.requiredText(QStringLiteral("address"), QStringLiteral("0x68"));
         m_address = int(settings.integer(QStringLiteral("address"), I2cBus::FirstAddress, I2cBus::FirstAddress,
                                          I2cBus::LastAddress));
+        m_bus.configure(settings);
         configureBytes(settings, QStringLiteral("identity"), &m_identity);
         configureBytes(settings, QStringLiteral("setup"), &m_setUp);
         const QString prefix = QStringLiteral("register.");
@@ -52,12 +53,11 @@ protected:
     bool open() override
     {
         QString error;
-        m_bus = I2cBus::open(m_device, m_address, &error);
-        if (!m_bus)
+        if (!m_bus.open(m_device, m_address, &error))
             return fail(error);
         for (const ByteValue &wanted : m_identity) {
             quint8 found = 0;
-            if (!m_bus->read(wanted.reg, &found, 1))
+            if (!m_bus.read(wanted.reg, &found, 1))
                 return failAt(wanted.reg, QStringLiteral("read"));
             if (found != wanted.value)
                 return fail(
@@ -67,36 +67,40 @@ protected:
                              i2cAddressText(wanted.value)));
         }
         for (const ByteValue &order : m_setUp) {
-            if (!m_bus->write(order.reg, &order.value, 1))
+            if (!m_bus.write(order.reg, &order.value, 1))
                 return failAt(order.reg, QStringLiteral("write"));
         }
         return true;
     }
 
-    void close() override { m_bus.reset(); }
+    void close() override { m_bus.close(); }
     bool read() override
     {
+        if (m_bus.hasFailed())
+            return true;  // as write() has told
         for (const auto &input : m_inputs) {
             quint8 bytes[I2cRegister::MostBytes] = {};
             if (!input->channel.isWired())
                 continue;
-            if (!m_bus->read(input->reg.first, bytes, input->reg.size))
-                return failAt(input->reg.first, QStringLiteral("read"));
+            if (!m_bus.read(input->reg.first, bytes, input->reg.size))
+                return keepAfter(input->reg.first, QStringLiteral("read"));
             input->channel.set(input->reg.valueOf(bytes));
         }
+        m_bus.succeed(now());
         return true;
     }
 
     // In each interval, changed or not: a device that was reset has its value back.
     bool write() override
     {
+        m_bus.begin();
         for (const auto &output : m_outputs) {
             quint8 bytes[I2cRegister::MostBytes] = {};
             if (!output->channel.hasValue())
                 continue;
             output->reg.bytesOf(output->channel.value(), bytes);
-            if (!m_bus->write(output->reg.first, bytes, output->reg.size))
-                return failAt(output->reg.first, QStringLiteral("write"));
+            if (!m_bus.write(output->reg.first, bytes, output->reg.size))
+                return keepAfter(output->reg.first, QStringLiteral("write"));
         }
         return true;
     }
@@ -148,6 +152,13 @@ private:
             settings.addError(key, error);
     }
 
+    /// \return false when the device is lost
+    bool keepAfter(quint8 reg, const QString &what)
+    {
+        failAt(reg, what);
+        return m_bus.keep(now(), timeout().count());
+    }
+
     bool failAt(quint8 reg, const QString &what)
     {
         const int errorNumber = errno;
@@ -162,7 +173,7 @@ private:
     std::vector<ByteValue> m_setUp;     // what it is told first
     std::vector<std::unique_ptr<Item<QPlcReadChannel>>> m_inputs;
     std::vector<std::unique_ptr<Item<QPlcWriteChannel>>> m_outputs;
-    std::unique_ptr<I2cBus> m_bus;
+    I2cDevice m_bus{this};
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "I2cBus.h"
+#include "I2cDevice.h"
 #include "QPlcDriverSettings.h"
 #include "QPlcReadChannel.h"
 #include "hardware/Drivers.h"
@@ -74,25 +74,28 @@ protected:
                                               QStringLiteral("1000 deg/s"), QStringLiteral("2000 deg/s")},
                                              1));
         setUpRates(settings);
+        m_bus.configure(settings);
     }
 
     bool open() override
     {
         QString error;
-        m_bus = I2cBus::open(m_device, m_address, &error);
-        if (!m_bus)
+        if (!m_bus.open(m_device, m_address, &error))
             return fail(error);
         return checkIdentity() && wakeUp();
     }
 
-    void close() override { m_bus.reset(); }
+    void close() override { m_bus.close(); }
     bool read() override
     {
         quint8 bytes[SampleBytes] = {};
         if (m_lastSample == 0)
             m_lastSample = now();
-        if (!m_bus->read(InterruptStatus, bytes, SampleBytes))
-            return failToTalk();
+        if (!m_bus.read(InterruptStatus, bytes, SampleBytes)) {
+            failToTalk();
+            return m_bus.keep(now(), timeout().count());
+        }
+        m_bus.succeed(now());
         if (!(bytes[0] & DataReady)) {
             const bool isLate = now() - m_lastSample > std::chrono::nanoseconds(1s + timeout()).count();
             return !isLate
@@ -122,7 +125,7 @@ private:
     bool checkIdentity()
     {
         quint8 identity = 0;
-        if (!m_bus->read(WhoAmI, &identity, 1))
+        if (!m_bus.read(WhoAmI, &identity, 1))
             return failToTalk();
         m_isMpu6500 = identity != 0x68;
         return isKnownIdentity(identity)
@@ -151,7 +154,7 @@ private:
             {InterruptEnable, DataReady},
         };
         for (const Order &order : orders) {
-            if ((m_isMpu6500 || order.reg != AccelerationFilter) && !m_bus->write(order.reg, &order.value, 1))
+            if ((m_isMpu6500 || order.reg != AccelerationFilter) && !m_bus.write(order.reg, &order.value, 1))
                 return failToTalk();
         }
         m_lastSample = 0;
@@ -191,7 +194,7 @@ private:
     quint8 m_divider = 0;      // register SMPLRT_DIV
     quint8 m_rateRange = 0;
     quint8 m_accelerationRange = 0;
-    std::unique_ptr<I2cBus> m_bus;
+    I2cDevice m_bus{this};
     qint64 m_lastSample = 0;  // when it came [ns]; 0: the device has just been opened
 
     QPlcReadChannel m_acceleration[3] = {

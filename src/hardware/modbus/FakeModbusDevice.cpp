@@ -48,6 +48,26 @@ void FakeModbusDevice::answerWith(ModbusException exception, ModbusRegister::Spa
     m_exceptionAddress = address;
 }
 
+void FakeModbusDevice::damageAnswers(double share, quint8 unit)
+{
+    const std::lock_guard<std::mutex> lock(m_mutex);
+    m_damagedShare = share;
+    m_damagedUnit = unit;
+}
+
+void FakeModbusDevice::damageNext(int count, quint8 unit)
+{
+    const std::lock_guard<std::mutex> lock(m_mutex);
+    m_damagedNext = count;
+    m_damagedUnit = unit;
+}
+
+quint64 FakeModbusDevice::damaged() const
+{
+    const std::lock_guard<std::mutex> lock(m_mutex);
+    return m_damaged;
+}
+
 std::vector<ModbusRequest> FakeModbusDevice::takeReads()
 {
     const std::lock_guard<std::mutex> lock(m_mutex);
@@ -67,6 +87,19 @@ ModbusException FakeModbusDevice::exceptionFor(const ModbusRequest &request) con
     return isMeant ? m_exception : ModbusException::None;
 }
 
+bool FakeModbusDevice::isDamaged(const ModbusRequest &request)
+{
+    if (m_damagedUnit != 0 && m_damagedUnit != request.unit)
+        return false;
+    m_chance = m_chance * 6364136223846793005U + 1442695040888963407U;  // the same numbers in every run
+    const double chance = double(m_chance >> 11) * 0x1p-53;
+    if (m_damagedNext == 0 && !(chance < m_damagedShare))
+        return false;
+    m_damagedNext = std::max(m_damagedNext - 1, 0);
+    ++m_damaged;
+    return true;
+}
+
 bool FakeModbusLink::open()
 {
     const std::lock_guard<std::mutex> lock(m_device->m_mutex);
@@ -81,6 +114,11 @@ bool FakeModbusLink::check(const ModbusRequest &request)
     return exception == ModbusException::None || fail(exception);
 }
 
+bool FakeModbusLink::answer(const ModbusRequest &request)
+{
+    return !m_device->isDamaged(request) || failAnswer(QStringLiteral("the answer is damaged; the test wants it so"));
+}
+
 bool FakeModbusLink::read(const ModbusRequest &request, quint16 *values)
 {
     const std::lock_guard<std::mutex> lock(m_device->m_mutex);
@@ -89,7 +127,7 @@ bool FakeModbusLink::read(const ModbusRequest &request, quint16 *values)
         return false;
     const auto begin = m_device->m_values[{request.unit, request.space}].begin() + request.first;
     std::copy(begin, begin + request.count, values);
-    return true;
+    return answer(request);
 }
 
 bool FakeModbusLink::write(const ModbusRequest &request, const quint16 *values)
@@ -100,7 +138,7 @@ bool FakeModbusLink::write(const ModbusRequest &request, const quint16 *values)
         return false;
     std::copy(values, values + request.count,
               m_device->m_values[{request.unit, request.space}].begin() + request.first);
-    return true;
+    return answer(request);
 }
 
 }  // namespace qplc

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cerrno>
 #include <modbus/modbus.h>
+#include <poll.h>
 #include <sys/file.h>
+#include <utility>
 #include <vector>
 
 namespace qplc {
@@ -38,8 +40,9 @@ public:
         const auto timeout = std::uint32_t(duration_cast<microseconds>(m_responseTimeout).count());
         modbus_set_response_timeout(m_context.get(), timeout / 1'000'000, timeout % 1'000'000);
         modbus_set_byte_timeout(m_context.get(), 0, 0);  // the time of the response is that of its last byte
+        m_isUnsettled = false;
         if (modbus_connect(m_context.get()) != 0)
-            return failWithErrno();
+            return fail(textOf(errno));
         if (m_isSerial && !isAlone()) {
             close();
             return false;
@@ -51,7 +54,7 @@ public:
 
     bool read(const ModbusRequest &request, quint16 *values) override
     {
-        if (!select(request.unit))
+        if (!settle() || !select(request.unit))
             return false;
         int count = 0;
         if (request.space == ModbusRegister::Holding)
@@ -65,7 +68,7 @@ public:
 
     bool write(const ModbusRequest &request, const quint16 *values) override
     {
-        if (!select(request.unit))
+        if (!settle() || !select(request.unit))
             return false;
         int count = 0;
         if (request.space == ModbusRegister::Coil)
@@ -96,7 +99,45 @@ private:
         const int error = errno;
         if (error > MODBUS_ENOBASE && error <= EMBXGTAR)
             return fail(ModbusException(error - MODBUS_ENOBASE));
-        return fail(QStringLiteral("%1; %2").arg(QString::fromLocal8Bit(modbus_strerror(error)), remedy(error)));
+        m_isUnsettled = isOfAnswer(error);
+        return m_isUnsettled ? failAnswer(textOf(error)) : fail(textOf(error));
+    }
+
+    QString textOf(int errorNumber) const
+    {
+        return QStringLiteral("%1; %2").arg(QString::fromLocal8Bit(modbus_strerror(errorNumber)), remedy(errorNumber));
+    }
+
+    static bool isOfAnswer(int errorNumber)
+    {
+        switch (errorNumber) {
+        case EMBBADCRC:
+        case EMBBADDATA:
+        case EMBBADEXC:
+        case EMBUNKEXC:
+        case EMBMDATA:
+        case EMBBADSLAVE:
+        case ETIMEDOUT:
+            return true;
+        default:
+            return false;
+        }
+    }
+
+    /// After a bad answer the rest of it, or a late one, must not be taken for the next answer.
+    bool settle()
+    {
+        if (!std::exchange(m_isUnsettled, false))
+            return true;
+        if (!m_isSerial) {
+            close();  // what TCP delivers is not damaged: here the order of answers is lost
+            return open();
+        }
+        pollfd line{modbus_get_socket(m_context.get()), POLLIN, 0};
+        int left = MostFlushes;
+        while (left-- > 0 && ::poll(&line, 1, QuietTime) != 0)
+            modbus_flush(m_context.get());
+        return true;
     }
 
     QString remedy(int errorNumber) const
@@ -154,7 +195,11 @@ private:
         return modbus_write_bits(m_context.get(), request.first, request.count, m_bits.data());
     }
 
+    static constexpr int QuietTime = 20;  // [ms] adapters at USB keep bytes for up to 16 ms
+    static constexpr int MostFlushes = 20;
+
     const bool m_isSerial;
+    bool m_isUnsettled = false;  // the last answer was bad
     const std::chrono::nanoseconds m_responseTimeout;
     std::unique_ptr<modbus_t, Release> m_context;
     std::vector<quint8> m_bits;  // of a request

@@ -4,12 +4,15 @@
 #include "QPlcDriverSettings.h"
 #include "QPlcReadChannel.h"
 #include "QPlcWriteChannel.h"
+#include "hardware/DeviceHealth.h"
 #include "hardware/Drivers.h"
+#include "hardware/HardwareLogging.h"
 
 #include <QtCore/QStringList>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <vector>
 
 namespace qplc {
@@ -64,6 +67,9 @@ QString requestText(const ModbusRequest &request, QStringList names)
 
 /// Bits and registers of the units behind one connection or one serial line, named by the
 /// configuration: docs/hardware/modbus.md.
+///
+/// A bad answer is asked for again. Each unit is lost and found by itself; the device as a whole is
+/// lost with the connection or line, or with all of its units.
 class ModbusDriver final : public QPlcDriver
 {
 public:
@@ -83,11 +89,25 @@ private:
         std::vector<quint16> written;  // what the device has; empty: not known
     };
     enum WriteWhen : int { EveryTime, OnChange };
+    struct Unit
+    {
+        quint8 number = 1;
+        DeviceHealth health;
+        QString fault;            // of the last request that failed
+        bool isLost = false;      // as told
+        bool isAsked = false;     // in this turn
+        bool hasFailed = false;   // in this turn
+        bool hasRefused = false;  // in this turn: it does not do what it is asked for
+        std::unique_ptr<QPlcReadChannel> online;
+        std::unique_ptr<QPlcReadChannel> errors;
+    };
 
     void configure(QPlcDriverSettings &settings) override
     {
         m_device = settings.text(QStringLiteral("device"));
         m_link = makeModbusLink(settings);
+        m_retries = int(
+            settings.integer(QStringLiteral("retries"), DeviceHealth::DefaultRetries, 0, DeviceHealth::MostRetries));
         m_gap = int(settings.integer(QStringLiteral("gap"), 0, 0, ModbusRequest::MostBitsRead));
         m_isSingleAllowed = settings.truth(QStringLiteral("write-single"), true);
         m_writeWhen = settings.choice(QStringLiteral("write"), {QStringLiteral("always"), QStringLiteral("on-change")});
@@ -96,6 +116,8 @@ private:
 
     QPlcChannel *channel(const QString &name, QPlcChannel::Direction direction, QString *error) override
     {
+        if (direction == QPlcChannel::Read && name.startsWith(QLatin1Char('@')))
+            return ownChannel(name);
         Entry *found = entry(name);
         if (!found)
             return nullptr;
@@ -113,14 +135,21 @@ private:
             if (direction == QPlcChannel::Read || entry.place.isWritable())
                 names << entry.name;
         }
+        if (direction == QPlcChannel::Read) {
+            names << QStringLiteral("@errors");
+            for (const auto &[number, unit] : m_units)
+                names << QStringLiteral("@errors.%1").arg(number) << QStringLiteral("@online.%1").arg(number);
+        }
         return names;
     }
 
     bool open() override
     {
         planReading();
-        m_busySince = -1;
-        m_wasBusy = false;
+        for (auto &[number, unit] : m_units) {
+            unit.health.reset();
+            unit.isLost = unit.isAsked = unit.hasFailed = unit.hasRefused = false;
+        }
         for (Entry &entry : m_entries)
             entry.written.clear();
         return m_link->open() || fail(QStringLiteral("%1: %2").arg(m_device, m_link->errorText()));
@@ -130,17 +159,21 @@ private:
 
     bool read() override
     {
-        if (!std::all_of(m_readBlocks.begin(), m_readBlocks.end(),
-                         [this](const ModbusBlock &b) { return readBlock(b); }))
-            return false;
-        if (!m_wasBusy)
-            m_busySince = -1;
-        m_wasBusy = false;
-        return true;
+        for (const ModbusBlock &block : m_readBlocks) {
+            if (!readBlock(block))
+                return false;
+        }
+        for (auto &[number, unit] : m_units)
+            judge(&unit);
+        tellErrors();
+        return isAnyoneThere();
     }
 
+    /// Begins a turn.
     bool write() override
     {
+        for (auto &[number, unit] : m_units)
+            unit.isAsked = unit.hasFailed = unit.hasRefused = false;
         collectWrites();
         const std::vector<ModbusBlock> blocks = planToWrite(m_places);
         return std::all_of(blocks.begin(), blocks.end(),
@@ -160,10 +193,12 @@ private:
             Entry entry;
             entry.name = name;
             QString error;
-            if (ModbusRegister::parse(settings.text(prefix + name), defaults, &entry.place, &error))
-                m_entries.push_back(std::move(entry));
-            else
+            if (!ModbusRegister::parse(settings.text(prefix + name), defaults, &entry.place, &error)) {
                 settings.addError(prefix + name, error);
+                continue;
+            }
+            m_units[entry.place.unit].number = entry.place.unit;
+            m_entries.push_back(std::move(entry));
         }
         if (names.isEmpty())
             settings.addError(QString(),
@@ -175,6 +210,27 @@ private:
         const auto found
             = std::find_if(m_entries.begin(), m_entries.end(), [&name](const Entry &e) { return e.name == name; });
         return found == m_entries.end() ? nullptr : &*found;
+    }
+
+    /// @errors, @errors.UNIT, @online.UNIT
+    QPlcChannel *ownChannel(const QString &name)
+    {
+        if (name == QLatin1String("@errors"))
+            return made(&m_errors, name);
+        for (auto &[number, unit] : m_units) {
+            if (name == QStringLiteral("@errors.%1").arg(number))
+                return made(&unit.errors, name);
+            if (name == QStringLiteral("@online.%1").arg(number))
+                return made(&unit.online, name);
+        }
+        return nullptr;
+    }
+
+    QPlcReadChannel *made(std::unique_ptr<QPlcReadChannel> *channel, const QString &name)
+    {
+        if (!*channel)
+            *channel = std::make_unique<QPlcReadChannel>(this, name);
+        return channel->get();
     }
 
     QPlcChannel *writeChannel(Entry *entry, QString *error)
@@ -212,15 +268,17 @@ private:
         m_readBlocks = planToRead(places, m_gap);
     }
 
+    /// \return false when the way to all units is gone
     bool readBlock(const ModbusBlock &block)
     {
-        if (!m_link->read(block.request, m_buffer.data())) {
-            if (isTolerable(m_link->exception()))
-                return true;
+        Unit &unit = m_units[block.request.unit];
+        if (!isToBeAsked(unit))
+            return true;
+        if (!ask(&unit, [&] { return m_link->read(block.request, m_buffer.data()); })) {
             QStringList names;
             for (std::size_t member : block.members)
                 names << m_entries[m_toRead[member]].name;
-            return failRequest("read", block.request, names);
+            return noteFault(&unit, "read", block.request, names);
         }
         for (std::size_t member : block.members) {
             const Entry &entry = m_entries[m_toRead[member]];
@@ -255,42 +313,123 @@ private:
 
     bool writeBlock(const ModbusBlock &block)
     {
+        Unit &unit = m_units[block.request.unit];
+        if (!isToBeAsked(unit))
+            return true;
         ModbusRequest request = block.request;
         request.isSingle = m_isSingleAllowed && request.count == 1;
         for (std::size_t member : block.members) {
             const auto place = m_buffer.begin() + (m_places[member].address - request.first);
             std::copy(m_words[member].begin(), m_words[member].end(), place);
         }
-        if (!m_link->write(request, m_buffer.data())) {
-            if (isTolerable(m_link->exception()))
-                return true;
+        if (!ask(&unit, [&] { return m_link->write(request, m_buffer.data()); })) {
             QStringList names;
             for (std::size_t member : block.members)
                 names << m_entries[m_toWrite[member]].name;
-            return failRequest("write", request, names);
+            return noteFault(&unit, "write", request, names);
         }
         for (std::size_t member : block.members)
             m_entries[m_toWrite[member]].written = m_words[member];
         return true;
     }
 
-    /// Whether to go on without this answer: a device may be busy for a while.
-    bool isTolerable(ModbusException exception)
+    // ---- units that fail ----
+
+    bool isToBeAsked(const Unit &unit) const { return !unit.hasFailed && unit.health.isDue(now()); }
+
+    template<typename Request>
+    bool ask(Unit *unit, Request request)
     {
-        if (exception != ModbusException::Busy && exception != ModbusException::Acknowledge)
-            return false;
-        m_wasBusy = true;
-        if (m_busySince < 0)
-            m_busySince = now();
-        return now() - m_busySince <= timeout().count();
+        unit->isAsked = true;
+        for (int left = unit->health.attempts(m_retries); left > 0; --left) {
+            if (request())
+                return true;
+            unit->health.countError();
+            if (!m_link->isAnswerBad())
+                return false;
+        }
+        return false;
     }
 
-    bool failRequest(const char *operation, const ModbusRequest &request, const QStringList &names)
+    /// \return false when it is the fault of the way to all units
+    bool noteFault(Unit *unit, const char *operation, const ModbusRequest &request, const QStringList &names)
     {
-        const QString reason
-            = m_link->exception() == ModbusException::None ? m_link->errorText() : exceptionText(m_link->exception());
-        return fail(QStringLiteral("%1: cannot %2 %3: %4")
-                        .arg(m_device, QLatin1String(operation), requestText(request, names), reason));
+        const ModbusException exception = m_link->exception();
+        const QString reason = exception == ModbusException::None ? m_link->errorText() : exceptionText(exception);
+        unit->fault = QStringLiteral("%1: cannot %2 %3: %4")
+                          .arg(m_device, QLatin1String(operation), requestText(request, names), reason);
+        unit->hasFailed = true;
+        if (m_link->isAnswerBad())
+            return true;
+        if (exception == ModbusException::None)
+            return fail(unit->fault);
+        const bool isBusy = exception == ModbusException::Busy || exception == ModbusException::Acknowledge;
+        unit->hasRefused = !isBusy;
+        if (isBusy && !unit->health.hasAnswered())
+            unit->health.succeed(now());  // it is there
+        return true;
+    }
+
+    /// At the end of a turn: whether the unit is there.
+    void judge(Unit *unit)
+    {
+        if (!unit->isAsked)
+            return;
+        const qint64 patience = timeout().count();
+        if (!unit->hasFailed)
+            unit->health.succeed(now());
+        else if (unit->hasRefused)
+            unit->health.giveUp(now());
+        else
+            unit->health.fail(now(), patience);
+        const bool isLost = unit->health.isLost(now(), patience);
+        if (isLost != unit->isLost)
+            tellUnit(unit, isLost);
+    }
+
+    void tellUnit(Unit *unit, bool isLost)
+    {
+        unit->isLost = isLost;
+        if (!isLost) {
+            qCInfo(lcHardware).noquote() << QStringLiteral("%1: unit %2 answers again").arg(m_device).arg(unit->number);
+            return;
+        }
+        for (Entry &entry : m_entries) {
+            if (entry.place.unit != unit->number)
+                continue;
+            entry.written.clear();
+            if (entry.reading)
+                entry.reading->invalidate();
+        }
+        if (m_units.size() > 1)
+            qCWarning(lcHardware).noquote() << unit->fault << "(unit is lost; trying again)";
+    }
+
+    void tellErrors()
+    {
+        quint64 sum = 0;
+        for (const auto &[number, unit] : m_units) {
+            sum += unit.health.errors();
+            if (unit.errors)
+                unit.errors->set(double(unit.health.errors()));
+            if (unit.online)
+                unit.online->set(unit.health.hasAnswered() && !unit.isLost ? 1.0 : 0.0);
+        }
+        if (m_errors)
+            m_errors->set(double(sum));
+    }
+
+    /// Whether a unit answers, or none has been asked yet.
+    bool isAnyoneThere()
+    {
+        const Unit *lost = nullptr;
+        for (const auto &[number, unit] : m_units) {
+            if (unit.isLost)
+                lost = &unit;
+            else if (unit.health.hasAnswered())
+                return true;
+        }
+        return !lost || fail(lost->fault);
     }
 
     QString m_device;
@@ -308,8 +447,9 @@ private:
     std::vector<ModbusRegister> m_places;
     std::vector<std::vector<quint16>> m_words;
 
-    qint64 m_busySince = -1;  // [ns]; -1: no request was refused for this
-    bool m_wasBusy = false;   // in this turn
+    std::map<quint8, Unit> m_units;
+    std::unique_ptr<QPlcReadChannel> m_errors;  // of all of them
+    int m_retries = DeviceHealth::DefaultRetries;
 };
 
 }  // namespace

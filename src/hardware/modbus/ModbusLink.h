@@ -56,24 +56,36 @@ public:
     ModbusException exception() const { return m_exception; }
     /// As above, when the device said nothing: "Connection refused", and what to do.
     QString errorText() const { return m_errorText; }
+    /// Whether only this answer was missing or damaged: the next one may be right. Else the way to
+    /// all units is gone, or the device has said what it thinks.
+    bool isAnswerBad() const { return m_isAnswerBad; }
 
 protected:
     bool fail(ModbusException exception)
     {
         m_exception = exception;
         m_errorText.clear();
+        m_isAnswerBad = exception == ModbusException::NoAnswerBehindGateway;
         return false;
     }
     bool fail(const QString &text)
     {
         m_exception = ModbusException::None;
         m_errorText = text;
+        m_isAnswerBad = false;
+        return false;
+    }
+    bool failAnswer(const QString &text)
+    {
+        fail(text);
+        m_isAnswerBad = true;
         return false;
     }
 
 private:
     ModbusException m_exception = ModbusException::None;
     QString m_errorText;
+    bool m_isAnswerBad = false;
 };
 
 }  // namespace qplc

@@ -79,6 +79,11 @@ private Q_SLOTS:
     void setupRegistersAreWrittenOnOpen();
     void deviceWithWrongIdentityIsRefused();
     void aDeviceThatIsSilentIsNamed();
+    void aTransferThatFailsIsRepeated_data() { kinds(); }
+    void aTransferThatFailsIsRepeated();
+    void valuesAreHeldAfterBadTransfersUntilTheirTimeout_data() { kinds(); }
+    void valuesAreHeldAfterBadTransfersUntilTheirTimeout();
+    void aDeviceThatTakesNoValuesIsLost();
     void openConfiguresTheImu();
     void theImuMeasuresInSiUnits();
     void eachImuHasItsOwnTemperatureAndFilter_data();
@@ -88,6 +93,9 @@ private Q_SLOTS:
     void imuDriverRefusesOtherChips();
     void missingBusPermissionIsReportedWithARemedy();
     void aRateThatTheImuCannotDoIsRefused();
+
+private:
+    static void kinds();
 };
 
 void tst_I2cDrivers::registersEncodeNumbers_data()
@@ -229,11 +237,86 @@ void tst_I2cDrivers::aDeviceThatIsSilentIsNamed()
     Bus bus("i2c-registers", "address = 0x68\nregister.a = 1\n");
     bus.bench.wireRead("a");
     QVERIFY2(bus.bench.open(), qPrintable(bus.bench.errorString()));
+    QVERIFY(bus.bench.exchange());
     bus.memory.at(Address) = 0;
+    bus.bench.advance(10ms);
+    QVERIFY(bus.bench.exchange());
+    bus.bench.advance(21ms);
     QVERIFY(!bus.bench.exchange());
     QVERIFY2(bus.bench.errorString().contains("at 0x68 of fake:bus") && bus.bench.errorString().contains("i2cdetect"),
              qPrintable(bus.bench.errorString()));
     QVERIFY(!bus.bench.isFresh("a"));
+}
+
+void tst_I2cDrivers::kinds()
+{
+    QTest::addColumn<QString>("kind");
+    QTest::addColumn<QByteArray>("keys");
+    QTest::addColumn<QString>("channel");
+    QTest::newRow("registers") << "i2c-registers" << QByteArray("address = 0x68\nregister.a = 0x10\n") << "a";
+    QTest::newRow("IMU") << "mpu6050" << QByteArray() << "temperature";
+}
+
+void tst_I2cDrivers::aTransferThatFailsIsRepeated()
+{
+    QFETCH(QString, kind);
+    QFETCH(QByteArray, keys);
+    QFETCH(QString, channel);
+    Bus bus(kind, keys);
+    bus.set(0x75, "\x68");
+    bus.set(0x3a, "\x01");
+    for (const QString &name : {channel, QStringLiteral("@errors"), QStringLiteral("@failures")})
+        QCOMPARE(bus.bench.wireRead(name), QString());
+    QVERIFY2(bus.bench.open(), qPrintable(bus.bench.errorString()));
+    bus.memory.at(Address) = FakeI2cBus::SilentTwice;
+    bus.bench.advance(10ms);
+    QVERIFY2(bus.bench.exchange(), qPrintable(bus.bench.errorString()));
+    QVERIFY(bus.bench.isFresh(channel));
+    QCOMPARE(bus.bench.time(channel), bus.bench.now());
+    QCOMPARE(bus.bench.value("@errors"), 2.0);
+    QCOMPARE(bus.bench.value("@failures"), 0.0);
+}
+
+void tst_I2cDrivers::valuesAreHeldAfterBadTransfersUntilTheirTimeout()
+{
+    QFETCH(QString, kind);
+    QFETCH(QByteArray, keys);
+    QFETCH(QString, channel);
+    Bus bus(kind, keys + "timeout = 30 ms\nretries = 0\n");
+    bus.set(0x75, "\x68");
+    bus.set(0x3a, "\x01");
+    bus.bench.wireRead(channel);
+    bus.bench.wireRead("@errors");
+    QVERIFY2(bus.bench.open(), qPrintable(bus.bench.errorString()));
+    bus.memory.at(Address) = 0;
+    for (int i = 1; i <= 3; ++i) {
+        bus.bench.advance(10ms);
+        QVERIFY2(bus.bench.exchange(), qPrintable(bus.bench.errorString()));
+        QVERIFY(bus.bench.isFresh(channel));
+        QCOMPARE(bus.bench.value("@errors"), double(i));
+    }
+    bus.bench.advance(1ms);
+    QVERIFY(!bus.bench.exchange());
+    QVERIFY(!bus.bench.isFresh(channel));
+    bus.memory.at(Address) = 1;
+    QVERIFY2(bus.bench.open(), qPrintable(bus.bench.errorString()));
+    QVERIFY(bus.bench.exchange());
+    QVERIFY(bus.bench.isFresh(channel));
+}
+
+void tst_I2cDrivers::aDeviceThatTakesNoValuesIsLost()
+{
+    Bus bus("i2c-registers", "address = 0x68\ntimeout = 30 ms\nregister.limit = 0x30, write\n");
+    bus.bench.wireWrite("limit");
+    QVERIFY2(bus.bench.open(), qPrintable(bus.bench.errorString()));
+    bus.bench.set("limit", 5.0);
+    QVERIFY(bus.bench.exchange());
+    bus.memory.at(Address) = 0;
+    bus.bench.advance(10ms);
+    QVERIFY(bus.bench.exchange());
+    bus.bench.advance(21ms);
+    QVERIFY(!bus.bench.exchange());
+    QVERIFY2(bus.bench.errorString().contains("cannot write register 0x30"), qPrintable(bus.bench.errorString()));
 }
 
 void tst_I2cDrivers::openConfiguresTheImu()

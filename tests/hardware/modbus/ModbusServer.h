@@ -103,6 +103,13 @@ public:
         const std::lock_guard<std::mutex> lock(m_mutex);
         m_isSilent = isSilent;
     }
+    /// The next answer is one that cannot be meant: too long, with a wrong checksum (serial line)
+    /// or number (TCP).
+    void garbleNext()
+    {
+        const std::lock_guard<std::mutex> lock(m_mutex);
+        m_isGarbled = true;
+    }
     std::vector<Seen> takeRequests()
     {
         const std::lock_guard<std::mutex> lock(m_mutex);
@@ -158,8 +165,19 @@ private:
         m_requests.push_back({body[0], body[1] << 8 | body[2]});
         if (m_exception != 0)
             modbus_reply_exception(m_context, request, unsigned(m_exception));
+        else if (std::exchange(m_isGarbled, false))
+            garble(request);
         else if (!m_isSilent)
             modbus_reply(m_context, request, length, m_mapping);
+    }
+
+    void garble(const quint8 *request)
+    {
+        const quint8 onLine[] = {request[0], request[1], 2, 0x12, 0x34, 0xAA, 0xAA, 0x01, 0x04, 0x02};
+        const quint8 onTcp[] = {quint8(~request[0]), request[1], 0, 0, 0, 5, request[6], request[7], 2, 0x12, 0x34};
+        const bool isSerial = m_listener < 0;
+        const ssize_t written = ::write(m_client, isSerial ? onLine : onTcp, isSerial ? sizeof onLine : sizeof onTcp);
+        Q_UNUSED(written)
     }
 
     modbus_t *m_context;
@@ -173,6 +191,7 @@ private:
     std::mutex m_mutex;
     int m_exception = 0;
     bool m_isSilent = false;
+    bool m_isGarbled = false;
     std::vector<Seen> m_requests;
     std::thread m_thread;
 };

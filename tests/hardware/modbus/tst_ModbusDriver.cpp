@@ -35,6 +35,12 @@ private Q_SLOTS:
     void anExceptionNamesTheRegistersInWords();
     void aRefusedWriteNamesItsRegister();
     void aBusyDeviceIsAskedAgainForAWhile();
+    void aBadAnswerIsAskedForAgain();
+    void valuesAreHeldAfterBadAnswersUntilTheirTimeout();
+    void aSilentUnitLeavesTheOthersAlone();
+    void aUnitThatRefusesIsLostAlone();
+    void aUnitThatIsBackGetsAllValuesAgain();
+    void onePercentOfBadAnswersCostsNoValue();
     void missingDeviceIsReported();
     void lostDeviceHasNoFreshValues();
     void writingAReadOnlyRegisterIsRefused();
@@ -43,6 +49,7 @@ private Q_SLOTS:
     void invalidKeysAreReported();
 
 private:
+    static void expectLoss() { QTest::ignoreMessage(QtWarningMsg, QRegularExpression("unit is lost; trying again")); }
     static QByteArray keys(const QByteArray &more) { return "device = fake:drive\n" + more; }
     std::shared_ptr<FakeModbusDevice> m_device;
 };
@@ -202,7 +209,7 @@ void tst_ModbusDriver::anExceptionNamesTheRegistersInWords_data()
     QTest::newRow("3") << 3 << "refuses the value (exception 3)";
     QTest::newRow("4") << 4 << "it has failed (exception 4)";
     QTest::newRow("8") << 8 << "answers with exception 8";
-    QTest::newRow("11") << 11 << "the gateway gets no answer from this unit";
+    QTest::newRow("10") << 10 << "the gateway gets no answer from this unit";
 }
 
 void tst_ModbusDriver::anExceptionNamesTheRegistersInWords()
@@ -240,13 +247,157 @@ void tst_ModbusDriver::aBusyDeviceIsAskedAgainForAWhile()
     bench.wireRead("a");
     QVERIFY(bench.open() && bench.exchange());
     m_device->answerWith(ModbusException::Busy, ModbusRegister::Holding, 1);
-    for (int i = 0; i <= 10; ++i) {
+    for (int i = 1; i <= 10; ++i) {
         bench.advance(10ms);
         QVERIFY2(bench.exchange(), qPrintable(bench.errorString()));
     }
     bench.advance(10ms);
     QVERIFY(!bench.exchange());
     QVERIFY2(bench.errorString().contains("busy for too long"), qPrintable(bench.errorString()));
+}
+
+void tst_ModbusDriver::aBadAnswerIsAskedForAgain()
+{
+    DriverBench bench("modbus", keys("retries = 1\nregister.a = holding 1\nregister.b = holding 1\n"));
+    for (const char *name : {"a", "@errors", "@failures"})
+        QCOMPARE(bench.wireRead(name), QString());
+    bench.wireWrite("b");
+    QVERIFY(bench.open() && bench.exchange());
+    bench.advance(10ms);
+    bench.set("b", 7.0);
+    m_device->damageNext(1);  // that of the write
+    QVERIFY(bench.exchange());
+    QCOMPARE(bench.value("a"), 7.0);
+    m_device->takeReads();
+    m_device->damageNext(1);
+    bench.set("b", 8.0);
+    QVERIFY(bench.exchange());
+    QCOMPARE(bench.value("a"), 8.0);
+    QCOMPARE(bench.time("a"), bench.now());
+    QCOMPARE(bench.value("@errors"), 2.0);
+    QCOMPARE(bench.value("@failures"), 0.0);
+}
+
+void tst_ModbusDriver::valuesAreHeldAfterBadAnswersUntilTheirTimeout()
+{
+    DriverBench bench("modbus", keys("timeout = 30 ms\nregister.a = holding 1\n"));
+    bench.wireRead("a");
+    bench.wireRead("@errors");
+    m_device->set(ModbusRegister::Holding, 1, {5});
+    QVERIFY(bench.open() && bench.exchange());
+    m_device->damageAnswers(1.0);
+    for (int i = 1; i <= 3; ++i) {
+        bench.advance(10ms);
+        QVERIFY2(bench.exchange(), qPrintable(bench.errorString()));
+        QCOMPARE(bench.value("a"), 5.0);
+        QCOMPARE(bench.value("@errors"), 2.0 + i);  // three questions, then one in each turn
+    }
+    bench.advance(1ms);
+    QVERIFY(!bench.exchange());
+    QVERIFY(!bench.isFresh("a"));
+    QVERIFY2(bench.errorString().contains("cannot read holding register 1 (a) of unit 1: the answer is damaged"),
+             qPrintable(bench.errorString()));
+    m_device->damageAnswers(0.0);
+    QVERIFY(bench.open() && bench.exchange());
+    QCOMPARE(bench.value("a"), 5.0);
+}
+
+void tst_ModbusDriver::aSilentUnitLeavesTheOthersAlone()
+{
+    DriverBench bench("modbus",
+                      keys("timeout = 30 ms\nregister.a = holding 1\nregister.b = holding 1, unit 2\n"
+                           "register.c = holding 9, unit 2\nregister.d = holding 1, unit 3\n"));
+    for (const char *name : {"a", "b", "c", "d", "@online", "@online.2", "@errors.1", "@errors.2", "@errors"})
+        QCOMPARE(bench.wireRead(name), QString());
+    QVERIFY(bench.wireRead("@online.4").contains("has no channel '@online.4' to read; did you mean '@online"));
+    QVERIFY(bench.open() && bench.exchange());
+    QCOMPARE(bench.value("@online.2"), 1.0);
+    expectLoss();
+    m_device->damageAnswers(1.0, 2);
+    m_device->takeReads();
+    for (int i = 1; i <= 1000; ++i) {
+        bench.advance(10ms);
+        QVERIFY2(bench.exchange(), qPrintable(bench.errorString()));
+        QVERIFY(bench.isFresh("a") && bench.isFresh("d"));
+        QCOMPARE(bench.isFresh("b"), i <= 3);
+        QCOMPARE(bench.isFresh("c"), i <= 3);
+        QCOMPARE(bench.value("@online.2"), i <= 3 ? 1.0 : 0.0);
+        QCOMPARE(bench.value("@online"), 1.0);
+    }
+    // Ten seconds: three questions, one in each of three turns, then after 0.1 s, 0.2 s, ... 3.2 s.
+    QCOMPARE(bench.value("@errors.2"), 12.0);
+    QCOMPARE(bench.value("@errors"), 12.0);
+    QCOMPARE(bench.value("@errors.1"), 0.0);
+    m_device->damageAnswers(0.0);
+    bench.advance(5s);
+    QVERIFY(bench.exchange());
+    QVERIFY(bench.isFresh("b") && bench.isFresh("c"));
+    QCOMPARE(bench.value("@online.2"), 1.0);
+}
+
+void tst_ModbusDriver::aUnitThatRefusesIsLostAlone()
+{
+    DriverBench bench("modbus", keys("register.a = holding 1\nregister.b = holding 7, unit 2\n"));
+    bench.wireRead("a");
+    bench.wireRead("b");
+    QVERIFY(bench.open() && bench.exchange());
+    QVERIFY(bench.isFresh("b"));
+    expectLoss();
+    m_device->answerWith(ModbusException::UnknownAddress, ModbusRegister::Holding, 7);
+    QVERIFY2(bench.exchange(), qPrintable(bench.errorString()));
+    QVERIFY(bench.isFresh("a"));
+    QVERIFY(!bench.isFresh("b"));
+    bench.close();
+    expectLoss();
+    QVERIFY2(bench.open(), qPrintable(bench.errorString()));  // the other unit has answered
+    expectLoss();
+    m_device->answerWith(ModbusException::UnknownAddress, ModbusRegister::Holding, 1);
+    QVERIFY(!bench.exchange());
+}
+
+void tst_ModbusDriver::aUnitThatIsBackGetsAllValuesAgain()
+{
+    DriverBench bench("modbus",
+                      keys("timeout = 30 ms\nwrite = on-change\nregister.a = holding 1\n"
+                           "register.b = holding 1, unit 2\nregister.c = holding 2, unit 2\n"));
+    bench.wireRead("a");
+    bench.wireRead("c");
+    bench.wireWrite("b");
+    QVERIFY(bench.open());
+    bench.set("b", 4.0);
+    QVERIFY(bench.exchange());
+    expectLoss();
+    m_device->damageAnswers(1.0, 2);
+    for (int i = 0; i < 5; ++i) {
+        bench.advance(10ms);
+        QVERIFY(bench.exchange());
+    }
+    m_device->set(ModbusRegister::Holding, 1, {0}, 2);  // it was switched off
+    m_device->damageAnswers(0.0);
+    bench.advance(5s);
+    QVERIFY(bench.exchange());
+    QCOMPARE(m_device->values(ModbusRegister::Holding, 1, 1, 2), Words{4});
+}
+
+// Ten minutes of a line with three units, in the time of the bench.
+void tst_ModbusDriver::onePercentOfBadAnswersCostsNoValue()
+{
+    DriverBench bench("modbus",
+                      keys("interval = 20 ms\nregister.a = holding 1\nregister.b = holding 1, unit 2\n"
+                           "register.c = holding 1, unit 3\n"));
+    for (const char *name : {"a", "b", "c", "@errors", "@failures"})
+        bench.wireRead(name);
+    QVERIFY(bench.open());
+    m_device->damageAnswers(0.01);
+    for (int turn = 0; turn < 10 * 60 * 50; ++turn) {
+        bench.advance(20ms);
+        m_device->set(ModbusRegister::Holding, 1, {quint16(turn)}, 2);
+        QVERIFY2(bench.exchange(), qPrintable(bench.errorString()));
+        QVERIFY(bench.isFresh("a") && bench.isFresh("b") && bench.isFresh("c"));
+    }
+    QVERIFY2(m_device->damaged() > 500, qPrintable(QString::number(m_device->damaged())));
+    QCOMPARE(bench.value("@errors"), double(m_device->damaged()));
+    QCOMPARE(bench.value("@failures"), 0.0);
 }
 
 void tst_ModbusDriver::missingDeviceIsReported()

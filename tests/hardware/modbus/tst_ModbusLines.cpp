@@ -6,6 +6,8 @@
 
 #include <sys/file.h>
 
+using namespace std::chrono_literals;
+
 // The driver with a server of libmodbus, over TCP on loopback and over a serial line (a pseudo
 // terminal).
 class tst_ModbusLines : public QObject
@@ -23,6 +25,8 @@ private Q_SLOTS:
     void unknownAddressIsReported();
     void aBusyDeviceIsNotLost_data() { lines(); }
     void aBusyDeviceIsNotLost();
+    void aGarbledAnswerIsAskedForAgain_data() { lines(); }
+    void aGarbledAnswerIsAskedForAgain();
     void silentDeviceIsLostAndReconnects_data() { lines(); }
     void silentDeviceIsLostAndReconnects();
     void anotherUnitDoesNotAnswer();
@@ -162,6 +166,29 @@ void tst_ModbusLines::aBusyDeviceIsNotLost()
     QVERIFY(bench.isFresh("speed"));
 }
 
+void tst_ModbusLines::aGarbledAnswerIsAskedForAgain()
+{
+    startServer();
+    DriverBench bench("modbus", keys("register.speed = input 1\nregister.torque = input 9\n"));
+    for (const char *name : {"speed", "torque", "@errors", "@failures"})
+        bench.wireRead(name);
+    m_server->with([](modbus_mapping_t &values) {
+        values.tab_input_registers[1] = 11;
+        values.tab_input_registers[9] = 99;
+    });
+    QVERIFY2(bench.open(), qPrintable(bench.errorString()));
+    for (int i = 1; i <= 5; ++i) {
+        bench.advance(10ms);
+        m_server->garbleNext();
+        QVERIFY2(bench.exchange(), qPrintable(bench.errorString()));
+        QCOMPARE(bench.time("speed"), bench.now());
+        QCOMPARE(bench.value("speed"), 11.0);
+        QCOMPARE(bench.value("torque"), 99.0);
+        QCOMPARE(bench.value("@errors"), double(i));
+    }
+    QCOMPARE(bench.value("@failures"), 0.0);
+}
+
 void tst_ModbusLines::silentDeviceIsLostAndReconnects()
 {
     startServer();
@@ -169,6 +196,8 @@ void tst_ModbusLines::silentDeviceIsLostAndReconnects()
     bench.wireRead("speed");
     QVERIFY2(bench.open(), qPrintable(bench.errorString()));
     m_server->setSilent(true);
+    QVERIFY(bench.exchange());  // its values are held
+    bench.advance(31ms);
     QVERIFY(!bench.exchange());
     QVERIFY2(bench.errorString().contains("cannot read input register 1 (speed) of unit 1: Connection timed out; "
                                           "look at power"),
