@@ -3,6 +3,8 @@
 
 #include "QPlcChannel.h"
 
+#include <limits>
+
 /// A value that goes to a device.
 ///
 /// \code
@@ -41,6 +43,21 @@ public:
     /// \param name  for the configuration
     QPlcWriteChannel(QPlcDriver *driver, const QString &name);
 
+    /// Sets the range of values that the device can take; by default there is no limit. A safe
+    /// value or constant of a configuration outside of it is an error of that file. Values of
+    /// signals are not checked: limit them in write(). Call it in QPlcDriver::configure() or
+    /// channel().
+    /// \param minimum,  maximum in the unit of the device, both included
+    void setRange(double minimum, double maximum)
+    {
+        m_minimum = minimum;
+        m_maximum = maximum;
+    }
+    /// Returns the lowest value that the device can take; default: minus infinity.
+    double minimum() const { return m_minimum; }
+    /// Returns the highest value that the device can take; default: infinity.
+    double maximum() const { return m_maximum; }
+
     /// Returns true if there is a value to write.
     bool hasValue() const { return m_hasValue; }
     /// Returns the value, in the unit of the device.
@@ -55,6 +72,8 @@ public:
 private:
     friend class qplc::DriverRunner;
 
+    double m_minimum = -std::numeric_limits<double>::infinity();
+    double m_maximum = std::numeric_limits<double>::infinity();
     double m_value = 0.0;
     bool m_hasValue = false;
     bool m_isSafe = true;

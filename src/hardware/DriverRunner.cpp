@@ -8,6 +8,7 @@
 #include <QtCore/QRandomGenerator>
 
 #include <algorithm>
+#include <cmath>
 
 #include <poll.h>
 #include <pthread.h>
@@ -85,6 +86,21 @@ int DriverRunner::wire(const QString &name, QPlcChannel::Direction direction, QS
     if (isRead)
         return placeOf(&m_readChannels, ReadEnd{static_cast<QPlcReadChannel *>(channel), Own::No});
     return placeOf(&m_writeChannels, static_cast<QPlcWriteChannel *>(channel));
+}
+
+QString DriverRunner::problemOf(int writeChannel, double value) const
+{
+    const QPlcWriteChannel &channel = *m_writeChannels[std::size_t(writeChannel)];
+    const double lowest = channel.minimum();
+    const double highest = channel.maximum();
+    // 327.67 is 32767 * 0.01, and a bit more.
+    const double slack = 1e-9 * std::min(std::max(std::abs(lowest), std::abs(highest)), 1e300);
+    if (value >= lowest - slack && value <= highest + slack)
+        return {};
+    return QStringLiteral("%1 is not in the range %2 to %3 of '%4'; write a value of this range, in the unit of the "
+                          "device")
+        .arg(QString::number(value, 'g', 10), QString::number(lowest, 'g', 10), QString::number(highest, 'g', 10),
+             channel.name());
 }
 
 /// Number of \a end among \a ends; one that is new goes to their end.

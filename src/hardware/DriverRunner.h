@@ -49,6 +49,9 @@ public:
     /// Wires a channel. \return its number among those of its direction; -1, with the reason in \a
     /// error, when there is none of this name
     int wire(const QString &channel, QPlcChannel::Direction direction, QString *error);
+    /// Whether the device can take a value. \param writeChannel  its number, of wire() \return an
+    /// empty text, or what is wrong and what would be right
+    QString problemOf(int writeChannel, double value) const;
 
     /// The wires are known: values can be set. start() and openNow() do it, too.
     void prepare();

@@ -96,6 +96,7 @@ struct QPlcHardwareNode::Private
         bool isConstant = false;
         const double constant = isRead ? 0.0 : signal.name.toDouble(&isConstant);
         if (isConstant) {
+            checkValue(configuration, runner, number, constant * signal.factor + signal.offset, wire.entry);
             addConstant(configuration, {runner, number, constant * signal.factor + signal.offset}, wire.entry);
             return;
         }
@@ -112,10 +113,20 @@ struct QPlcHardwareNode::Private
     {
         QString error;
         const int number = runner->wire(safe.channel, QPlcChannel::Write, &error);
-        if (number < 0)
+        if (number < 0) {
             configuration->addError(safe.entry, error);
-        else
-            safeValues.push_back({runner, number, safe.value});
+            return;
+        }
+        checkValue(configuration, runner, number, safe.value, safe.entry);
+        safeValues.push_back({runner, number, safe.value});
+    }
+
+    static void checkValue(HardwareConfiguration *configuration, const DriverRunner *runner, int channel, double value,
+                           const qplc::ConfigurationEntry &entry)
+    {
+        const QString problem = runner->problemOf(channel, value);
+        if (!problem.isEmpty())
+            configuration->addError(entry, problem);
     }
 
     void buildSafeStop(HardwareConfiguration *configuration, const HardwareConfiguration::Watched &watched)

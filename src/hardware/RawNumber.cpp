@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "RawNumber.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -54,6 +55,16 @@ qint64 RawNumber::decodeSigned(quint64 value) const noexcept
 {
     const bool isNegative = (value >> (bits - 1)) & 1;
     return static_cast<qint64>(isNegative ? value | ~lowBits(bits) : value & lowBits(bits));
+}
+
+RawNumber::Limits RawNumber::limits(double factor, double offset) const noexcept
+{
+    const double largest = bits == 32 ? double(std::numeric_limits<float>::max()) : std::numeric_limits<double>::max();
+    const double highest = kind == Float ? largest : std::ldexp(1.0, kind == Signed ? bits - 1 : bits) - 1.0;
+    const double lowest = kind == Float ? -largest : kind == Signed ? -std::ldexp(1.0, bits - 1) : 0.0;
+    const double a = lowest * factor + offset;
+    const double b = highest * factor + offset;
+    return {std::min(a, b), std::max(a, b)};
 }
 
 double RawNumber::decode(quint64 value) const noexcept

@@ -15,6 +15,13 @@ struct RawNumber
         NoNumber    ///< NaN, and the bits are an integer; 0 was taken
     };
 
+    /// Values that a device can hold, both included.
+    struct Limits
+    {
+        double lowest;
+        double highest;
+    };
+
     Kind kind = Unsigned;
     int bits = 16;  // 1 ... 64; of a float 32 or 64
 
@@ -30,6 +37,8 @@ struct RawNumber
     double decode(quint64 value) const noexcept;
     /// \return the bits of the nearest number, halves away from 0; those above may be set
     quint64 encode(double value, Fit *fit = nullptr) const noexcept;
+    /// Of \a value = number * factor + offset.
+    Limits limits(double factor, double offset) const noexcept;
     /// The bits of a signed number as an integer.
     qint64 decodeSigned(quint64 value) const noexcept;
 };

@@ -37,6 +37,8 @@ private Q_SLOTS:
     void aWholeFileIsUnderstood();
     void errorsAreReportedWithTheirPosition_data();
     void errorsAreReportedWithTheirPosition();
+    void valuesThatADeviceCannotTakeAreRefused_data();
+    void valuesThatADeviceCannotTakeAreRefused();
     void aMissingFileIsNamed();
     void refusedConfigurationLeavesNoWires();
     void settingsReturnTheRequestedType();
@@ -198,6 +200,52 @@ void tst_HardwareConfiguration::errorsAreReportedWithTheirPosition()
     QFETCH(QByteArray, text);
     QFETCH(QString, error);
     QCOMPARE(errorsOf(text), error);
+}
+
+void tst_HardwareConfiguration::valuesThatADeviceCannotTakeAreRefused_data()
+{
+    QTest::addColumn<QByteArray>("keys");
+    QTest::addColumn<double>("lowest");
+    QTest::addColumn<double>("highest");
+    const QByteArray modbus = "driver = modbus\ndevice = fake:d\nregister.out = ";
+    QTest::newRow("int16") << modbus + "holding 1, int16, factor 0.1" << -3276.8 << 3276.7;
+    QTest::newRow("negative factor") << modbus + "holding 1, int16, factor -0.01, offset 5" << -322.67 << 332.68;
+    QTest::newRow("uint32") << modbus + "holding 1, uint32" << 0.0 << 4294967295.0;
+    QTest::newRow("coil") << modbus + "coil 1" << 0.0 << 1.0;
+    const QByteArray i2c = "driver = i2c-registers\ndevice = fake:d\naddress = 0x20\nregister.out = 1, write, ";
+    QTest::newRow("int24") << i2c + "int24" << -8388608.0 << 8388607.0;
+    QTest::newRow("uint8") << i2c + "uint8, factor 0.5, offset -10" << -10.0 << 117.5;
+    QTest::newRow("line") << QByteArray("driver = gpio\ndevice = fake:d\noutput.out = 3") << 0.0 << 1.0;
+    const QByteArray can = "driver = can\ndevice = fake:d\nframe.F = 1, 8 bytes\nsignal.F.out = ";
+    QTest::newRow("CAN") << can + "0|12@1- (0.5,100)" << -924.0 << 1123.5;
+    QTest::newRow("CAN, all bits") << can + "0|64@1+" << 0.0 << 18446744073709551615.0;
+    QTest::newRow("CAN, float") << can + "0|32@1f" << -3.4028234e38 << 3.4028234e38;
+}
+
+void tst_HardwareConfiguration::valuesThatADeviceCannotTakeAreRefused()
+{
+    QFETCH(QByteArray, keys);
+    QFETCH(double, lowest);
+    QFETCH(double, highest);
+    const QByteArray channel = keys.contains("can") ? "F.out" : "out";
+    const auto textOf = [&](double safe, double constant) {
+        return "[d]\n" + keys + "\n[d.safe]\n" + channel + " = " + QByteArray::number(safe, 'g', 17) + "\n[d.write]\n"
+            + channel + " = " + QByteArray::number(constant, 'f', 9) + "\n";
+    };
+    QCOMPARE(errorsOf(textOf(lowest, highest)), QString());
+    QCOMPARE(errorsOf(textOf(highest, lowest)), QString());
+    const double step = std::max(0.6, 1e-4 * std::abs(highest));
+    const QString error = errorsOf(textOf(highest + step, lowest - step));
+    const QRegularExpression sentence(
+        QStringLiteral(R"(^winch.ini:\d+:\d+: \S+ is not in the range \S+ to \S+ of '%1'; write a value of this range)")
+            .arg(QString::fromLatin1(channel)),
+        QRegularExpression::MultilineOption);
+    auto found = sentence.globalMatch(error);
+    int count = 0;
+    for (; found.hasNext(); ++count)
+        found.next();
+    QVERIFY2(count == 2, qPrintable(error));
+    QCOMPARE(error.count('\n'), 1);
 }
 
 void tst_HardwareConfiguration::aMissingFileIsNamed()

@@ -29,6 +29,8 @@ QPlcWriteChannel *CanSender::channel(const QString &name)
         return nullptr;
     m_parts.push_back(
         {*signal, std::make_unique<QPlcWriteChannel>(m_driver, m_message.description.name + QLatin1Char('.') + name)});
+    const RawNumber::Limits limits = signal->limits();
+    m_parts.back().channel->setRange(limits.lowest, limits.highest);
     if (signal->role == DbcSignal::Multiplexor)
         m_selector = m_parts.back().channel.get();
     return m_parts.back().channel.get();

@@ -77,6 +77,14 @@ RawNumber numberOf(const DbcSignal &signal) noexcept
 
 }  // namespace
 
+RawNumber::Limits DbcSignal::limits() const
+{
+    const RawNumber::Limits bits = numberOf(*this).limits(factor, offset);
+    if (!(minimum < maximum))
+        return bits;
+    return {std::max(bits.lowest, minimum), std::min(bits.highest, maximum)};
+}
+
 int DbcSignal::neededBytes() const
 {
     const int first = byteOrder == Intel ? start : busOrder(start);

@@ -144,6 +144,7 @@ private:
             : words(lineWords)
             , value(driver, name)
         {
+            value.setRange(0.0, 1.0);
         }
 
         const GpioLineWords words;

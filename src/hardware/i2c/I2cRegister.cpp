@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "I2cRegister.h"
 
-#include "hardware/RawNumber.h"
 #include "signals/MessageText.h"
 
 #include <cmath>
@@ -93,6 +92,11 @@ QString I2cRegister::read(const QStringList &words, I2cRegister *result)
         return QStringLiteral("its last byte would be in register %1, and 255 is the last one")
             .arg(result->first + result->size - 1);
     return QString();
+}
+
+RawNumber::Limits I2cRegister::limits() const
+{
+    return registerNumber(*this).limits(factor, offset);
 }
 
 double I2cRegister::valueOf(const quint8 *bytes) const

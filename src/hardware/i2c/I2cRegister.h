@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "hardware/RawNumber.h"
+
 #include <QtCore/QStringList>
 
 namespace qplc {
@@ -27,6 +29,7 @@ struct I2cRegister
     /// \return an empty text, or what is wrong with \a words, and what would be right
     static QString read(const QStringList &words, I2cRegister *result);
 
+    RawNumber::Limits limits() const;
     double valueOf(const quint8 *bytes) const;
     /// The nearest number that the registers can hold.
     void bytesOf(double value, quint8 *bytes) const;

@@ -41,7 +41,7 @@ protected:
             if (!error.isEmpty())
                 settings.addError(prefix + name, error);
             else if (reg.isWritten)
-                m_outputs.push_back(std::make_unique<Item<QPlcWriteChannel>>(this, name, reg));
+                addOutput(name, reg);
             else
                 m_inputs.push_back(std::make_unique<Item<QPlcReadChannel>>(this, name, reg));
         }
@@ -123,6 +123,13 @@ private:
         const I2cRegister reg;
         Channel channel;
     };
+    void addOutput(const QString &name, const I2cRegister &reg)
+    {
+        m_outputs.push_back(std::make_unique<Item<QPlcWriteChannel>>(this, name, reg));
+        const RawNumber::Limits limits = reg.limits();
+        m_outputs.back()->channel.setRange(limits.lowest, limits.highest);
+    }
+
     struct ByteValue
     {
         quint8 reg = 0;

@@ -252,6 +252,8 @@ private:
         }
         if (!entry->writing)
             entry->writing = std::make_unique<QPlcWriteChannel>(this, entry->name);
+        const RawNumber::Limits limits = entry->place.limits();
+        entry->writing->setRange(limits.lowest, limits.highest);
         return entry->writing.get();
     }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ModbusRegister.h"
 
-#include "hardware/RawNumber.h"
 #include "signals/MessageText.h"
 
 #include <QtCore/QStringList>
@@ -170,6 +169,11 @@ private:
 int ModbusRegister::size() const
 {
     return std::max(1, modbusNumbers[type].bits / 16);
+}
+
+RawNumber::Limits ModbusRegister::limits() const
+{
+    return modbusNumbers[type].limits(factor, offset);
 }
 
 double ModbusRegister::decode(const quint16 *words) const

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "hardware/RawNumber.h"
+
 #include <QtCore/QString>
 
 namespace qplc {
@@ -30,6 +32,7 @@ struct ModbusRegister
     /// How many bits (Coil, Discrete) or registers it takes.
     int size() const;
 
+    RawNumber::Limits limits() const;
     /// \param words  size() of them, one for each bit or register
     double decode(const quint16 *words) const;
     /// The nearest value that the type can hold.
