@@ -8,6 +8,7 @@
 
 #include <QtCore/QDateTime>
 #include <QtCore/QFileInfo>
+#include <QtCore/QRegularExpression>
 
 #include <algorithm>
 #include <cmath>
@@ -36,7 +37,7 @@ const char style[]
       ".tile span{color:var(--soft);font-size:13px}.bad b{color:var(--bad)}"
       ".plots{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,460px),1fr));gap:14px 20px}"
       "figure{margin:0;break-inside:avoid}figcaption{font-weight:600;margin-bottom:2px}figcaption span{font-weight:400;"
-      "margin-left:8px}svg{width:100%;height:auto;display:block}"
+      "margin-left:8px}svg,img{width:100%;height:auto;display:block}"
       ".grid line{stroke:var(--line);stroke-width:1}.label text{fill:var(--soft);font-size:15px}"
       ".curve{fill-opacity:.3;stroke-width:1.3;stroke-linejoin:round}"
       ".curve.c0{fill:var(--c0);stroke:var(--c0)}.curve.c1{fill:var(--c1);stroke:var(--c1)}"
@@ -286,7 +287,7 @@ public:
         QByteArray page = head() + tiles();
         for (const QString &section : m_selection.sections)
             page += "<section>" + htmlOfMarkdown(section) + "</section>\n";
-        return page + plots() + happenings() + jitter() + nodes() + signalTable() + footer();
+        return page + pictures() + plots() + happenings() + jitter() + nodes() + signalTable() + footer();
     }
     int damages() const { return m_survey.damages; }
 
@@ -341,7 +342,98 @@ private:
         }
         return found;
     }
+    QByteArray pictures() const
+    {
+        QByteArray figures;
+        for (const ReportSelection::Picture &picture : m_selection.pictures)
+            figures += "<figure><figcaption>" + escaped(picture.title) + "</figcaption><img alt=\""
+                + escaped(picture.title) + "\" src=\"data:" + mediaTypeOf(picture.bytes) + ";base64,"
+                + picture.bytes.toBase64() + "\"></figure>\n";
+        return figures.isEmpty() ? figures : "<h2>Pictures</h2>\n" + figures;
+    }
+    /// An element of a signal: "position[2]". Null: a formula, or not in the recording
+    const Trace *traceOf(const QString &reference) const
+    {
+        static const QRegularExpression form(QStringLiteral("^(?:.*/)?([^/\\[\\]]+)(?:\\[(\\d+)\\])?$"));
+        const QRegularExpressionMatch match = form.match(reference);
+        const int signal = match.hasMatch() ? m_recording.indexOf(match.captured(1)) : -1;
+        const auto found = std::find_if(m_survey.traces.begin(), m_survey.traces.end(), [&](const Trace &trace) {
+            return trace.signal == signal && trace.element == match.captured(2).toInt();
+        });
+        return signal < 0 || found == m_survey.traces.end() ? nullptr : &*found;
+    }
+    /// The curves of a panel that share an axis.
+    struct Group
+    {
+        QString key;
+        QString unit;
+        ReportPlot plot;
+    };
+    /// The drawings of a panel, one for each unit.
+    QByteArray panelPlots(const ReportPanel &panel) const
+    {
+        std::vector<Group> groups;
+        QStringList missing;
+        for (const ReportPanel::Curve &curve : panel.curves) {
+            if (const Trace *trace = traceOf(curve.signal))
+                addCurve(curve, *trace, &groups);
+            else
+                missing << curve.signal;
+        }
+        QByteArray drawings;
+        for (Group &group : groups) {
+            QStringList parts;
+            if (!panel.title.isEmpty())
+                parts << panel.title;
+            if (group.plot.names.size() == 1)
+                parts << group.plot.names.constFirst();
+            parts.removeDuplicates();
+            group.plot.title = parts.join(QStringLiteral(": "))
+                + (group.unit.isEmpty() ? QString() : QStringLiteral(" [%1]").arg(group.unit));
+            drawings += drawingOf(group.plot);
+        }
+        if (!missing.isEmpty())
+            drawings += "<figure><figcaption>" + escaped(panel.title)
+                + "</figcaption><p>Not drawn: " + escaped(missing.join(QStringLiteral(", ")))
+                + ". A report has signals of the recording, and no formulas.</p></figure>\n";
+        return drawings;
+    }
+    void addCurve(const ReportPanel::Curve &curve, const Trace &trace, std::vector<Group> *groups) const
+    {
+        const QPlcSignalDefinition &signal = m_recording.signalList()[std::size_t(trace.signal)].definition;
+        const QString name = curve.name.isEmpty() ? curve.signal : curve.name;
+        const QString key = curve.isBands ? QStringLiteral("bands %1").arg(curve.signal) : signal.unit;
+        auto found = std::find_if(groups->begin(), groups->end(), [&](const Group &each) { return each.key == key; });
+        if (found == groups->end()) {
+            ReportPlot plot;
+            plot.begin = secondsOf(m_selection.begin);
+            plot.end = secondsOf(m_selection.end + 1);
+            found = groups->insert(groups->end(), {key, signal.unit, plot});
+        }
+        found->plot.curves.push_back(scaled(trace.intervals, curve.gain, curve.offset));
+        found->plot.names << name;
+    }
+    static std::vector<overview::Bucket> scaled(std::vector<overview::Bucket> buckets, double gain, double offset)
+    {
+        for (overview::Bucket &bucket : buckets) {
+            bucket.minimum = gain * bucket.minimum + offset;
+            bucket.maximum = gain * bucket.maximum + offset;
+            if (bucket.minimum > bucket.maximum)
+                std::swap(bucket.minimum, bucket.maximum);
+        }
+        return buckets;
+    }
     QByteArray plots() const
+    {
+        QByteArray drawings;
+        for (const ReportPanel &panel : m_selection.panels)
+            drawings += panelPlots(panel);
+        if (m_selection.panels.empty())
+            drawings = signalPlots();
+        return drawings.isEmpty() ? drawings
+                                  : "<h2>Signals over time</h2>\n<div class=\"plots\">" + drawings + "</div>\n";
+    }
+    QByteArray signalPlots() const
     {
         QByteArray drawings;
         for (const int signal : chosen()) {
@@ -359,8 +451,7 @@ private:
             }
             drawings += plot.curves.empty() ? QByteArray() : drawingOf(plot);
         }
-        return drawings.isEmpty() ? drawings
-                                  : "<h2>Signals over time</h2>\n<div class=\"plots\">" + drawings + "</div>\n";
+        return drawings;
     }
     QByteArray happenings() const
     {
@@ -498,6 +589,16 @@ QByteArray htmlOfMarkdown(const QString &text)
     }
     end();
     return html;
+}
+
+QByteArray mediaTypeOf(const QByteArray &picture)
+{
+    if (picture.startsWith("\x89PNG\r\n"))
+        return "image/png";
+    if (picture.startsWith("\xff\xd8\xff"))
+        return "image/jpeg";
+    const QByteArray head = picture.left(1000).trimmed();
+    return head.startsWith("<svg") || (head.startsWith("<?xml") && head.contains("<svg")) ? "image/svg+xml" : "";
 }
 
 QByteArray reportOf(Recording &recording, const ReportSelection &selection, int *damages)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Recording.h"
+#include "ReportLayout.h"
 
 namespace qplc {
 
@@ -15,7 +16,20 @@ struct ReportSelection
     /// Sections of others behind the figures: headings `#`, tables `| a | b |`, lists `- a`, and
     /// paragraphs, as in Markdown.
     QStringList sections;
+    /// Plots in place of those of signalNumbers. Formulas are named, and not drawn: only a window
+    /// calculates them.
+    std::vector<ReportPanel> panels;
+    struct Picture
+    {
+        QString title;
+        QByteArray bytes;  // PNG, JPEG or SVG
+    };
+    std::vector<Picture> pictures;  // before the plots
 };
+
+/// The kind of a picture by its first bytes: "image/png", "image/jpeg", "image/svg+xml"; empty: it
+/// is none of these.
+QByteArray mediaTypeOf(const QByteArray &picture);
 
 /// A page of HTML that contains all it needs: figures, plots, what has happened, jitter, nodes and
 /// signals. It is light or dark as its reader wants it, and light on paper.

@@ -393,12 +393,15 @@ const QVector<Command> &commands()
          "One file of HTML that needs no other: figures, plots, events, jitter, nodes and\n"
          "signals. --section adds text behind the figures: headings (#), tables with |,\n"
          "lists (-) and paragraphs, as in Markdown; - reads it from the standard input.\n"
+         "With --layout, plots are those of a layout of the Control Center.\n"
          "TIME is in seconds since the begin, or a moment as 2026-11-20T14:03:12 (UTC).",
          {output,
           {"signals", "LIST", "Those that have plots; default the first that change."},
           from,
           upTo,
           {"section", "FILES", "Files with text, with commas between them."},
+          {"layout", "FILE", "Layout whose time plots are drawn."},
+          {"picture", "FILES", "Pictures (PNG, JPEG, SVG), with commas between them."},
           force},
          {QStringLiteral("qtplc report flight.mcap -o report.html"),
           QStringLiteral("qtplc report flight.mcap -o report.html --section power.md")},

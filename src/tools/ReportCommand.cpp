@@ -6,6 +6,7 @@
 #include "recording/RecordingReport.h"
 
 #include <QtCore/QFile>
+#include <QtCore/QFileInfo>
 #include <QtCore/QJsonObject>
 
 #include <cstdio>
@@ -14,7 +15,9 @@ namespace tools {
 
 namespace {
 
-constexpr qint64 LargestSection = 1 << 20;  // [byte]
+constexpr qint64 LargestSection = 1 << 20;   // [byte]
+constexpr qint64 LargestPicture = 16 << 20;  // [byte]
+constexpr qint64 LargestLayout = 4 << 20;    // [byte]
 
 /// The files of --section, with commas between them; -: the standard input. \return false, with the
 /// message out
@@ -40,6 +43,58 @@ bool readSections(const CommandCall &call, QStringList *sections)
     return true;
 }
 
+/// \return false, with the message out
+bool readFile(const CommandCall &call, const char *option, const QString &name, qint64 largest, QByteArray *bytes)
+{
+    QFile file(name);
+    if (!file.open(QIODevice::ReadOnly)) {
+        call.application.usageError(
+            QStringLiteral("--%1: cannot open '%2': %3").arg(QLatin1String(option), name, file.errorString()));
+        return false;
+    }
+    *bytes = file.read(largest + 1);
+    if (bytes->size() <= largest)
+        return true;
+    call.application.usageError(
+        QStringLiteral("--%1: '%2' is longer than %3 MiB").arg(QLatin1String(option), name).arg(largest >> 20));
+    return false;
+}
+
+/// The files of --picture, with commas between them.
+bool readPictures(const CommandCall &call, std::vector<qplc::ReportSelection::Picture> *pictures)
+{
+    const QStringList names
+        = call.application.value(QStringLiteral("picture")).split(QLatin1Char(','), Qt::SkipEmptyParts);
+    for (const QString &name : names) {
+        QByteArray bytes;
+        if (!readFile(call, "picture", name, LargestPicture, &bytes))
+            return false;
+        if (qplc::mediaTypeOf(bytes).isEmpty()) {
+            call.application.usageError(
+                QStringLiteral("--picture: '%1' is not a picture; use PNG, JPEG or SVG").arg(name));
+            return false;
+        }
+        pictures->push_back({QFileInfo(name).completeBaseName(), bytes});
+    }
+    return true;
+}
+
+/// The time plots of the file of --layout.
+bool readLayout(const CommandCall &call, std::vector<qplc::ReportPanel> *panels)
+{
+    const QString name = call.application.value(QStringLiteral("layout"));
+    QByteArray json;
+    if (name.isEmpty())
+        return true;
+    if (!readFile(call, "layout", name, LargestLayout, &json))
+        return false;
+    QString error;
+    if (qplc::readLayoutPlots(json, panels, &error))
+        return true;
+    call.application.usageError(QStringLiteral("--layout '%1': %2").arg(name, error));
+    return false;
+}
+
 }  // namespace
 
 int writeReport(const CommandCall &call)
@@ -50,7 +105,8 @@ int writeReport(const CommandCall &call)
     qplc::Recording recording;
     qplc::ReportSelection selection;
     if (!openRecording(call, &recording) || !readTimes(call, recording, &selection.begin, &selection.end)
-        || !readSections(call, &selection.sections))
+        || !readSections(call, &selection.sections) || !readPictures(call, &selection.pictures)
+        || !readLayout(call, &selection.panels))
         return call.application.exitCode();
     selection.begin = std::max(selection.begin, recording.begin());
     selection.end = std::min(selection.end, recording.end());

@@ -1,13 +1,17 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Exports a recording with qtplc and reads the tables with other programs: CSV with Python, Parquet
-as its format says, MATLAB with h5py, MATLAB and CSV with Octave, where these are installed.
+as its format says, MATLAB with h5py, MATLAB and CSV with Octave, where these are installed. Writes
+reports with plots of a layout, and with pictures.
 
 usage: tst_export.py QTPLC MAKE_RECORDING
 """
+import base64
 import csv
+import json
 import math
 import os
+import re
 import shutil
 import struct
 import subprocess
@@ -266,6 +270,104 @@ class Exports(unittest.TestCase):
         output = self.output("rest.csv")
         self.assertIn("1 places of the recording are damaged", run(damaged, "-o", output, code=1))
         self.assertEqual(len(output.read_text().splitlines()), CYCLES - 200 + 1)
+
+
+LAYOUT = {
+    "format": "QtPLC layout",
+    "tabs": [
+        {
+            "tree": {
+                "split": "vertical",
+                "children": [
+                    {
+                        "type": "Time plot",
+                        "settings": {
+                            "title": "Places",
+                            "curves": [
+                                {"signal": "position.x"},
+                                {"signal": "force[1]", "gain": -2, "offset": 1, "name": "drag"},
+                                {"signal": "force[2]"},
+                                {"signal": "= norm(force)"},
+                                {"signal": "on", "visible": False},
+                            ],
+                        },
+                    },
+                    {"type": "Gauge", "settings": {"signal": "time"}},
+                ],
+            }
+        }
+    ],
+}
+PNG = b"\x89PNG\r\n\x1a\n" + bytes(16)
+
+
+class Reports(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.scratch = tempfile.TemporaryDirectory()
+        cls.folder = Path(cls.scratch.name)
+        subprocess.run([MAKE_RECORDING, str(cls.folder / "flight.mcap")], check=True, stdout=subprocess.DEVNULL)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.scratch.cleanup()
+
+    def report(self, *arguments, code=0):
+        """The page, or what is said in place of it."""
+        page = self.folder / "report.html"
+        page.unlink(missing_ok=True)
+        command = [QTPLC, "report", "flight.mcap", "-o", page.name, *arguments]
+        done = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, timeout=60)
+        self.assertEqual(done.returncode, code, done.stderr)
+        self.assertEqual(page.exists(), code == 0)
+        return done.stderr if code else page.read_text()
+
+    def write(self, name, content):
+        (self.folder / name).write_bytes(content)
+        return name
+
+    def test_the_plots_are_those_of_the_layout(self):
+        page = self.report("--layout", self.write("layout.json", json.dumps(LAYOUT).encode()))
+        plots = page[page.index("Signals over time") : page.index("<h2>Events")]
+        captions = re.findall(r"<figcaption>(.*?)</figcaption>", plots)
+        self.assertEqual(captions[0], "Places: position.x [m]")
+        self.assertEqual(
+            captions[1],
+            'Places [N] <span class="c0">drag</span> <span class="c1">force[2]</span>',
+            "one axis for a unit",
+        )
+        self.assertEqual(captions[2:], ["Places"])
+        self.assertIn("Not drawn: = norm(force)", plots)
+        self.assertEqual(plots.count('class="curve'), 3)
+
+    def test_gain_and_offset_are_those_of_the_layout(self):
+        settings = LAYOUT["tabs"][0]["tree"]["children"][0]["settings"]
+        plain = {"signal": "position_x"}
+
+        def labels(curve):
+            layout = dict(LAYOUT, tabs=[{"tree": {"type": "Time plot", "settings": dict(settings, curves=[curve])}}])
+            page = self.report("--layout", self.write("one.json", json.dumps(layout).encode()))
+            plots = page[page.index("Signals over time") : page.index("<h2>Events")]
+            return [float(n) for n in re.findall(r'text-anchor="end">(.*?)<', plots)]
+
+        self.assertEqual(labels(plain), [0, 200, 400, 600, 800])
+        self.assertEqual(labels(dict(plain, gain=-1, offset=100)), [-600, -400, -200, 0])
+
+    def test_pictures_are_part_of_the_page(self):
+        page = self.report("--picture", self.write("kite.png", PNG))
+        self.assertIn("<figcaption>kite</figcaption>", page)
+        (data,) = re.findall(r'src="data:image/png;base64,([^"]+)"', page)
+        self.assertEqual(base64.b64decode(data), PNG)
+
+    def test_what_is_no_layout_or_picture_is_refused(self):
+        text = self.write("text.txt", b"kite")
+        self.assertIn("is not a picture; use PNG, JPEG or SVG", self.report("--picture", text, code=2))
+        self.assertIn("cannot open 'none.png'", self.report("--picture", "none.png", code=2))
+        self.assertIn("--layout 'text.txt': at byte", self.report("--layout", text, code=2))
+        other = self.write("other.json", b"{}")
+        self.assertIn("is not a layout of the Control Center", self.report("--layout", other, code=2))
+        empty = self.write("empty.json", json.dumps(dict(LAYOUT, tabs=[])).encode())
+        self.assertIn("has no time plot", self.report("--layout", empty, code=2))
 
 
 if __name__ == "__main__":
