@@ -7,6 +7,7 @@
 #include "SceneDrawing.h"
 #include "View3DEditor.h"
 #include "View3DOverlay.h"
+#include "gui/panel/DrawNow.h"
 
 #include <QtWidgets/QLabel>
 
@@ -31,6 +32,7 @@ View3DPicture::View3DPicture(QPlcView3D *view)
     m_frame.setSingleShot(true);
     m_frame.setTimerType(Qt::PreciseTimer);
     m_watchdog.setSingleShot(true);
+    view->installEventFilter(this);
     QPlcPanelContext *context = view->context();
     for (const auto change : {&QPlcPanelContext::signalsChanged, &QPlcPanelContext::timeChanged})
         connect(context, change, this, &View3DPicture::want);
@@ -147,6 +149,18 @@ void View3DPicture::want()
     m_isDue = true;
     if (!m_frame.isActive())
         draw();
+}
+
+bool View3DPicture::eventFilter(QObject *view, QEvent *event)
+{
+    if (event->type() == DrawNow::Kind && m_renderer) {
+        m_frame.stop();
+        if (m_isDue)
+            draw();
+        if (m_isDue || m_renderer->isBusy())
+            static_cast<DrawNow *>(event)->setPending();
+    }
+    return QObject::eventFilter(view, event);
 }
 
 void View3DPicture::draw()

@@ -34,6 +34,8 @@ public:
     void paint();
     /// A new picture is wanted.
     void want();
+    /// Of the view: DrawNow is pending until the picture is that of what is shown.
+    bool eventFilter(QObject *view, QEvent *event) override;
     QString openGlError() const { return m_openGlError; }
     /// Null before the first picture was wanted.
     SceneRenderer *renderer() { return m_renderer.get(); }

@@ -21,6 +21,16 @@ QString formatOf(const CommandCall &call, const QString &output)
     const QStringList formats = qplc::TableWriter::formats();
     if (formats.contains(format))
         return format;
+    const QStringList pictures{QStringLiteral("video"), QStringLiteral("frames"), QStringLiteral("mp4"),
+                               QStringLiteral("webm"), QStringLiteral("png")};
+    if (pictures.contains(format)) {
+        call.application.usageError(
+            QStringLiteral(
+                "qtplc draws no pictures; a Control Center does: awe_control_center --recording '%1' --video "
+                "'%2'")
+                .arg(call.arguments.value(0), output));
+        return {};
+    }
     const bool isMat = format == QLatin1String("mat");
     call.application.usageError(isMat ? QStringLiteral("this qtplc was built without HDF5, so it writes no mat")
                                       : QStringLiteral("'%1' is not a format; use --format %2")

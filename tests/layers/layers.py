@@ -267,6 +267,7 @@ OF_MACHINE = (
         "a thread",
         "realtime/RealTimeSetup.cpp realtime/StackPrefault.cpp realtime/WakeUpProbe.cpp transport/LoopbackProbe.cpp",
     ),
+    ("runs the program that makes a video", "a process", "gui/window/VideoSink.cpp"),
     ("runs the program of a node that is replayed", "a process", "replay/NodeProgram.cpp replay/NodeProgram.h"),
     ("measures the machine", "a socket", "transport/LoopbackProbe.cpp"),
     (

@@ -96,7 +96,55 @@ void addControlCenterOptions(QPlcApplicationOptions &application)
         QStringLiteral(
             "Time until the picture is made: of flight with --demo, else since the window is open [s]. Without it 5."),
         "SECONDS");
+    add(application, "video",
+        QStringLiteral(
+            "Makes a video of a recording without a person, and ends: NAME.mp4 or NAME.webm with ffmpeg, any "
+            "other name is a folder that gets a picture for each frame. --size is that of the pictures."),
+        "NAME");
+    add(application, "from", QStringLiteral("Begin of the video, from the begin of the recording [s]."), "SECONDS");
+    add(application, "to", QStringLiteral("End of the video [s]."), "SECONDS");
+    add(application, "fps", QStringLiteral("Pictures in a second of the video. Without it 25."), "NUMBER");
+    add(application, "speed", QStringLiteral("Seconds of the recording in a second of the video. Without it 1."),
+        "FACTOR");
+    add(application, "span", QStringLiteral("Time that plots show in the video [s]. Without it all of its time."),
+        "SECONDS");
+    add(application, "force", QStringLiteral("Replaces a video of this name."));
     application.addSecurityOptions(QPlcSecurity::NodeSide);
+}
+
+/// \return false, with the message out, when an option of --video is not a number in its range
+static bool readVideo(QPlcApplicationOptions &application, ControlCenterSettings *settings)
+{
+    struct Number
+    {
+        const char *name;
+        double least;
+        double most;
+        double *value;
+    };
+    QPlcVideoExport::Options &options = settings->videoOptions;
+    settings->video = application.value(QStringLiteral("video"));
+    options.isReplacing = application.isSet(QStringLiteral("force"));
+    const Number numbers[] = {{"from", 0.0, 1e9, &options.from},
+                              {"to", 0.0, 1e9, &options.to},
+                              {"fps", 1.0, 120.0, &options.framesPerSecond},
+                              {"speed", 0.001, 1e5, &options.speed},
+                              {"span", 0.001, 1e9, &options.span}};
+    for (const Number &number : numbers) {
+        const QString name = QLatin1String(number.name);
+        if (!application.isSet(name))
+            continue;
+        if (settings->video.isEmpty())
+            return application.usageError(QStringLiteral("--%1 belongs to a video: give --video NAME, too").arg(name)),
+                   false;
+        if (!application.number(name, number.least, number.most, number.value))
+            return false;
+    }
+    if (!settings->video.isEmpty() && (settings->recordings.size() != 1 || !settings->screenshot.isEmpty()))
+        return application.usageError(QStringLiteral("--video shows one recording: give --recording FILE once, and no "
+                                                     "--screenshot")),
+               false;
+    return true;
 }
 
 bool readControlCenterOptions(QPlcApplicationOptions &application, ControlCenterSettings *settings)
@@ -123,8 +171,10 @@ bool readControlCenterOptions(QPlcApplicationOptions &application, ControlCenter
     if (error.isEmpty() && application.isSet(QStringLiteral("after")) && settings->screenshot.isEmpty())
         error = QStringLiteral("--after says when a picture is made: give --screenshot FILE.png, too");
     if (!error.isEmpty())
-        application.usageError(error);
-    return error.isEmpty();
+        return application.usageError(error), false;
+    const bool isRead = readVideo(application, settings);
+    settings->videoOptions.size = settings->size;
+    return isRead;
 }
 
 }  // namespace awe

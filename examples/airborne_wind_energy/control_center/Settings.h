@@ -24,6 +24,8 @@ struct ControlCenterSettings
     bool demo = false;
     QString screenshot;  // file name; empty: none
     double after = 5.0;  // [s]
+    QString video;       // file or folder; empty: none
+    QPlcVideoExport::Options videoOptions;
     std::optional<QPlcControlCenter::Theme> theme;
     QString layout;  // file name; empty: as it was
     QString tab;     // empty: as it was

@@ -2,6 +2,7 @@
 #include "DemoFlight.h"
 #include "ScreenshotTask.h"
 #include "Settings.h"
+#include "VideoTask.h"
 #include "kite/OptionFigures.h"
 #include "kite/WindWindow.h"
 
@@ -53,7 +54,7 @@ bool prepare(QPlcGuiApplication &application, QPlcControlCenter &window, const a
         || !add(QStringLiteral("Four views"), QStringLiteral("four_views"))
         || !add(QStringLiteral("Options of the plant"), QStringLiteral("plant_options")))
         return application.usageError(error), false;
-    if (settings.screenshot.isEmpty())
+    if (settings.screenshot.isEmpty() && settings.video.isEmpty())
         window.restoreView();
     else
         window.resetLayout();
@@ -88,6 +89,7 @@ void addTexts(QPlcGuiApplication &application)
         {QStringLiteral("awe_control_center --demo"), QStringLiteral("awe_control_center --master 192.168.1.5:50000"),
          QStringLiteral("awe_control_center --master north=winch1:50000 --master south=winch2:50000"),
          QStringLiteral("awe_control_center --recording flight.mcap"),
+         QStringLiteral("awe_control_center --recording flight.mcap --video kite.mp4 --from 10 --to 60 --speed 2"),
          QStringLiteral("awe_control_center --demo --tab 'Real time' --theme dark"),
          QStringLiteral("awe_control_center --demo --size 1366x768 --screenshot kite.png --after 20")});
     awe::addControlCenterOptions(application);
@@ -139,7 +141,9 @@ int main(int argc, char **argv)
     if (!prepare(application, window, settings))
         return application.exitCode();
     awe::ScreenshotTask screenshot(&window, settings.screenshot, settings.after);
+    awe::VideoTask video(&window, settings.video, settings.videoOptions);
     window.show();
     begin(demo, screenshot, settings, clock);
-    return screenshot.exitCode(QApplication::exec());
+    video.begin();
+    return video.exitCode(screenshot.exitCode(QApplication::exec()));
 }

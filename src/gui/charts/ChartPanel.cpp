@@ -2,6 +2,7 @@
 #include "ChartPanel.h"
 
 #include "QPlcWidget.h"
+#include "gui/panel/DrawNow.h"
 #include "gui/panel/PanelAction.h"
 
 #include <QtCore/QCoreApplication>
@@ -24,7 +25,7 @@ public:
     }
     bool eventFilter(QObject * /*watched*/, QEvent *event) override
     {
-        switch (event->type()) {
+        switch (int(event->type())) {
         case QEvent::Show:
             m_chart->m_ticks.start();
             m_chart->tick();
@@ -36,6 +37,10 @@ public:
             return false;
         case QEvent::Resize:
             m_chart->resized();
+            return false;
+        case DrawNow::Kind:
+            m_chart->tick();
+            m_chart->drawNow();
             return false;
         case QEvent::KeyPress:
             return static_cast<QKeyEvent *>(event)->key() == Qt::Key_Escape && m_chart->m_exporter->dismiss();

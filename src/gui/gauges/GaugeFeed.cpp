@@ -3,6 +3,7 @@
 
 #include "QPlcSignalIndexTable.h"
 #include "gui/models/ValueFormat.h"
+#include "gui/panel/DrawNow.h"
 #include "gui/panel/FigureFont.h"
 #include "gui/plant/LimitOf.h"
 #include "gui/plot/Formula.h"
@@ -233,6 +234,13 @@ void GaugeFeed::refresh(Texts texts)
     if (picture.message.isEmpty())
         showSignal(&picture, isDue);
     show(picture);
+}
+
+bool GaugeFeed::eventFilter(QObject *panel, QEvent *event)
+{
+    if (event->type() == DrawNow::Kind)
+        refresh(Texts::Renew);
+    return QObject::eventFilter(panel, event);
 }
 
 void GaugeFeed::show(const GaugePicture &picture)

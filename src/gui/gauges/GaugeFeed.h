@@ -34,6 +34,8 @@ public:
     void setActive(bool isActive);
     /// The values of a program, where there is no window. \param index  in the table of the process
     void add(const QList<QPlcSignalList> &batch, QPlcSignalIndex index);
+    /// Of the panel: DrawNow renews the texts.
+    bool eventFilter(QObject *panel, QEvent *event) override;
     /// Smallest and largest values begin anew.
     void reset();
 

@@ -113,6 +113,7 @@ void QPlcGauge::contextChanged()
 {
     d->isInWindow = true;
     d->feed.setContext(context());
+    installEventFilter(&d->feed);
     connect(context(), &QPlcPanelContext::themeChanged, this, QOverload<>::of(&QWidget::update));
 }
 

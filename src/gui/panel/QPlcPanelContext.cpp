@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "QPlcPanelContext.h"
 
+#include "DrawNow.h"
 #include "FigureFont.h"
 #include "QPlcTimeAxis.h"
 #include "QPlcWidget.h"
@@ -166,7 +167,7 @@ struct QPlcPanelContext::Private : public QObject
 
     bool eventFilter(QObject *watched, QEvent *event) override
     {
-        if (watched == panel && event->type() == QEvent::Show)
+        if (watched == panel && (event->type() == QEvent::Show || event->type() == DrawNow::Kind))
             tell();
         return QObject::eventFilter(watched, event);
     }
