@@ -154,6 +154,7 @@ def example_messages():
                  active=True, text="node Winch is gone in the middle of its work: the connection ended"),
             dict(sequence=44, time=hex64(1767225604200000000), severity="info", kind="node", source="Winch",
                  alarm="node Winch", active=False, text="node Winch is back, after 3.2 s")])),
+        (67, "Note", dict(text="the left steering line vibrates", whoever="anna")),
         (50, "GetStatistics", {}),
         (50, "GetStatistics", dict(histograms=True)),
         (51, "Statistics", example_statistics()),

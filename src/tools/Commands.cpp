@@ -234,9 +234,9 @@ const QVector<Command> &commands()
         {"events",
          "",
          "Shows what has happened in the master.",
-         "States, nodes, late answers, faults, values that were set, leases and overruns:\n"
-         "the last 1000 of them. --json prints an object for each line. --file needs no\n"
-         "master: it shows the events that one has written to FILE, and to the older files\n"
+         "States, nodes, late answers, faults, values that were set, leases, overruns and\n"
+         "notes: the last 1000 of them. --json prints an object for each line. --file needs\n"
+         "no master: it shows the events that one has written to FILE, and to older files\n"
          "FILE.1, FILE.2, ... The option --events of a master says where they are. Of a\n"
          "recording (.mcap, or a folder) it also shows who has set which signal, and which\n"
          "cycle has adopted the value, and who held which lease.",
@@ -251,6 +251,19 @@ const QVector<Command> &commands()
          0,
          0,
          &showEvents},
+        {"note",
+         "TEXT...",
+         "Notes down what you see, for events and recordings.",
+         "The note is an event of the master with who wrote it, from where, and when: in\n"
+         "qtplc events, in the Control Center, and at its cycle in every recording. At\n"
+         "most 200 characters on one line. It keeps no files: qtplc record mark does.",
+         {},
+         {QStringLiteral("qtplc note the left steering line vibrates"),
+          QStringLiteral("qtplc note \"gust from the north\"")},
+         Command::NoArguments,
+         1,
+         any,
+         &writeNote},
         {"find",
          "",
          "Finds masters, without knowing an address.",

@@ -98,6 +98,7 @@ int stopSafely(const CommandCall &call);
 int resetMaster(const CommandCall &call);
 int evict(const CommandCall &call);
 int admit(const CommandCall &call);
+int writeNote(const CommandCall &call);
 int startRealTime(const CommandCall &call);
 int stopRealTime(const CommandCall &call);
 int showSchedule(const CommandCall &call);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // init, arm, start, stop, safestop, reset: what brings a plant from one state to the next; evict
-// and admit: who takes part.
+// and admit: who takes part; note: what a person says.
 #include "Commands.h"
 #include "TerminalText.h"
 
@@ -75,6 +75,12 @@ int admit(const CommandCall &call)
 {
     const QString name = call.arguments.value(0);
     return command(call, messages::Admit{name}, QStringLiteral("admitted: %1").arg(printable(name)));
+}
+
+int writeNote(const CommandCall &call)
+{
+    const QString text = call.arguments.join(QLatin1Char(' '));
+    return command(call, messages::Note{text, {}}, QStringLiteral("noted: %1").arg(printable(text)));
 }
 
 int stopSafely(const CommandCall &call)

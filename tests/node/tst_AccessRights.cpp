@@ -61,9 +61,9 @@ private:
             "Hello",       "Register",      "AttachCyclicChannel", "ReceiveMyInitialOutputStates",
             "Initialized", "RealTimeReady", "NodeFault",           "Stop",
             "SafeStop"};
-        static const QStringList operating{"InitializeAllStates", "Arm",        "Reset",
-                                           "StartRealTime",       "SetSignals", "TakeLease",
-                                           "ReleaseLease",        "Evict",      "Admit"};
+        static const QStringList operating{
+            "InitializeAllStates", "Arm",          "Reset", "StartRealTime", "SetSignals",
+            "TakeLease",           "ReleaseLease", "Evict", "Admit",         "Note"};
         return looking.contains(kind) || takingPart.contains(kind)
             || (operating.contains(kind) && (role == Role::Operator || role == Role::Engineer));
     }

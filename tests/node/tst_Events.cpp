@@ -30,6 +30,10 @@ private Q_SLOTS:
     void restoredValueIsReported();
     void leaseChangesAreReported();
     void skippedCyclesAreReported();
+    void noteIsAnEventOfItsWriter();
+    void noteThatIsNoOneLineIsRefused_data();
+    void noteThatIsNoOneLineIsRefused();
+    void notesHaveALimit();
     void backlogIsAskedForInParts();
     void eventsArePushedToToolsWithTheFeature();
     void logAndEventHaveTheSameText();
@@ -349,6 +353,52 @@ void tst_Events::skippedCyclesAreReported()
     QCOMPARE(texts.size(), 1);
     QCOMPARE(texts.at(0),
              QString("warning Master: cycles that began a period or more late since the last report: 1; left out: 5"));
+}
+
+void tst_Events::noteIsAnEventOfItsWriter()
+{
+    const QString text(200, QChar(0xe9));
+    QCOMPARE(m_tool->ask(QPlcMessage::Note, {{"text", "gust from the north"}}).kind(), QPlcMessage::Done);
+    QCOMPARE(m_tool->ask(QPlcMessage::Note, {{"text", text}, {"whoever", "bert@ground"}}).kind(), QPlcMessage::Done);
+    QCOMPARE(events("note"), (QStringList{"info Anna: gust from the north", "info bert@ground: " + text}));
+}
+
+void tst_Events::noteThatIsNoOneLineIsRefused_data()
+{
+    QTest::addColumn<QJsonValue>("text");
+    QTest::addColumn<QString>("reason");
+    QTest::newRow("nothing") << QJsonValue(QJsonValue::Undefined) << "'text'";
+    QTest::newRow("number") << QJsonValue(7) << "'text'";
+    QTest::newRow("empty") << QJsonValue("") << "empty";
+    QTest::newRow("blank") << QJsonValue(" \u2003 ") << "empty";
+    QTest::newRow("too long") << QJsonValue(QString(201, 'x')) << "has 201 characters; write at most 200";
+    QTest::newRow("two lines") << QJsonValue("one\ntwo") << "one?two";
+    QTest::newRow("terminal") << QJsonValue("\x1b[2J") << "?[2J";
+    QTest::newRow("turned around") << QJsonValue(QString("a") + QChar(0x202e) + "b") << "a?b";
+}
+
+void tst_Events::noteThatIsNoOneLineIsRefused()
+{
+    QFETCH(QJsonValue, text);
+    QFETCH(QString, reason);
+    const QPlcMessage answer = m_tool->ask(QPlcMessage::Note, {{"text", text}});
+    QCOMPARE(answer.kind(), QPlcMessage::Failed);
+    QCOMPARE(answer.text("error"), QString("MalformedMessage"));
+    QVERIFY2(answer.text("text").contains(reason), qPrintable(answer.text("text")));
+    QCOMPARE(events("note"), QStringList());
+}
+
+/// The log has room for 1000 events: notes must not push the others out.
+void tst_Events::notesHaveALimit()
+{
+    for (int i = 1; i <= 20; ++i)
+        QCOMPARE(m_tool->ask(QPlcMessage::Note, {{"text", QString::number(i)}}).kind(), QPlcMessage::Done);
+    const QPlcMessage answer = m_tool->ask(QPlcMessage::Note, {{"text", "21"}});
+    QCOMPARE(answer.text("error"), QString("TooMuch"));
+    QCOMPARE(events("note").size(), 20);
+    pass(1s);
+    QCOMPARE(m_tool->ask(QPlcMessage::Note, {{"text", "21"}}).kind(), QPlcMessage::Done);
+    QCOMPARE(events("note").last(), QString("info Anna: 21"));
 }
 
 void tst_Events::backlogIsAskedForInParts()

@@ -19,6 +19,7 @@ private Q_SLOTS:
     void cleanup();
     void whoSetsAValueIsTold();
     void theProgramOfTheMasterIsToldToo();
+    void notesAreToldWithTheirCycle();
     void leasesAreTold();
     void aPhaseBeginsWithWhatHasLedToIt();
     void whoStopsAPhaseIsTold();
@@ -145,6 +146,19 @@ void tst_PhaseTexts::theProgramOfTheMasterIsToldToo()
     QCOMPARE(told[0].text.value("how").toString(), QString("program"));
     QCOMPARE(told[0].text.value("to").toString(), QString("3"));
     QVERIFY(!told[0].text.contains("address"));
+}
+
+void tst_PhaseTexts::notesAreToldWithTheirCycle()
+{
+    QVERIFY(start());
+    QCOMPARE(m_anna->ask(QPlcMessage::Note, {{"text", "gust"}}).kind(), QPlcMessage::Done);
+    const std::vector<Told> told = find(RecordedText::Event, "kind", "note");
+    QCOMPARE(told.size(), std::size_t(1));
+    QCOMPARE(told[0].text.value("text").toString(), QString("gust"));
+    QCOMPARE(told[0].text.value("source").toString(), QString("Anna"));
+    QVERIFY(told[0].text.value("address").toString().startsWith("127.0.0.1"));
+    QVERIFY(told[0].head.cycle != RecordedText::BeforePhase);
+    QVERIFY(find(RecordedText::Command, "command", "Note").empty());  // it is told once
 }
 
 void tst_PhaseTexts::leasesAreTold()

@@ -154,8 +154,8 @@ void tst_qtplc::helpShowsEveryCommand()
     QCOMPARE(outcome.exitCode, 0);
     QCOMPARE(outcome.errors, QString());
     for (const char *command :
-         {"list", "get",      "set",   "echo",  "watch", "hz",       "state",  "init",   "arm",  "start",
-          "stop", "safestop", "reset", "evict", "admit", "schedule", "jitter", "doctor", "help", "complete"})
+         {"list",     "get",   "set",   "echo",  "watch",    "hz",     "state",  "init", "arm",      "start", "stop",
+          "safestop", "reset", "evict", "admit", "schedule", "jitter", "doctor", "help", "complete", "note"})
         QVERIFY2(outcome.output.contains(QStringLiteral("\n  %1 ").arg(QLatin1String(command))), command);
     QVERIFY(outcome.output.contains(QLatin1String("\nExamples:\n  qtplc list\n")));
     QCOMPARE(runProgram(path("qtplc"), {QStringLiteral("--version")}).exitCode, 0);

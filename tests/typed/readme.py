@@ -51,6 +51,7 @@ def expected(terminal, programs):
         "./qtplc watch 'tether*' power": Expectation(shows="tetherLength", keys=("power", b"q")),
         "./qtplc get tetherLength --plain": Expectation(shows=r"(?m)^\d+(\.\d+)?$"),
         "./qtplc hz": Expectation(shows=r"\d Hz", keys=(r"\d Hz", INTERRUPT), code=ANY),
+        "./qtplc note gust from the north": Expectation(shows="noted: gust from the north"),
         "./qtplc events": Expectation(shows="Real time"),
         "kill %1": Expectation(after=lambda: terminal.type("wait")),
         "./awe_sil --same-cycle": Expectation(shows="mean power"),

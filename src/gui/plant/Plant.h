@@ -125,6 +125,9 @@ public:
     /// \param how  what the person did, for people: "Esc Esc"
     int stop(const QString &how = QString());
     int perform(Action action);
+    /// Writes a remark of the person into the event log of the master, and so into recordings.
+    /// \param text  one line, at most messages::Note::longest characters
+    int note(const QString &text);
     /// Ends all connections of a node or person, and keeps it out until admit().
     int evict(const QString &name);
     /// Lets the node or person in again.

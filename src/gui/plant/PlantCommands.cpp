@@ -118,6 +118,11 @@ int Plant::admit(const QString &name)
     return command(messages::Admit{name});
 }
 
+int Plant::note(const QString &text)
+{
+    return command(messages::Note{text, PlantLeases::whoever()});
+}
+
 int Plant::setValues(const QHash<QString, QPlcValue> &values, std::chrono::nanoseconds duration)
 {
     messages::SetSignals wish{textsOf(values), std::nullopt};

@@ -13,7 +13,7 @@ namespace messages = qplc::messages;
 namespace {
 
 constexpr std::size_t mostEvents = 200;  // in one answer
-constexpr int longestText = 64;          // [characters] of who stops, and how
+constexpr int longestText = 64;          // [characters] of who stops or notes, and how
 constexpr int longestReason = 1000;      // [characters] of what becomes the reason of a state
 
 QString wordOf(const QString &given)
@@ -79,8 +79,7 @@ public:
     }
     void operator()(const messages::Stop &stop) const
     {
-        const QString called = wordOf(stop.whoever);
-        const QString who = qplc::shownName(m_connection->peer, called.isEmpty() ? m_connection->name : called);
+        const QString who = whoIs(stop.whoever);
         const QString how = wordOf(stop.how);
         if (d.parts->phase.isRunning() && d.state() != QPlcMasterNode::SafeStop)
             d.askedStop = {m_connection->socket, who, how, qplc::wallClockNow()};
@@ -143,6 +142,29 @@ public:
         finish(d.parts->leases.release(*m_connection, wish, &refusal), refusal);
     }
 
+    void operator()(const messages::Note &note) const
+    {
+        if (note.text.trimmed().isEmpty())
+            m_connection->fail(qplc::messages::errorWord::malformedMessage,
+                               QStringLiteral("the note is empty; write what has happened"));
+        else if (note.text.size() > messages::Note::longest)
+            m_connection->fail(qplc::messages::errorWord::malformedMessage,
+                               QStringLiteral("the note has %1 characters; write at most %2")
+                                   .arg(note.text.size())
+                                   .arg(messages::Note::longest));
+        else if (qplc::printable(note.text) != note.text)
+            m_connection->fail(qplc::messages::errorWord::malformedMessage,
+                               QStringLiteral("the note has a character that ends a line, controls a terminal or hides "
+                                              "text, shown as '?': %1; leave it out")
+                                   .arg(qplc::printable(note.text)));
+        else if (!d.journal.note(whoIs(note.whoever), m_connection->socket->peerName(), note.text))
+            m_connection->fail(qplc::messages::errorWord::tooMuch,
+                               QStringLiteral("too many notes: the master takes one each second, and 20 after a pause; "
+                                              "try again"));
+        else
+            m_connection->done();
+    }
+
     // ---- questions ----
     void operator()(const messages::GetState &) const
     {
@@ -184,6 +206,12 @@ public:
     }
 
 private:
+    /// The asker, for people. \param given  the person as the asker says
+    QString whoIs(const QString &given) const
+    {
+        const QString called = wordOf(given);
+        return qplc::shownName(m_connection->peer, called.isEmpty() ? m_connection->name : called);
+    }
     bool isOfNode(Message::Kind kind) const
     {
         if (!m_connection->isNode())

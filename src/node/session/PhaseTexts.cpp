@@ -172,8 +172,8 @@ void PhaseTexts::setPerson(const QObject *socket, Text *text) const
 void PhaseTexts::commanded(const MasterConnection &connection, const QPlcMessage &message)
 {
     if (message.kind() == QPlcMessage::SetSignals || message.kind() == QPlcMessage::TakeLease
-        || message.kind() == QPlcMessage::ReleaseLease)
-        return;  // they are told with their values and signals
+        || message.kind() == QPlcMessage::ReleaseLease || message.kind() == QPlcMessage::Note)
+        return;  // they are told with their values and signals, or as an event
     const bool isOpen = m_phase.ring().isOpen();
     if (isOpen && !hasRoom(&m_otherRoom))
         return;

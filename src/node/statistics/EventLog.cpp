@@ -37,6 +37,8 @@ QString kindName(JournalEvent::Kind kind)
         return QStringLiteral("security");
     case JournalEvent::Quality:
         return QStringLiteral("quality");
+    case JournalEvent::Note:
+        return messages::noteEvent;
     }
     return {};
 }

@@ -38,6 +38,8 @@ void log(const JournalEvent &event)
         qCDebug(lcMaster).noquote() << event.text;
     else if (event.severity != JournalEvent::Info)
         qCWarning(lcMaster).noquote() << event.text;
+    else if (event.kind == JournalEvent::Note)
+        qCInfo(lcMaster).noquote() << "note of" << event.source + ':' << event.text;
     else if (event.kind == JournalEvent::Node || event.kind == JournalEvent::Lease
              || event.kind == JournalEvent::Quality)
         qCInfo(lcMaster).noquote() << event.text;
@@ -178,6 +180,14 @@ void Journal::valueCameBack(const QString &signal, const QString &value)
     tellLimited(QStringLiteral("back ") + signal, QStringLiteral("former value restored: "),
                 {JournalEvent::Info, JournalEvent::Set, NodeRegistry::masterName(),
                  QStringLiteral("%1 = %2").arg(signal, value)});
+}
+
+bool Journal::note(const QString &who, const QString &address, const QString &text)
+{
+    if (!m_notes.take(monotonicNow()))
+        return false;
+    append(causedFrom(address, {JournalEvent::Info, JournalEvent::Note, who, text}));
+    return true;
 }
 
 // ---- security: strangers may do it as often as they like ----

@@ -66,6 +66,8 @@ public:
     void refused(const QString &name, const QString &address, const QString &reason);
     /// Somebody who was not let in.
     void strangerRefused(const QString &address, const QString &reason);
+    /// A remark of a person. \return false: there are too many of them, and nothing has happened
+    bool note(const QString &who, const QString &address, const QString &text);
     void valueCameBack(const QString &signal, const QString &value);
 
     /// From here on overruns are told. \param statistics  of the cycles; null: they have ended
@@ -90,7 +92,8 @@ private:
 
     EventLog m_events;
     ReportLimiter m_limiter;
-    TokenBucket m_refusals{1, 16};      // that are told one by one; more of them are told together
+    TokenBucket m_refusals{1, 16};  // that are told one by one; more of them are told together
+    TokenBucket m_notes{1, 20};
     std::map<QString, Alarm> m_alarms;  // that last
     QTimer m_limiterTimer;
     QTimer m_overrunTimer;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Field.h"
+#include "Greeting.h"
 #include "QPlcMessage.h"
 #include "Vocabulary.h"
 
@@ -19,6 +20,8 @@ struct Names<Severity>
 
 /// The kind of an event that tells the state of the master.
 constexpr QLatin1String stateEvent = word("state");
+/// The kind of an event that is a Note.
+constexpr QLatin1String noteEvent = word("note");
 
 struct EventEntry
 {
@@ -55,6 +58,19 @@ struct GetEvents
     std::optional<quint64> since;  // those after this sequence number
 
     static constexpr auto fields = std::make_tuple(field("since", &GetEvents::since, Presence::Checked));
+};
+
+/// A remark of a person about what happens now: an event, and so in recordings.
+struct Note
+{
+    static constexpr QPlcMessage::Kind kind = QPlcMessage::Note;
+    using Answer = Done;
+    static constexpr int longest = 200;  // [characters] of text
+    QString text;
+    QString whoever;  // the person
+
+    static constexpr auto fields = std::make_tuple(field("text", &Note::text, Presence::Required),
+                                                   field("whoever", &Note::whoever, Presence::WhenSet));
 };
 
 }  // namespace qplc::messages

@@ -69,6 +69,7 @@ constexpr bool isKind(quint8 number)
     case Kind::LeasesChanged:
     case Kind::GetEvents:
     case Kind::Events:
+    case Kind::Note:
         return true;
     }
     return false;
@@ -215,7 +216,8 @@ using ClientTable = Table<
     Row<TakeLease, Sender::Operators, Purpose::Command, Turn::InOrder, Outcome::Prompt, Writes::Signals>,
     Row<ReleaseLease, Sender::Operators, Purpose::Command, Turn::Urgent, Outcome::Prompt, Writes::Signals>,
     Row<GetLeases, Sender::Everybody, Purpose::Question, Turn::InOrder, Outcome::Prompt, Writes::Nothing>,
-    Row<GetEvents, Sender::Everybody, Purpose::Question, Turn::InOrder, Outcome::Prompt, Writes::Nothing>>;
+    Row<GetEvents, Sender::Everybody, Purpose::Question, Turn::InOrder, Outcome::Prompt, Writes::Nothing>,
+    Row<Note, Sender::Operators, Purpose::Command, Turn::InOrder, Outcome::Prompt, Writes::Nothing>>;
 
 /// By what somebody becomes known to a master, and a node of it.
 using Openings = ClientTable::Openings;
