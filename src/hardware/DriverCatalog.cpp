@@ -19,6 +19,8 @@ DriverCatalog::DriverCatalog()
          createCanDriver});
     add(QStringLiteral("canopen"),
         {QStringLiteral("a device on a CANopen bus, drives with the profile CiA 402 among them"), createCanOpenDriver});
+    add(QStringLiteral("canopen-device"),
+        {QStringLiteral("plays a device on a CANopen bus, for a master at the other end"), createCanOpenDeviceDriver});
     add(QStringLiteral("gpio"), {QStringLiteral("switches and lamps at the lines of a GPIO chip"), createGpioDriver});
     add(QStringLiteral("i2c-registers"),
         {QStringLiteral("any I2C device, its registers named by the configuration"), createI2cRegistersDriver});

@@ -10,6 +10,7 @@ namespace qplc {
 // The drivers of this library, each in the file of its name. What they do is in docs/hardware, and
 // above their classes.
 std::unique_ptr<QPlcDriver> createCanDriver();
+std::unique_ptr<QPlcDriver> createCanOpenDeviceDriver();
 std::unique_ptr<QPlcDriver> createCanOpenDriver();
 std::unique_ptr<QPlcDriver> createGpioDriver();
 std::unique_ptr<QPlcDriver> createI2cRegistersDriver();

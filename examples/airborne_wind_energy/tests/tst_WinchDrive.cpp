@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "DriveProfile.h"
 #include "WinchDrive.h"
 
 #include "Near.h"
@@ -33,6 +34,10 @@ private Q_SLOTS:
     void overspeedIsAFault();
     void brakeSlipsUnderMoreThanItCanHoldAndHoldsAgain();
     void resetRestoresTheInitialState();
+    void theProfileLeadsTheDriveThroughItsStates();
+    void everyLossOfTheMasterOfAProfileIsAQuickStopWithinItsRamp_data();
+    void everyLossOfTheMasterOfAProfileIsAQuickStopWithinItsRamp();
+    void aFaultOfAProfileEndsWithItsReset();
 
 private:
     static WinchDriveInputs command(double speed, double force);
@@ -40,6 +45,11 @@ private:
     static void run(WinchDrive &drive, const WinchDriveInputs &inputs, double seconds,
                     const std::function<void()> &look = {});
     static WinchDriveInputs silence(double force);
+    /// Steps of the drive behind its profile.
+    static void run(DriveProfile &profile, WinchDrive &drive, bool isConnected, std::uint16_t controlword,
+                    double seconds);
+    static void enable(DriveProfile &profile, WinchDrive &drive);
+    static constexpr double wantedSpeed = 120.0;  // [rad/s]
 };
 
 WinchDriveInputs tst_WinchDrive::command(double speed, double force)
@@ -320,6 +330,87 @@ void tst_WinchDrive::resetRestoresTheInitialState()
     QCOMPARE(drive.energies().tether, 0.0);
     run(drive, silence(1000.0), 0.5);
     QCOMPARE(drive.state(), DriveState::Disabled);  // the old command is forgotten
+}
+
+// ---- CiA 402 ----
+
+void tst_WinchDrive::run(DriveProfile &profile, WinchDrive &drive, bool isConnected, std::uint16_t controlword,
+                         double seconds)
+{
+    const long steps = std::lround(seconds / drive.parameters().step);
+    for (long i = 0; i < steps; ++i) {
+        profile.step(isConnected, controlword, drive.state());
+        WinchDriveInputs inputs = command(wantedSpeed, 500.0);
+        inputs.enable = profile.isEnabled();
+        drive.step(inputs);
+    }
+}
+
+void tst_WinchDrive::enable(DriveProfile &profile, WinchDrive &drive)
+{
+    for (const int controlword : {0x06, 0x07, 0x0F})
+        run(profile, drive, true, std::uint16_t(controlword), 0.01);
+    run(profile, drive, true, 0x0F, 2.0);
+}
+
+void tst_WinchDrive::theProfileLeadsTheDriveThroughItsStates()
+{
+    WinchDrive drive;
+    DriveProfile profile;
+    run(profile, drive, true, 0x0F, 0.1);
+    QCOMPARE(int(profile.statusword() & 0x4F), 0x40);  // a drive cannot be enabled at once
+    run(profile, drive, true, 0x06, 0.1);
+    QCOMPARE(int(profile.statusword() & 0x6F), 0x21);
+    run(profile, drive, true, 0x07, 0.1);
+    QCOMPARE(int(profile.statusword() & 0x6F), 0x23);
+    QCOMPARE(drive.state(), DriveState::Disabled);
+    run(profile, drive, true, 0x0F, 2.0);
+    QCOMPARE(int(profile.statusword() & 0x6F), 0x27);
+    COMPARE_NEAR(drive.speed(), wantedSpeed, 1.0);
+    run(profile, drive, true, 0x07, 1.0);
+    QCOMPARE(int(profile.statusword() & 0x6F), 0x23);
+    QCOMPARE(drive.state(), DriveState::Disabled);
+}
+
+void tst_WinchDrive::everyLossOfTheMasterOfAProfileIsAQuickStopWithinItsRamp_data()
+{
+    QTest::addColumn<bool>("isConnected");
+    QTest::addColumn<int>("controlword");
+    QTest::newRow("its heartbeat or the bus is lost") << false << 0x0F;
+    QTest::newRow("it commands the quick stop") << true << 0x02;
+}
+
+void tst_WinchDrive::everyLossOfTheMasterOfAProfileIsAQuickStopWithinItsRamp()
+{
+    QFETCH(bool, isConnected);
+    QFETCH(int, controlword);
+    WinchDrive drive;
+    DriveProfile profile;
+    enable(profile, drive);
+    COMPARE_NEAR(drive.speed(), wantedSpeed, 1.0);
+    const double ramp = wantedSpeed / drive.parameters().stopDeceleration;
+    run(profile, drive, isConnected, std::uint16_t(controlword), 0.5 * ramp);
+    QVERIFY(drive.speed() > 0.4 * wantedSpeed);  // a ramp, and no blow
+    QCOMPARE(int(profile.statusword() & 0x6F), 0x07);
+    run(profile, drive, isConnected, std::uint16_t(controlword), 0.5 * ramp + 0.05);
+    QVERIFY(std::abs(drive.speed()) < 1.0);
+    run(profile, drive, isConnected, std::uint16_t(controlword), 0.1);
+    QCOMPARE(int(profile.statusword() & 0x4F), 0x40);
+    QVERIFY(drive.isBrakeClosed());
+}
+
+void tst_WinchDrive::aFaultOfAProfileEndsWithItsReset()
+{
+    WinchDrive drive;
+    DriveProfile profile;
+    enable(profile, drive);
+    WinchDriveInputs inputs = command(wantedSpeed, 0.0);
+    inputs.emergencyStop = true;
+    drive.step(inputs);
+    run(profile, drive, true, 0x0F, 2.0);
+    QCOMPARE(int(profile.statusword() & 0x4F), 0x08);
+    run(profile, drive, true, 0x80, 0.01);
+    QCOMPARE(int(profile.statusword() & 0x4F), 0x40);
 }
 
 QTEST_APPLESS_MAIN(tst_WinchDrive)

@@ -55,7 +55,7 @@ inline qint64 numberOf(const QByteArray &bytes, bool isSigned = false)
     for (int i = 0; i < bytes.size() && i < 8; ++i)
         number |= quint64(quint8(bytes.at(i))) << (8 * i);
     const int unused = 64 - 8 * bytes.size();
-    return isSigned && unused > 0 ? qint64(number << unused) >> unused : qint64(number);
+    return isSigned && unused > 0 && unused < 64 ? qint64(number << unused) >> unused : qint64(number);
 }
 
 using Dictionary = std::map<quint32, Object>;

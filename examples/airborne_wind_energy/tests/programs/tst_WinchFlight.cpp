@@ -74,6 +74,7 @@ private Q_SLOTS:
     void emergencyStopStopsDriveAndFlight();
     void killedNodeHoldsThenEntersSafeStateThenRecovers();
     void lostDriveCanReconnect();
+    void aDriveOnCanOpenFollowsStopsQuicklyAndFollowsAgain();
 
 private:
     static QString path(const char *program) { return QStringLiteral(AWE_PROGRAMS "/") + QString::fromLatin1(program); }
@@ -99,7 +100,7 @@ void tst_WinchFlight::init()
 
 QString tst_WinchFlight::plant(bool simulated)
 {
-    for (const char *name : {"plant.ini", "winch.ini", "winch_drive.dbc"})
+    for (const char *name : {"plant.ini", "winch.ini", "winch_drive.dbc", "winch-canopen.ini", "winch_drive.eds"})
         QFile::copy(QStringLiteral(AWE_HARDWARE "/") + QString::fromLatin1(name),
                     m_folder->filePath(QString::fromLatin1(name)));
     QFile file(m_folder->filePath(QStringLiteral("plant.ini")));
@@ -260,6 +261,37 @@ void tst_WinchFlight::lostDriveCanReconnect()
     QVERIFY(witness.sees(Witness::DriveFollowsAgain));
     sil.sendSignal(SIGTERM);
     QCOMPARE(sil.waitForEnd(), 0);
+}
+
+void tst_WinchFlight::aDriveOnCanOpenFollowsStopsQuicklyAndFollowsAgain()
+{
+    setButton(false);
+    QFile file(plant(false));
+    QVERIFY(file.open(QIODevice::ReadOnly));
+    const QByteArray text = file.readAll().replace("hardware = winch.ini", "hardware = winch-canopen.ini");
+    file.close();
+    QVERIFY(file.open(QIODevice::WriteOnly) && file.write(text) == text.size());
+    file.close();
+    Program drive(path("awe_winch_drive"), {"--canopen"});
+    Program sil(path("awe_sil"), {"--plant", file.fileName(), "--duration=0", "--report", reportFile()});
+    Witness witness;
+    QVERIFY2(listen(witness, sil), qPrintable(sil.errors()));
+    QVERIFY2(witness.sees(Witness::DriveFollows), qPrintable(sil.errors() + drive.errors()));
+    // The program of the master is killed: nobody tells the drive to stop.
+    const qint64 node = childOf(sil, "qtplc_hardware");
+    QVERIFY(node > 0);
+    ::kill(pid_t(node), SIGKILL);
+    QVERIFY(witness.sees(Witness::ValuesAreSafe));
+    const auto hasStopped = [&] {
+        return drive.output().section(QStringLiteral("Enabled\n"), 1).contains(QStringLiteral("Disabled (Command)\n"));
+    };
+    QVERIFY2(QTest::qWaitFor(hasStopped, Program::patience), qPrintable(drive.output()));
+    QVERIFY(witness.sees(Witness::DriveFollowsAgain));
+    sil.sendSignal(SIGTERM);
+    QCOMPARE(sil.waitForEnd(), 0);
+    QVERIFY(report().value(QStringLiteral("winch"))[QStringLiteral("mechanical_energy_J")].toDouble() > 0.0);
+    drive.sendSignal(SIGTERM);
+    QCOMPARE(drive.waitForEnd(), 0);
 }
 
 QTEST_GUILESS_MAIN(tst_WinchFlight)
