@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "FuzzInput.h"
+#include "hardware/canopen/CanOpenDevice.h"
 #include "hardware/canopen/CanOpenMonitor.h"
 #include "hardware/canopen/SdoTransfer.h"
 
@@ -35,7 +36,8 @@ void run(SdoTransfer transfer, fuzz::Input *input)
 
 }  // namespace
 
-// Input: what a device sends. The first byte chooses what it was asked for.
+// Input: what a device sends, and what a master sends to a device that is played. The first byte
+// chooses what it was asked for.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size)
 {
     fuzz::Input input(data, size);
@@ -46,6 +48,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
     else if (kind % 3 == 1)
         run(SdoTransfer::write(address, QByteArray(kind / 4, 'x')), &input);
     qplc::CanOpenMonitor monitor;
+    qplc::CanOpenDevice device(5);
+    device.objects().add({0x2000, 1}, QByteArray(4, '\0'), qplc::CanOpenObjects::ReadWrite);
+    device.objects().add({0x2000, 2}, QByteArray(20, '\0'), qplc::CanOpenObjects::ReadWrite);
+    qplc::CanOpenDevice::Frames out;
+    qint64 now = 0;
     while (!input.atEnd()) {
         qplc::CanFrame frame;
         frame.id = input.number<quint16>();
@@ -56,6 +63,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
             fuzz::check(frame.id == 0x705 || frame.id == 0x85, "only the device tells of itself");
         fuzz::check(!qplc::emergencyText(monitor.emergency()).isEmpty(), "an emergency has words");
         monitor.look(2, 1);
+        device.take(frame, now, &out);
+        device.tick(now += 10'000'000, &out);
+        fuzz::check(out.size() <= 20, "a frame has few answers");
+        for (const qplc::CanFrame &answer : out)
+            fuzz::check(answer.size <= 8 && answer.id <= qplc::CanFrame::StandardIds, "an answer is a frame");
+        out.clear();
+        fuzz::check(device.objects().find({0x2000, 2})->value.size() == 20, "an object keeps its size");
     }
     return 0;
 }

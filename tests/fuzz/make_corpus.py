@@ -619,6 +619,20 @@ def sdo():
         + address
         + bytes(4)
         + b"".join(bytes([command]) + bytes(7) for command in (0x20, 0x30, 0x20)),
+        "a master": neither
+        + b"".join(
+            id_.to_bytes(2, "little") + bytes([len(data)]) + data
+            for id_, data in (
+                (0x605, bytes.fromhex("2300180185010080")),
+                (0x605, bytes.fromhex("2300 1a01 2001 0020".replace(" ", ""))),
+                (0x605, bytes.fromhex("2f001a0001000000")),
+                (0x605, bytes.fromhex("2300180185010000")),
+                (0x000, b"\1\5"),
+                (0x080, b""),
+                (0x605, bytes.fromhex("2100200214000000")),
+                (0x605, b"\0abcdefg"),
+            )
+        ),
         "heartbeats": neither + b"\x05\x07\x01\x05" + b"\x05\x07\x01\x00" + b"\x85\0\x08\x10\x23\x03" + bytes(5),
     }
 
