@@ -49,7 +49,7 @@ public:
         double to = -1.0;               ///< end [s]; less than 0: the end of the recording
         double framesPerSecond = 25.0;  ///< 1 to 120
         double speed = 1.0;             ///< seconds of the recording in a second, 0.001 to 100 000
-        double span = 0.0;              ///< time that plots show [s]; 0: all from \a from to \a to
+        double span = 0.0;              ///< time that plots show [s]; 0: all of the video
         QSize size;                     ///< of a picture [pixel]; empty: as large as the panels are
         bool isReplacing = false;       ///< a file of this name is replaced; a folder never is
     };

@@ -42,6 +42,8 @@ void ControlCenterActions::makePlantMenu()
     openRecording = add(plantMenu, tr("&Open a recording..."), tr("Ctrl+R"));
     openRecording->setToolTip(tr("To see, play and measure what a plant has done"));
     recentRecordings = plantMenu->addMenu(tr("&Recent recordings"));
+    saveVideo = add(plantMenu, tr("Save a &video of the recording..."), {});
+    saveVideo->setToolTip(tr("What the panels show, between the cursors, with the speed of the playback"));
     disconnectFrom = add(plantMenu, tr("&Disconnect"), tr("Ctrl+D"));
     nextPlant = add(plantMenu, tr("&Next plant"), tr("Ctrl+P"));
     plantMenu->addSeparator();

@@ -37,6 +37,7 @@ public:
     QAction *connectTo = nullptr;
     QAction *openRecording = nullptr;
     QMenu *recentRecordings = nullptr;  // filled when it opens
+    QAction *saveVideo = nullptr;
     QAction *disconnectFrom = nullptr;
     QAction *nextPlant = nullptr;
     QAction *initialize = nullptr;

@@ -7,6 +7,7 @@
 #include "QPlcWidgetFactory.h"
 #include "RecordingDrop.h"
 #include "TouchStyle.h"
+#include "VideoCommand.h"
 #include "WindowSettings.h"
 #include "gui/layout/LayoutJson.h"
 #include "gui/layout/PanelFrame.h"
@@ -42,6 +43,7 @@ void QPlcControlCenter::Private::connectPlantActions()
 {
     connect(actions->connectTo, &QAction::triggered, connectStrip, &ConnectStrip::open);
     connect(actions->openRecording, &QAction::triggered, q, [this] { askForRecording(); });
+    new VideoCommand(actions->saveVideo, &playback, q);
     connect(actions->recentRecordings, &QMenu::aboutToShow, q, [this] { fillRecentRecordings(); });
     connect(actions->disconnectFrom, &QAction::triggered, q, [this] { disconnectFrom(); });
     connect(actions->nextPlant, &QAction::triggered, &selection, &PlantSelection::selectNext);

@@ -144,7 +144,7 @@ bool QPlcVideoExport::Private::resizeTo(const QSize &wanted)
 
 bool QPlcVideoExport::Private::beginSink(const QString &fileName)
 {
-    size = page()->size() * window->devicePixelRatioF();
+    size = options.size.isEmpty() ? page()->size() * window->devicePixelRatioF() : options.size;
     if (VideoSink::isVideo(fileName))
         size = {size.width() & ~1, size.height() & ~1};  // its colours are those of four pixels
     const VideoSink::Format format{fileName, size, options.framesPerSecond, options.isReplacing};
@@ -177,7 +177,10 @@ bool QPlcVideoExport::Private::begin(const QString &fileName, const Options &wan
         return false;
     playback->pause();
     window->context()->timeAxis()->setPointer(std::nullopt);
-    window->context()->timeAxis()->show(first, std::max(last, first + QPlcTimeAxis::shortestSpan));
+    // Plots of a single picture show all of the recording.
+    window->context()->timeAxis()->show(
+        first < last ? first : playback->begin(),
+        std::max(first < last ? last : playback->end(), first + QPlcTimeAxis::shortestSpan));
     showFrame();
     timer.start();
     return true;

@@ -7,8 +7,11 @@
 #include "WindowFixtures.h"
 #include "gui/layout/PageView.h"
 #include "gui/plant/PlantRecording.h"
+#include "gui/window/VideoCommand.h"
 
 #include <QtGui/QPainter>
+
+#include <cmath>
 
 Q_DECLARE_METATYPE(QPlcVideoExport::Options)
 
@@ -84,6 +87,14 @@ struct VideoWindow : WindowFixture
         const bool hasEnded = waitUntil([this] { return !video.isRunning(); }, 3 * patience);
         return hasEnded && video.errorString().isEmpty();
     }
+    /// \param a, b  [s] of the recording
+    void setCursors(double a, double b)
+    {
+        QPlcTimeAxis *axis = window.context()->timeAxis();
+        const QPlcTimeAxis::Time begin = plant()->recording()->begin();
+        axis->setCursor(QPlcTimeAxis::A, begin + std::llround(a * 1e9));
+        axis->setCursor(QPlcTimeAxis::B, begin + std::llround(b * 1e9));
+    }
     /// What is seen in a picture.
     PageView *page() const
     {
@@ -145,6 +156,7 @@ private Q_SLOTS:
     void eachPictureShowsItsTime();
     void gaugesShowTheTimeOfEachPicture();
     void theSpeedAndTheRateDecideWhichTimesAreShown();
+    void plotsOfASinglePictureShowTheWholeRecording();
     void aVideoIsMadeOfAllPictures();
     void theSizeOfThePicturesIsTheWantedOne();
     void withoutAnEncoderThePersonIsToldWhatToInstall();
@@ -153,6 +165,8 @@ private Q_SLOTS:
     void aCancelledVideoLeavesNothing();
     void whatIsThereIsReplacedOnRequestOnly();
     void aDiskWithTooLittleRoomIsRefusedBefore();
+    void theCommandSavesWhatIsBetweenTheCursors();
+    void theCommandSaysWhyThereIsNoVideo();
     void optionsOutOfRangeAreRefused_data();
     void optionsOutOfRangeAreRefused();
 
@@ -196,6 +210,20 @@ void tst_Videos::theSpeedAndTheRateDecideWhichTimesAreShown()
     QVERIFY(fixture.make(fixture.file("frames")));
     QCOMPARE(shown, QList<int>({100, 300, 500, 700, 900}));
     QCOMPARE(fixture.video.frames(), 5);
+}
+
+void tst_Videos::plotsOfASinglePictureShowTheWholeRecording()
+{
+    VideoWindow fixture;
+    const QPlcTimeAxis *axis = fixture.window.context()->timeAxis();
+    QVERIFY(fixture.make(fixture.file("frames")));
+    QCOMPARE(axis->span(), Q_INT64_C(2'000'000'000));
+    fixture.options.from = fixture.options.to = 5.0;
+    QVERIFY(fixture.make(fixture.file("one")));
+    QCOMPARE(fixture.video.frames(), 1);
+    QCOMPARE(axis->span(), Q_INT64_C(9'990'000'000));
+    const QImage frame(fixture.file("one/frame_000000.png"));
+    QCOMPARE(ColourPanel::cycleOf(frame.pixel(fixture.place())), 500);
 }
 
 void tst_Videos::aVideoIsMadeOfAllPictures()
@@ -305,6 +333,32 @@ void tst_Videos::aDiskWithTooLittleRoomIsRefusedBefore()
     QVERIFY(!fixture.make(QStringLiteral("/proc/frames")));  // has none
     QVERIFY2(fixture.video.errorString().contains(QLatin1String("the disk has 0.0 GB free")),
              qPrintable(fixture.video.errorString()));
+}
+
+void tst_Videos::theCommandSavesWhatIsBetweenTheCursors()
+{
+    VideoWindow fixture;
+    QVERIFY(fixture.action("Save a video of the recording...")->isEnabled());
+    auto *command = fixture.part<VideoCommand>();
+    fixture.setCursors(2.4, 2.0);
+    command->save(fixture.file("frames"));
+    QVERIFY(!fixture.action("Save a video of the recording...")->isEnabled());
+    QVERIFY(waitUntil([&] { return !command->isRunning(); }, patience));
+    QCOMPARE(fixture.hint(), QStringLiteral("frames: 11 pictures"));
+    QCOMPARE(ColourPanel::cycleOf(QImage(fixture.file("frames/frame_000000.png")).pixel(fixture.place())), 200);
+    QCOMPARE(ColourPanel::cycleOf(QImage(fixture.file("frames/frame_000010.png")).pixel(fixture.place())), 240);
+    QVERIFY(fixture.action("Save a video of the recording...")->isEnabled());
+}
+
+void tst_Videos::theCommandSaysWhyThereIsNoVideo()
+{
+    VideoWindow fixture;
+    auto *command = fixture.part<VideoCommand>();
+    const Encoder none{QByteArray()};
+    command->save(fixture.file("video.mp4"));
+    QVERIFY2(fixture.hint().contains(QLatin1String("ffmpeg")), qPrintable(fixture.hint()));
+    fixture.window.disconnectFromMaster(fixture.window.plants().constFirst());
+    QVERIFY(!fixture.action("Save a video of the recording...")->isEnabled());
 }
 
 void tst_Videos::optionsOutOfRangeAreRefused_data()
