@@ -84,7 +84,9 @@ public:
         GetEvents = 65,  ///< any -> master: ask for the events since a number
         /// Master -> asker, and -> all with the feature "events": events.
         Events = 66,
-        Note = 67,  ///< any -> master: a remark of a person, for the event log and recordings
+        Note = 67,        ///< any -> master: a remark of a person, for the event log and recordings
+        GetRecords = 68,  ///< any -> master: ask for records of cycles, as a recorder
+        Records = 69,     ///< master -> asker: bytes of the ring of a phase
         /// Any -> master: end all connections of a node or person, and refuse new ones.
         Evict = 70,
         Admit = 71  ///< any -> master: let somebody in again who was evicted

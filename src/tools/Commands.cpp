@@ -235,8 +235,8 @@ const QVector<Command> &commands()
          "",
          "Shows what has happened in the master.",
          "States, nodes, late answers, faults, values that were set, leases, overruns and\n"
-         "notes: the last 1000 of them. --json prints an object for each line. --file needs\n"
-         "no master: it shows the events that one has written to FILE, and to older files\n"
+         "notes: the last 1000. --json prints an object for each line. --file needs no\n"
+         "master: it shows the events that one has written to FILE, and to the older files\n"
          "FILE.1, FILE.2, ... The option --events of a master says where they are. Of a\n"
          "recording (.mcap, or a folder) it also shows who has set which signal, and which\n"
          "cycle has adopted the value, and who held which lease.",
@@ -322,18 +322,19 @@ const QVector<Command> &commands()
          &checkManifest},
         {"record",
          "FILE | FOLDER/ | VERB FOLDER | mark",
-         "Records every cycle of plants on this computer.",
+         "Records every cycle of plants, here or on another computer.",
          "Reads the ring of a master, which runs on this computer and belongs to the same\n"
-         "user, and writes FILE, which must not exist. It begins with the cycles that are\n"
-         "in the ring, and ends with the phase or at Ctrl-C. If it is killed, the ring\n"
-         "keeps what is not in FILE: record into another file then, and run qtplc recover.\n"
-         "With a FOLDER, it records all plants, one after the other and at once, until\n"
-         "Ctrl-C. It makes a file for each phase and segment, and deletes the oldest ones.\n"
-         "If it was killed, the next one in the same FOLDER finishes the files, and goes\n"
-         "on. VERB asks the recorder of a FOLDER, also one in a master: stop ends its\n"
-         "files until start, mark keeps the cycles from 30 s before to 10 s after, status\n"
-         "prints what it does, and list the files. Without a FOLDER, mark asks the\n"
-         "masters: they keep these cycles, also when nobody records.",
+         "user, or with --master of one on another computer, and writes FILE, which must\n"
+         "not exist. It begins with the cycles that are in the ring, and ends with the\n"
+         "phase or at Ctrl-C. If it is killed, the ring keeps what is not in FILE: record\n"
+         "into another file then, and run qtplc recover. With a FOLDER, it records all\n"
+         "plants, one after the other and at once, until Ctrl-C. It makes a file for each\n"
+         "phase and segment, and deletes the oldest ones. If it was killed, the next one\n"
+         "in the same FOLDER finishes the files, and goes on. VERB asks the recorder of a\n"
+         "FOLDER, also one in a master: stop ends its files until start, mark keeps the\n"
+         "cycles from 30 s before to 10 s after, status prints what it does, and list the\n"
+         "files. Without a FOLDER, mark asks the masters: they keep these cycles, also\n"
+         "when nobody records.",
          {{"ring", "RING", "The ring of the master, default the only one."},
           {"plant", "NAME", "With a FOLDER: records the plant NAME alone."},
           {"segment-hours", "H", "With a FOLDER: a file is not longer, default 1."},
@@ -341,7 +342,7 @@ const QVector<Command> &commands()
           {"keep-days", "DAYS", "With a FOLDER: older files are deleted."},
           {"keep-gib", "GIB", "With a FOLDER: keeps no more of them."},
           {"free-gib", "GIB", "With a FOLDER: keeps so much of the disk free, default 1."}},
-         {QStringLiteral("qtplc record flight.mcap"),
+         {QStringLiteral("qtplc record flight.mcap"), QStringLiteral("qtplc record flights/ --master 192.168.1.5"),
           QStringLiteral("qtplc record /var/lib/qtplc/ --keep-days 10 --keep-gib 50"),
           QStringLiteral("qtplc record mark /var/lib/qtplc"), QStringLiteral("qtplc record mark"),
           QStringLiteral("qtplc record list /var/lib/qtplc --json")},

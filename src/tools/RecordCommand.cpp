@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// record: from the rings of masters on this computer into a file, or a folder.
+// record: from the rings of masters on this computer, or of one on another computer, into a file or
+// a folder.
 #include "Commands.h"
+#include "RemoteRings.h"
 #include "TerminalText.h"
 #include "recording/RingFiles.h"
 
@@ -90,6 +92,82 @@ void tellFiles(QPlcRecorder *recorder)
     });
 }
 
+/// A phase is over, or people want the end.
+void quitAtTheEndOfThePhase(QPlcRecorder *recorder)
+{
+    QObject::connect(recorder, &QPlcRecorder::stateChanged, recorder, [](QPlcRecorder::State state) {
+        if (state == QPlcRecorder::Waiting)
+            QCoreApplication::quit();
+    });
+}
+
+int failWith(const QString &text)
+{
+    QPlcCoreApplication::printError(text);
+    return QPlcCoreApplication::Failure;
+}
+
+void tellFolder(const QPlcRecorder &recorder)
+{
+    if (!recorder.isFolder())
+        return;
+    printLine(QStringLiteral("recording into %1").arg(printable(recorder.target())));
+    std::fflush(stdout);
+}
+
+/// Records rings of this computer. \param ring  the only one; empty: all
+int recordRings(const CommandCall &call, QPlcRecorder *recorder, const QString &ring)
+{
+    bool isAbandoned = false;
+    QObject::connect(recorder, &QPlcRecorder::masterLost, recorder, [&isAbandoned] { isAbandoned = true; });
+    if (ring.isEmpty())
+        recorder->setPlant(call.application.value(QStringLiteral("plant")));
+    else
+        quitAtTheEndOfThePhase(recorder);
+    const std::shared_ptr<const bool> isStopped = call.quitOnSignals();
+    if (!recorder->start() || (!ring.isEmpty() && !recorder->addRing(ring)))
+        return call.application.usageError(recorder->errorString());
+    if (ring.isEmpty())
+        tellFolder(*recorder);
+    if (!*isStopped)
+        call.application.exec();
+    if (!recorder->stop())
+        return failWith(recorder->errorString());
+    return !ring.isEmpty() && isAbandoned ? QPlcCoreApplication::Failure : QPlcCoreApplication::Success;
+}
+
+/// Records the phases of a master on another computer.
+int recordRemotely(const CommandCall &call, QPlcRecorder *recorder)
+{
+    for (const char *option : {"ring", "plant"}) {
+        if (call.application.isSet(QLatin1String(option)))
+            return call.application.usageError(
+                QStringLiteral("--%1 is for masters of this computer; leave it out with --master")
+                    .arg(QLatin1String(option)));
+    }
+    bool isAbandoned = false;
+    QObject::connect(recorder, &QPlcRecorder::masterLost, recorder, [&isAbandoned] { isAbandoned = true; });
+    if (!recorder->isFolder())
+        quitAtTheEndOfThePhase(recorder);
+    RemoteRings remote(recorder, call.master);
+    QObject::connect(&remote, &RemoteRings::failed, &remote, [] { QCoreApplication::quit(); });
+    QObject::connect(&remote, &RemoteRings::troubled, &remote, &QPlcCoreApplication::printError);
+    const std::shared_ptr<const bool> isStopped = call.quitOnSignals();
+    if (!recorder->start())
+        return call.application.usageError(recorder->errorString());
+    tellFolder(*recorder);
+    remote.start();
+    if (!*isStopped)
+        call.application.exec();
+    const bool isWritten = recorder->stop();
+    remote.finish();
+    if (!remote.errorString().isEmpty())
+        return failWith(remote.errorString());
+    if (!isWritten)
+        return failWith(recorder->errorString());
+    return !recorder->isFolder() && isAbandoned ? QPlcCoreApplication::Failure : QPlcCoreApplication::Success;
+}
+
 }  // namespace
 
 int recordPlant(const CommandCall &call)
@@ -102,37 +180,16 @@ int recordPlant(const CommandCall &call)
     recorder.setTarget(call.arguments.value(0));
     if (!readLimits(call, &recorder))
         return QPlcCoreApplication::UsageError;
+    tellFiles(&recorder);
+    if (call.application.isSet(QStringLiteral("master")))
+        return recordRemotely(call, &recorder);
     const QString option = QStringLiteral("ring");
     const bool isOnePhase = call.application.isSet(option) || !recorder.isFolder();
-    QString ring = call.application.value(option);
-    if (isOnePhase && ring.isEmpty())
-        ring = onlyRing(call);
+    const QString ring
+        = !isOnePhase || call.application.isSet(option) ? call.application.value(option) : onlyRing(call);
     if (isOnePhase && ring.isEmpty())
         return QPlcCoreApplication::UsageError;
-    tellFiles(&recorder);
-    bool isAbandoned = false;
-    QObject::connect(&recorder, &QPlcRecorder::masterLost, &recorder, [&isAbandoned] { isAbandoned = true; });
-    if (isOnePhase)
-        QObject::connect(&recorder, &QPlcRecorder::stateChanged, &recorder, [](QPlcRecorder::State state) {
-            if (state == QPlcRecorder::Waiting)  // the phase is over
-                QCoreApplication::quit();
-        });
-    else
-        recorder.setPlant(call.application.value(QStringLiteral("plant")));
-    const std::shared_ptr<const bool> isStopped = call.quitOnSignals();
-    if (!recorder.start() || (isOnePhase && !recorder.addRing(ring)))
-        return call.application.usageError(recorder.errorString());
-    if (!isOnePhase) {
-        printLine(QStringLiteral("recording into %1").arg(printable(recorder.target())));
-        std::fflush(stdout);
-    }
-    if (!*isStopped)
-        call.application.exec();
-    if (!recorder.stop()) {
-        QPlcCoreApplication::printError(recorder.errorString());
-        return QPlcCoreApplication::Failure;
-    }
-    return isOnePhase && isAbandoned ? QPlcCoreApplication::Failure : QPlcCoreApplication::Success;
+    return recordRings(call, &recorder, ring);
 }
 
 }  // namespace tools

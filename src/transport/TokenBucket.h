@@ -20,15 +20,16 @@ public:
     {
     }
     /// \return false: not now
-    bool take(qint64 now)
+    bool take(qint64 now) { return takeUpTo(now, 1) == 1; }
+    /// \return as many as there are now, at most \a most
+    int takeUpTo(qint64 now, int most)
     {
         if (m_filled < m_full)
             m_filled = std::min(m_full, m_filled + std::max<qint64>(now - m_filledAt, 0));
         m_filledAt = now;
-        if (m_filled < m_token)
-            return false;
-        m_filled -= m_token;
-        return true;
+        const qint64 taken = std::min<qint64>(most, m_filled / m_token);
+        m_filled -= taken * m_token;
+        return int(taken);
     }
 
 private:

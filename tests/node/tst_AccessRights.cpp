@@ -55,8 +55,8 @@ private:
     /// Written apart from the table.
     static bool isMeantTo(Role role, const QString &kind)
     {
-        static const QStringList looking{"GetState",    "GetSignals", "GetStatistics",
-                                         "GetSchedule", "GetLeases",  "GetEvents"};
+        static const QStringList looking{"GetState",  "GetSignals", "GetStatistics", "GetSchedule",
+                                         "GetLeases", "GetEvents",  "GetRecords"};
         static const QStringList takingPart{
             "Hello",       "Register",      "AttachCyclicChannel", "ReceiveMyInitialOutputStates",
             "Initialized", "RealTimeReady", "NodeFault",           "Stop",
@@ -88,7 +88,8 @@ private:
                                        "Schedule",
                                        "Leases",
                                        "LeasesChanged",
-                                       "Events"};
+                                       "Events",
+                                       "Records"};
         return kinds.contains(kind);
     }
     void everyRoleAndKind();

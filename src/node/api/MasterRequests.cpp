@@ -197,6 +197,20 @@ public:
     {
         answer(messages::Leases{d.parts->leases.entries()}, QStringLiteral("too many leases for one answer"));
     }
+    void operator()(const messages::GetRecords &question) const
+    {
+        const QString &uuid = m_connection->uuid;
+        const qplc::RemoteRecorder::Asker asker{
+            m_connection->socket, uuid.isEmpty() ? uuid : m_connection->peer.provenIdentity() + QLatin1Char('/') + uuid,
+            QStringLiteral("'%1' at %2").arg(m_connection->shownName(), m_connection->socket->peerName())};
+        qplc::Refusal refusal;
+        const std::optional<messages::Records> records
+            = d.parts->phase.remoteRecorder().answer(question, asker, qplc::monotonicNow(), &refusal);
+        if (records)
+            m_connection->send(*records);
+        else
+            m_connection->fail(refusal.error, refusal.text);
+    }
     void operator()(const messages::GetEvents &question) const
     {
         const std::vector<qplc::JournalEvent> events = d.journal.events().after(question.since.value_or(0), mostEvents);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "RealTimePhase.h"
 
+#include "realtime/TimeSource.h"
+
 #include <utility>
 
 namespace qplc {
@@ -75,7 +77,11 @@ std::shared_ptr<RecordRing> RealTimePhase::makeRing()
     description.profile = QPlcProfile::name(m_profile.fixed().value);
     description.parameters = parametersOf(settingsOfCycles());
     description.table = m_cycle.table().toIni();
-    return m_ring.make(description, CycleTap::usualSize(m_cycle.image(), m_registry.nodes().size()));
+    std::shared_ptr<RecordRing> ring
+        = m_ring.make(description, CycleTap::usualSize(m_cycle.image(), m_registry.nodes().size()));
+    if (ring)
+        m_remoteRecorder.begin(m_ring.file(), monotonicNow());
+    return ring;
 }
 
 bool RealTimePhase::start(QString *error)

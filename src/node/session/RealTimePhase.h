@@ -9,6 +9,7 @@
 #include "PhaseRing.h"
 #include "PhaseSettings.h"
 #include "RecorderWatch.h"
+#include "RemoteRecorder.h"
 #include "RosterMaker.h"
 
 namespace qplc {
@@ -31,6 +32,7 @@ public:
     /// What the cycles of the phases are recorded from.
     PhaseRing &ring() { return m_ring; }
     const RecorderWatch &recorder() const { return m_recorder; }
+    RemoteRecorder &remoteRecorder() { return m_remoteRecorder; }
     /// The cycles around the present one stay, also when nobody records. Nothing is done if none
     /// run. \param reason  "safe stop"
     void keepCycles(const QString &reason);
@@ -62,6 +64,7 @@ private:
     GoneNodes m_gone;  // of this phase
     PhaseRing m_ring;
     RecorderWatch m_recorder;
+    RemoteRecorder m_remoteRecorder{[this] { return m_ring.isOpen() ? m_ring.file() : QString(); }};
     BlackBox m_blackBox;
     bool m_isRunning = false;
     bool m_hasEnded = false;

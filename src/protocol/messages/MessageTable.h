@@ -5,6 +5,7 @@
 #include "Greeting.h"
 #include "Leases.h"
 #include "Phases.h"
+#include "Records.h"
 #include "Registration.h"
 #include "SignalValues.h"
 #include "State.h"
@@ -70,6 +71,8 @@ constexpr bool isKind(quint8 number)
     case Kind::GetEvents:
     case Kind::Events:
     case Kind::Note:
+    case Kind::GetRecords:
+    case Kind::Records:
         return true;
     }
     return false;
@@ -217,7 +220,8 @@ using ClientTable = Table<
     Row<ReleaseLease, Sender::Operators, Purpose::Command, Turn::Urgent, Outcome::Prompt, Writes::Signals>,
     Row<GetLeases, Sender::Everybody, Purpose::Question, Turn::InOrder, Outcome::Prompt, Writes::Nothing>,
     Row<GetEvents, Sender::Everybody, Purpose::Question, Turn::InOrder, Outcome::Prompt, Writes::Nothing>,
-    Row<Note, Sender::Operators, Purpose::Command, Turn::InOrder, Outcome::Prompt, Writes::Nothing>>;
+    Row<Note, Sender::Operators, Purpose::Command, Turn::InOrder, Outcome::Prompt, Writes::Nothing>,
+    Row<GetRecords, Sender::Everybody, Purpose::Question, Turn::InOrder, Outcome::Prompt, Writes::Nothing>>;
 
 /// By what somebody becomes known to a master, and a node of it.
 using Openings = ClientTable::Openings;
@@ -233,7 +237,7 @@ using Greetings = List<MasterHello, Rejected, MasterEnds>;
 using ToNode = List<Registered, CyclicChannelAttached, SendYourInitialOutputStates, InitializeWithValues,
                     RealTimeStarted, RealTimeStopped, StatesInitialized>;
 /// What a master answers, and tells who wants to know.
-using Replies = List<Armed, State, Signals, Done, Failed, Statistics, Schedule, Leases, LeasesChanged, Events>;
+using Replies = List<Armed, State, Signals, Done, Failed, Statistics, Schedule, Leases, LeasesChanged, Events, Records>;
 /// What a master sends to a node or tool.
 using FromMaster = JoinedLists<Greetings, ToNode, Replies>::Type;
 

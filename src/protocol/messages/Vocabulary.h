@@ -43,11 +43,12 @@ constexpr QLatin1String denied = word("Denied");
 constexpr QLatin1String evicted = word("Evicted");
 constexpr QLatin1String timedOut = word("TimedOut");
 constexpr QLatin1String tooMuch = word("TooMuch");
+constexpr QLatin1String unknownRing = word("UnknownRing");
 constexpr QLatin1String all[]
-    = {versionMismatch, nameInUse,        unknownSignal,   typeMismatch,     unitMismatch,  signalHasWriter,
-       writerNotNamed,  leaseHeld,        profileMismatch, manifestMismatch, tooManyNodes,  algebraicLoop,
-       wrongState,      malformedMessage, invalidValue,    nodeError,        tooLong,       securityNeeded,
-       denied,          evicted,          timedOut,        tooMuch,          safetyMismatch};
+    = {versionMismatch, nameInUse,        unknownSignal,   typeMismatch,     unitMismatch,   signalHasWriter,
+       writerNotNamed,  leaseHeld,        profileMismatch, manifestMismatch, tooManyNodes,   algebraicLoop,
+       wrongState,      malformedMessage, invalidValue,    nodeError,        tooLong,        securityNeeded,
+       denied,          evicted,          timedOut,        tooMuch,          safetyMismatch, unknownRing};
 /// Of a client itself: the connection ended before there was an answer. Never sent.
 constexpr QLatin1String lost = word("Lost");
 }  // namespace errorWord
