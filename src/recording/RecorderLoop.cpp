@@ -98,7 +98,7 @@ void RecorderLoop::look()
 {
     const QStringList rings = m_settings.file.isEmpty() ? ringsToRecord() : ringsOfMasters();
     for (const QString &ring : rings) {
-        if (isRecorded(QFile::encodeName(ring)))
+        if (RingMemory::isRecorded(QFile::encodeName(ring)))  // by this recorder, or by another one
             continue;
         auto recorder = std::make_unique<PlantRecorder>();
         QString error;  // another recorder may have been faster
@@ -109,13 +109,6 @@ void RecorderLoop::look()
         else
             recorder->detach();
     }
-}
-
-/// To open a ring maps all of it.
-bool RecorderLoop::isRecorded(const QByteArray &ring) const
-{
-    return std::any_of(m_recordings.begin(), m_recordings.end(),
-                       [&](const auto &recording) { return recording->recorder->ringFile() == ring; });
 }
 
 /// What people want of the recorder of a folder.

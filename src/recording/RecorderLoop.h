@@ -81,7 +81,6 @@ private:
     struct Recording;
 
     void look();
-    bool isRecorded(const QByteArray &ring) const;
     void control(std::int64_t now, std::int64_t wallClock);
     void setStopped(bool isStopped, std::int64_t wallClock);
     void tell(std::int64_t now);

@@ -174,6 +174,7 @@ private Q_SLOTS:
     void aKilledRecorderIsContinued();
     void aFileWithoutCyclesDoesNotStay();
     void theRingOfAKilledMasterIsFound();
+    void ringsOfOtherRecordersAreNotMapped();
     void aFullDiskIsTriedAgainEachSecond();
     void theMasterIsToldWhatTheRecorderDoes();
     void aMarkInTheRingMarksTheFile();
@@ -429,6 +430,33 @@ void tst_RecorderLoop::theRingOfAKilledMasterIsFound()
         QCOMPARE(second.digest, flight.digest());
         QVERIFY(flight.told.back().isAbandoned);
         QVERIFY2(flight.files().constLast().endsWith("_marked.mcap"), "a master that was killed is worth to be kept");
+    }
+    qunsetenv("QTPLC_RING_DIR");
+}
+
+/// It looks five times a second, and a ring may have 64 MiB.
+void tst_RecorderLoop::ringsOfOtherRecordersAreNotMapped()
+{
+    QTemporaryDir rings("/dev/shm/qtplc-test-XXXXXX");
+    qputenv("QTPLC_RING_DIR", rings.path().toUtf8());
+    {
+        Recorded flight;
+        flight.settings.looksForRings = true;
+        RecordRing ring;
+        RingReader other;
+        const QByteArray file = rings.filePath("qtplc-ring-1-other-2-1").toUtf8();
+        QVERIFY(ring.create(file, 1 << 16, flight.description.toText(), &flight.error));
+        QVERIFY(other.open(file, &flight.error) && other.attach());
+        QVERIFY(flight.open());
+        const std::uint64_t before = RingMemory::mappings();
+        for (int i = 0; i < 50; ++i)
+            flight.proceed(0.2);
+        QCOMPARE(RingMemory::mappings(), before);
+        other.detach();
+        flight.proceed(0.2);
+        flight.proceed(0.2);
+        QCOMPARE(RingMemory::mappings(), before + 1);
+        QCOMPARE(flight.loop->status().phases, 1);
     }
     qunsetenv("QTPLC_RING_DIR");
 }

@@ -42,6 +42,8 @@ QString fileError(const QString &what, const QByteArray &file)
 
 }  // namespace
 
+std::atomic<std::uint64_t> RingMemory::m_mappings{0};
+
 RingMemory::~RingMemory()
 {
     close();
@@ -149,6 +151,7 @@ char *RingMemory::mapTwice(std::uint64_t place, std::uint64_t size) const
 
 bool RingMemory::map(QString *error)
 {
+    m_mappings.fetch_add(1, std::memory_order_relaxed);
     void *header
         = ::mmap(nullptr, m_headerSize, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_POPULATE, m_descriptor.number(), 0);
     if (header != MAP_FAILED)
@@ -213,6 +216,14 @@ RingMemory::Use RingMemory::useOf(const QByteArray &file)
     if (memory.isLocked(RecorderLock))
         return BeingRead;
     return start.cycles.isRead.load() != 0 ? DeadAndRecorded : Dead;
+}
+
+bool RingMemory::isRecorded(const QByteArray &file)
+{
+    RingMemory memory;
+    Header start;
+    QString error;
+    return memory.openFile(file, &start, &error) && memory.isLocked(RecorderLock);
 }
 
 QByteArray RingMemory::description() const

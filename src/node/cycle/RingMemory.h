@@ -110,6 +110,10 @@ public:
     /// Where rings are: /dev/shm; $QTPLC_RING_DIR, if it is set.
     static QByteArray folder();
     static Use useOf(const QByteArray &file);
+    /// Whether a recorder has the ring of \a file. As useOf(), it maps nothing.
+    static bool isRecorded(const QByteArray &file);
+    /// Rings that this process has mapped so far, for tests. \threadsafe yes
+    static std::uint64_t mappings() { return m_mappings.load(std::memory_order_relaxed); }
 
 private:
     bool openFile(const QByteArray &file, Header *start, QString *error);
@@ -125,6 +129,8 @@ private:
     std::uint64_t m_textCapacity = 0;
     std::size_t m_headerSize = 0;
     QByteArray m_file;
+
+    static std::atomic<std::uint64_t> m_mappings;
 };
 
 }  // namespace qplc
