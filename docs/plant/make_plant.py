@@ -49,6 +49,7 @@ OPTIONS = [
     ("machine at the winch", "[winch]\nkind = machine\n", ()),
     ("turn-rate steering", "[steering]\nkind = turn-rate\n", ()),
     ("realistic: all of these", "realistic", ()),
+    ("realistic, tuned gains", "realistic", ("--gains=tuned",)),
     ("turbines on board", "drag", ()),
 ]
 

@@ -10,6 +10,12 @@ namespace {
 
 constexpr double turbulence = 0.15;
 
+/// Of the power that leaves the plant: behind the machine, if the winch has one.
+double usefulPart(const ClosedLoopParameters &parameters, const FlightReport &report)
+{
+    return parameters.options.hasMachine ? report.electricalPower / report.meanPower : 1.0;
+}
+
 FlightReport fly(const ClosedLoopParameters &parameters, double duration)
 {
     ClosedLoopFlight flight(parameters);
@@ -20,7 +26,7 @@ FlightReport fly(const ClosedLoopParameters &parameters, double duration)
 void flyCalm(const ClosedLoopParameters &parameters, double duration, GainScore *score)
 {
     const FlightReport report = fly(parameters, duration);
-    score->calmEta = report.eta;
+    score->calmEta = report.eta * usefulPart(parameters, report);
     score->calmAltitude = report.minimumAltitude;
     score->crashed = score->crashed || report.crashed;
 }
@@ -34,7 +40,8 @@ void flyTurbulent(ClosedLoopParameters parameters, TuningSeeds seeds, double dur
     for (std::uint64_t seed = first; seed <= last; ++seed) {
         parameters.wind.seed = seed;
         const FlightReport report = fly(parameters, duration);
-        score->turbulentEta += report.etaPerMeanCubedWind / static_cast<double>(last - first + 1);
+        score->turbulentEta
+            += report.etaPerMeanCubedWind * usefulPart(parameters, report) / static_cast<double>(last - first + 1);
         score->turbulentAltitude = std::min(score->turbulentAltitude, report.minimumAltitude);
         score->crashed = score->crashed || report.crashed;
     }
@@ -51,7 +58,7 @@ void flyStrong(ClosedLoopParameters parameters, double duration, GainScore *scor
         const FlightReport free = fly(parameters, duration);
         parameters.gains.forceLimit = GainScore::forceLimit;
         const FlightReport limited = fly(parameters, duration);
-        score->strongEta += free.eta / static_cast<double>(speeds.size());
+        score->strongEta += free.eta * usefulPart(parameters, free) / static_cast<double>(speeds.size());
         score->limitedForce = std::max(score->limitedForce, limited.maximumTetherForce);
         score->crashed = score->crashed || free.crashed || limited.crashed;
     }
@@ -61,7 +68,7 @@ void flyStrong(ClosedLoopParameters parameters, double duration, GainScore *scor
 
 bool GainScore::isSafe() const
 {
-    return !crashed && std::min(calmAltitude, turbulentAltitude) >= lowestAltitude && limitedForce <= forceLimit;
+    return !crashed && std::min(calmAltitude, turbulentAltitude) >= lowestAltitude && limitedForce <= allowedForce;
 }
 
 double GainScore::value() const
@@ -69,16 +76,23 @@ double GainScore::value() const
     return isSafe() ? (calmEta + turbulentEta + strongEta) / 3.0 : -std::numeric_limits<double>::infinity();
 }
 
+GainScore scoreOf(const ClosedLoopParameters &parameters, TuningSeeds seeds, double duration)
+{
+    GainScore score;
+    if (parameters.options.tether.kind == TetherKind::Segments)
+        score.allowedForce *= 1.02;
+    flyCalm(parameters, duration, &score);
+    flyTurbulent(parameters, seeds, duration, &score);
+    flyStrong(parameters, duration, &score);
+    return score;
+}
+
 GainScore scoreOf(const AutopilotGains &gains, int deadTime, TuningSeeds seeds, double duration)
 {
     ClosedLoopParameters parameters;
     parameters.gains = gains;
     parameters.deadTime = deadTime;
-    GainScore score;
-    flyCalm(parameters, duration, &score);
-    flyTurbulent(parameters, seeds, duration, &score);
-    flyStrong(parameters, duration, &score);
-    return score;
+    return scoreOf(parameters, seeds, duration);
 }
 
 const std::vector<TunableGain> &TunableGain::all()
@@ -89,7 +103,7 @@ const std::vector<TunableGain> &TunableGain::all()
         {"pitchGain", &Gains::pitchGain, {1.0, 20.0, 1.0}},
         {"eightHalfWidth", &Gains::eightHalfWidth, {15.0, 50.0, 2.0}},
         {"eightHalfHeight", &Gains::eightHalfHeight, {2.0, 15.0, 0.5}},
-        {"lookAhead", &Gains::lookAhead, {4.0, 15.0, 1.0}},
+        {"lookAhead", &Gains::lookAhead, {4.0, 25.0, 1.0}},
         {"lookAheadExponent", &Gains::lookAheadExponent, {0.0, 1.0, 0.1}},
         {"courseGain", &Gains::courseGain, {0.0, 2.0, 0.1}},
         {"zenithAzimuthGain", &Gains::zenithAzimuthGain, {0.0, 4.0, 0.2}},
@@ -127,6 +141,15 @@ AutopilotGains startOfTuning()
 {
     AutopilotGains gains = TunableGain::write(AutopilotGains::tuned(), TunableGain::read(AutopilotGains::safe()));
     gains.reelInElevation = 13.0;  // an eight that is lower by far is not left for 20 deg each time
+    return gains;
+}
+
+AutopilotGains startOfTuning(const SteeringParameters &steering)
+{
+    if (steering.kind == SteeringKind::Kinematic)
+        return startOfTuning();
+    AutopilotGains gains = AutopilotGains::steered().invertedFor(steering.turnRateFactor, steering.weightFactor);
+    gains.lowestElevation = AutopilotGains::steeredTuned().lowestElevation;
     return gains;
 }
 

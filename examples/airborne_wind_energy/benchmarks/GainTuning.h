@@ -15,6 +15,7 @@ namespace awe {
 /// the power at 11 m/s.
 struct GainScore
 {
+    // Of the power behind the machine, if the winch has one.
     double calmEta = 0.0;
     double turbulentEta = 0.0;       // mean over the seeds, per mean |w|^3
     double strongEta = 0.0;          // mean of 8, 10 and 12 m/s
@@ -25,6 +26,7 @@ struct GainScore
 
     static constexpr double lowestAltitude = 15.0;  // [m]; a set that goes below it is none ...
     static constexpr double forceLimit = 4000.0;    // [N]; ... nor one that does not keep its limit
+    double allowedForce = forceLimit;               // [N]; a tether with mass may jerk a little
 
     bool isSafe() const;
     /// What is tuned for: the mean of the three etas; -infinity when the set is not safe.
@@ -35,7 +37,11 @@ struct GainScore
 /// flights.
 enum class TuningSeeds { Tuned, Fresh };
 
-/// Flies a set of gains. \pre gains.validate() is empty
+/// Flies a set of gains with the plant, mean wind and dead time of \a parameters. \pre
+/// parameters.validate() is empty
+GainScore scoreOf(const ClosedLoopParameters &parameters, TuningSeeds seeds = TuningSeeds::Tuned,
+                  double duration = 1800.0);
+/// The same with the plant of the thesis. \pre gains.validate() is empty
 GainScore scoreOf(const AutopilotGains &gains, int deadTime, TuningSeeds seeds = TuningSeeds::Tuned,
                   double duration = 1800.0);
 
@@ -55,5 +61,8 @@ struct TunableGain
 /// Where a search starts: the laws of the safe gains at the heights of the tuned ones, and what
 /// these heights ask for.
 AutopilotGains startOfTuning();
+/// The same for a plant with \a steering: the steered gains, which invert its law, at the heights
+/// of the tuned ones.
+AutopilotGains startOfTuning(const SteeringParameters &steering);
 
 }  // namespace awe

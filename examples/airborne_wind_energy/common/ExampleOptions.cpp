@@ -204,15 +204,16 @@ static bool readGains(QPlcCoreApplication &application, const PlantConfiguration
     QString error;
     if (!isTuned && set != QLatin1String("default"))
         error = QStringLiteral("--gains %1: use default or tuned").arg(set);
-    else if (isTuned && (isSteered || plant.options.hasTurbines))
-        error = QStringLiteral("--gains tuned: there is no tuned set for %1; use default")
-                    .arg(plant.options.hasTurbines ? QStringLiteral("turbines on board")
-                                                   : QStringLiteral("a wing that the air turns"));
+    else if (isTuned && plant.options.hasTurbines)
+        error = QStringLiteral("--gains tuned: there is no tuned set for turbines on board; use default");
     if (!error.isEmpty())
         return application.usageError(error), false;
-    *gains = isSteered ? AutopilotGains::steered() : isTuned ? AutopilotGains::tuned() : AutopilotGains::safe();
-    if (isSteered)
-        *gains = gains->invertedFor(plant.options.steering.turnRateFactor, plant.options.steering.weightFactor);
+    if (isSteered) {
+        const AutopilotGains steered = isTuned ? AutopilotGains::steeredTuned() : AutopilotGains::steered();
+        *gains = steered.invertedFor(plant.options.steering.turnRateFactor, plant.options.steering.weightFactor);
+    } else {
+        *gains = isTuned ? AutopilotGains::tuned() : AutopilotGains::safe();
+    }
     if (plant.options.hasTurbines) {
         gains->reelOutPitch = AutopilotGains::drag().reelOutPitch;
         gains->constantTether = plant.turbines.tetherLength;

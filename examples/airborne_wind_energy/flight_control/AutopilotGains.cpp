@@ -127,10 +127,23 @@ AutopilotGains AutopilotGains::steered()
 {
     AutopilotGains gains;
     gains.turnRateFactor = 0.31;
-    gains.yawGain = 4.0;
     gains.eightHalfWidth = 40.0;
     gains.eightHalfHeight = 12.0;
     gains.lookAhead = 18.0;
+    return gains;
+}
+
+// Coordinates of awe_tune_gains --plant realistic, tried by hand; the wind is stronger higher up.
+AutopilotGains AutopilotGains::steeredTuned()
+{
+    AutopilotGains gains = steered();
+    gains.lowestElevation = 15.0;
+
+    gains.eightHalfWidth = 46.0;
+    gains.lookAhead = 16.0;
+    gains.reelOutFactor = 0.78;
+    gains.reelOutPitch = 8.2;
+    gains.reelInWindFactor = 1.2;
     return gains;
 }
 

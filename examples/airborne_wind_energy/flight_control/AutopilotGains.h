@@ -107,6 +107,9 @@ struct AutopilotGains
 
     /// For a wing that the air turns (SteeringController): a wider eight, which it can follow.
     static AutopilotGains steered();
+    /// The same with more power, for a wind that grows with the height: docs/figures.md says how
+    /// they were found.
+    static AutopilotGains steeredTuned();
     /// The same, for a wing with another turn-rate law. \param turnRateFactor  c_1 [rad/m] \param
     /// weightFactor  c_2 [m/s^2]
     AutopilotGains invertedFor(double turnRateFactor, double weightFactor) const;

@@ -16,6 +16,7 @@ class tst_GainTuning : public QObject
 private Q_SLOTS:
     void everyRangeHoldsValidGains();
     void gainsAreReadAndWritten();
+    void steeredStartInvertsTheLawOfThePlant();
     void tuningKeepsTheOtherGains();
     void scoreSummarizesTheSimulatedFlights();
     void deadTimeAndSeedsMatter();
@@ -50,6 +51,19 @@ void tst_GainTuning::gainsAreReadAndWritten()
     const AutopilotGains written = TunableGain::write(AutopilotGains::tuned(), point);
     QCOMPARE(TunableGain::read(written), point);
     QCOMPARE(written.yawGain, AutopilotGains::tuned().yawGain + 0.5);
+}
+
+void tst_GainTuning::steeredStartInvertsTheLawOfThePlant()
+{
+    SteeringParameters steering;
+    QCOMPARE(startOfTuning(steering).turnRateFactor, 0.0);
+    steering.kind = SteeringKind::TurnRate;
+    steering.turnRateFactor = 0.2;
+    steering.weightFactor = 0.05;
+    const AutopilotGains start = startOfTuning(steering);
+    QCOMPARE(start.turnRateFactor, 0.2);
+    QCOMPARE(start.weightFactor, 0.05);
+    QCOMPARE(start.eightHalfWidth, AutopilotGains::steered().eightHalfWidth);
 }
 
 void tst_GainTuning::tuningKeepsTheOtherGains()
@@ -150,6 +164,12 @@ void tst_GainTuning::badOptionsAreRefused_data()
     row("--dead-time 64", "--dead-time 64: use a whole number of 0 ... 63");
     row("--dead-time 0.5", "--dead-time 0.5: use a whole number of 0 ... 63");
     row("--dead-time nan", "--dead-time nan: use a whole number of 0 ... 63");
+    row("--plant", "--plant without a value: use a name or a file");
+    row("--plant nowhere",
+        "cannot read the plant nowhere: No such file or directory; choose another file, or one of drag, realistic, "
+        "thesis");
+    row("--plant drag", "--plant drag: the search flies pumping cycles without hardware; use another plant");
+    row("--seconds 3601", "--seconds 3601: use a whole number of 0 ... 3600");
     row("--halvings two", "--halvings two: use a whole number of 0 ... 10");
     row("--dead-time 1 --halvings 2x", "--halvings 2x: use a whole number of 0 ... 10");
     row("--least-gain 1.5", "--least-gain 1.5: use a number of 0 ... 1");
@@ -175,7 +195,7 @@ void tst_GainTuning::helpDescribesTheOptions()
     QCOMPARE(program.exitCode(), 0);
     const QByteArray help = program.readAllStandardOutput();
     QVERIFY(help.startsWith("usage: awe_tune_gains"));
-    for (const char *option : {"--dead-time", "--halvings", "--least-gain"})
+    for (const char *option : {"--plant", "--dead-time", "--halvings", "--least-gain", "--seconds"})
         QVERIFY2(help.contains(option), option);
 }
 
