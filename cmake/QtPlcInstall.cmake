@@ -56,7 +56,8 @@ if(TARGET QtPlcModels)
 endif()
 if(QTPLC_BUILD_GUI)
     qtplc_install_library(QtPlcGui QtPlcGuiTargets libqtplc-gui)
-    install(FILES ${CMAKE_CURRENT_LIST_DIR}/FindMuParser.cmake ${CMAKE_CURRENT_LIST_DIR}/FindQwt.cmake
+    install(FILES ${CMAKE_CURRENT_LIST_DIR}/FindKissFft.cmake ${CMAKE_CURRENT_LIST_DIR}/FindMuParser.cmake
+        ${CMAKE_CURRENT_LIST_DIR}/FindQwt.cmake
         DESTINATION ${package_directory} COMPONENT libqtplc-gui-dev)
 endif()
 if(TARGET QtPlcTest)

@@ -116,7 +116,8 @@ qtplc_package(libqtplc-gui SECTION libs LIBRARIES
 qtplc_package(libqtplc-gui-dev SECTION libdevel
     SUMMARY "distributed real-time controllers, for building windows"
     DESCRIPTION "What find_package(QtPlc COMPONENTS Gui) finds."
-    DEPENDS libqtplc-gui libqtplc-dev libqt5svg5-dev libqwt-qt5-dev libmuparser-dev qt3d5-dev)
+    DEPENDS libqtplc-gui libqtplc-dev libqt5svg5-dev libqwt-qt5-dev libmuparser-dev
+        libkissfft-dev qt3d5-dev)
 qtplc_package(qtplc-control-center SECTION science
     SUMMARY "distributed real-time controllers, Control Center"
     DESCRIPTION "The window in which people see, steer and understand a running QtPLC plant."

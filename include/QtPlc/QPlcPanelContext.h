@@ -169,6 +169,9 @@ public:
     /// Returns the history of a number row by row and without a copy, for charts that draw much of
     /// it. It is valid until signalsChanged(); then ask again.
     QPlcPast past(const QString &expression) const;
+    /// Returns the same, with names without a plant in the expression, also in a formula, as those
+    /// of \a plant: to compare plants.
+    QPlcPast past(const QString &expression, const QString &plant) const;
     /// Returns references of all numbers of all plants, for a field in which people choose one.
     QStringList numberNames() const;
     /// Returns references of all signals of all plants, and of the elements of arrays.
@@ -258,7 +261,8 @@ public:
         AcknowledgedRole,             ///< bool: nobody has to acknowledge it any more
         ActiveRole,                   ///< bool: what it tells of still lasts
         FollowersRole,                ///< int: alarms that came with it, and may come from it
-        EventTimeRole                 ///< qint64: [ms] since 1970
+        EventTimeRole,                ///< qint64: [ms] since 1970
+        NoteRole                      ///< bool: a person has written it
     };
     /// Returns a tree of all plants, their nodes, the signals that these write, and elements of
     /// arrays. Values are those of shownTime(). They are renewed at most 10 times a second, where a

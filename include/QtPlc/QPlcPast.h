@@ -103,6 +103,12 @@ public:
     /// Returns true if both histories have the same rows: equal numbers have equal times.
     bool sharesRows(const QPlcPast &other) const;
 
+    /// Returns true if rows are not those of cycles: the window shows an overview of a recording
+    /// that is too large for its memory. Two rows in turn then have the smallest and the largest
+    /// value of an interval. When less of it is seen, the window reads all cycles, and emits
+    /// QPlcPanelContext::signalsChanged().
+    bool isOverview() const;
+
     /// Returns the number of the oldest row that is kept.
     Row firstRow() const;
     /// Returns the number behind the newest row.

@@ -149,6 +149,8 @@ void ChartInteraction::release(const QWidget *watched, const QMouseEvent &event)
         if (m_hasMoved && box.width() >= leastBox && box.height() >= leastBox)
             chooseBox(box);
     }
+    if (!m_hasMoved && m_button == Qt::LeftButton && watched == m_chart->canvas())
+        Q_EMIT clicked(position);
     if (!m_hasMoved && m_button == Qt::RightButton)
         Q_EMIT menuWanted(position, event.globalPos());
 }

@@ -27,6 +27,8 @@ public:
 
 Q_SIGNALS:
     void pressed();
+    /// The left button, without dragging.
+    void clicked(const QPoint &position);
     void mouseMoved();
     void allWanted();
     void menuWanted(const QPoint &position, const QPoint &global);

@@ -35,6 +35,19 @@ void QPlcTimePlot::Private::toggleRuns()
     edit(wanted);
 }
 
+/// Names of pieces that are gone are forgotten.
+void QPlcTimePlot::Private::toggleRun(const QString &name)
+{
+    PlotSettings wanted = settings;
+    QStringList hidden;
+    for (const PlotRun &run : runs.all()) {
+        if (settings.runs.hidden.contains(run.name) != (run.name == name))
+            hidden << run.name;
+    }
+    wanted.runs.hidden = hidden;
+    edit(wanted);
+}
+
 /// The other recording if there is one; else the pieces of this one that begin where the chosen
 /// curve rises through the middle of its values.
 RunSettings QPlcTimePlot::Private::usualRuns() const

@@ -105,9 +105,25 @@ void QPlcTimePlot::Private::showOverlay()
                 picture.dots.append({QPointF(*x, canvas->yOf(curve.axis, value)), curve.color});
         }
     }
+    picture.notes = shownNotes();
     placeTrigger(&picture);
     interaction->setCursors(picture.cursorA, picture.cursorB);
     overlay->show(picture);
+}
+
+/// Of the plants of the curves, not of runs over them.
+QVector<PlotOverlay::Note> QPlcTimePlot::Private::shownNotes() const
+{
+    constexpr int mostNotes = 50;  // in a picture
+    QStringList plants;
+    for (const PlotCurve &curve : curves) {
+        if (curve.source && !curve.isFurther && !plants.contains(curve.source.plant))
+            plants << curve.source.plant;
+    }
+    QVector<PlotOverlay::Note> shown;
+    for (const PlotNotes::Note &note : notes.between(canvas->begin(), canvas->end(), plants, mostNotes))
+        shown.append({int(std::lround(canvas->xOf(note.time))), note.text});
+    return shown;
 }
 
 std::optional<QPlcTimePlot::Private::Time> QPlcTimePlot::Private::shownEvent()

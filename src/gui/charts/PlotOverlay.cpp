@@ -29,7 +29,7 @@ bool isSame(const PlotOverlay::Picture &a, const PlotOverlay::Picture &b)
 {
     return a.cursorA == b.cursorA && a.cursorB == b.cursorB && a.pointer == b.pointer && a.pointerText == b.pointerText
         && a.playhead == b.playhead && a.dots == b.dots && a.box == b.box && a.hint == b.hint && a.event == b.event
-        && a.levels == b.levels;
+        && a.levels == b.levels && a.notes == b.notes;
 }
 
 }  // namespace
@@ -76,6 +76,7 @@ void PlotOverlay::paint(QPainter *painter) const
 {
     painter->setFont(font());
     paintBetween(painter);
+    paintNotes(painter);
     paintTrigger(painter);
     paintPlayhead(painter);
     paintPointer(painter);
@@ -125,6 +126,27 @@ void PlotOverlay::paintTrigger(QPainter *painter) const
     painter->setPen(QPen(m_theme.text, 0.0, Qt::DashLine));
     painter->drawLine(*m_picture.event, 0, *m_picture.event, height());
     paintArrow({*m_picture.event, arrowSize}, {0, arrowSize}, {arrowSize - 2, 0}, m_theme.text);
+}
+
+/// A line and the text beside it, as far as there is room before the next one. Below the flags of
+/// the cursors.
+void PlotOverlay::paintNotes(QPainter *painter) const
+{
+    const int top = flagHeight() + 2;
+    for (int i = 0; i < m_picture.notes.size(); ++i) {
+        const Note &note = m_picture.notes[i];
+        const int behind = i + 1 < m_picture.notes.size() ? m_picture.notes[i + 1].place : width();
+        painter->setPen(QPen(m_theme.warning, 0.0, Qt::DashLine));
+        painter->drawLine(note.place, 0, note.place, height());
+        const int room = behind - note.place - 3 * labelMargin;
+        const QString text = fontMetrics().elidedText(note.text, Qt::ElideRight, room);
+        if (room < fontMetrics().horizontalAdvance(QStringLiteral("mmm")))
+            continue;
+        const QRect label(note.place + 2, top, fontMetrics().horizontalAdvance(text) + labelMargin, flagHeight());
+        painter->fillRect(label, faint(m_theme.surface, 0.85));
+        painter->setPen(m_theme.text);
+        painter->drawText(label, Qt::AlignCenter, text);
+    }
 }
 
 /// A line with a triangle at its foot.

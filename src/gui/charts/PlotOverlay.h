@@ -22,6 +22,12 @@ public:
         QColor color;
         friend bool operator==(const Dot &a, const Dot &b) { return a.position == b.position && a.color == b.color; }
     };
+    struct Note
+    {
+        int place;  // [px] from the left edge
+        QString text;
+        friend bool operator==(const Note &a, const Note &b) { return a.place == b.place && a.text == b.text; }
+    };
     struct Picture
     {
         std::optional<int> cursorA;  // [px] from the left edge
@@ -34,6 +40,7 @@ public:
         QString hint;
         std::optional<int> event;  // of a trigger
         QVector<Dot> levels;       // of a trigger, on the curve of its signal: only the height counts
+        QVector<Note> notes;       // from left to right
     };
 
     explicit PlotOverlay(QWidget *canvas);
@@ -54,6 +61,7 @@ protected:
 private:
     void paintPlayhead(QPainter *painter) const;
     void paintPointer(QPainter *painter) const;
+    void paintNotes(QPainter *painter) const;
     void paintDots(QPainter *painter) const;
     void paintCursor(QPainter *painter, int x, const QString &name) const;
     void paintTrigger(QPainter *painter) const;

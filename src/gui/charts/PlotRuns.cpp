@@ -274,15 +274,16 @@ QPlcPast plantPast(const QPlcPanelContext &context, const QString &expression, c
 {
     if (plant == reference)
         return context.past(expression);
-    if (QPlcPast::textOf(expression) != expression) {
+    const QString prefix = reference + QLatin1Char('/');  // signals of some layouts name their plant
+    QPlcPast past = context.past(expression.startsWith(prefix) ? expression.mid(prefix.size()) : expression, plant);
+    if (past && past.plant != plant) {
         QPlcPast none;
         none.expression = expression;
-        none.problem = QPlcTimePlot::tr("A formula is compared within its own run. Remedy: compare its signals.");
+        none.problem = QPlcTimePlot::tr("%1 names its plant. Remedy: leave the plant out of the names.")
+                           .arg(QPlcPast::textOf(expression));
         return none;
     }
-    const QString prefix = reference + QLatin1Char('/');  // signals of some layouts name their plant
-    const QString signal = expression.startsWith(prefix) ? expression.mid(prefix.size()) : expression;
-    return context.past(plant + QLatin1Char('/') + signal);
+    return past;
 }
 
 }  // namespace qplc

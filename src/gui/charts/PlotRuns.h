@@ -17,8 +17,8 @@ namespace qplc {
 
 struct PlotSettings;
 
-/// The past of \a expression, a curve of the plant \a reference, in another plant. Formulas have
-/// none there.
+/// The past of \a expression, a curve of the plant \a reference, in another plant. What names its
+/// plant within a formula has none there.
 QPlcPast plantPast(const QPlcPanelContext &context, const QString &expression, const QString &reference,
                    const QString &plant);
 

@@ -215,6 +215,12 @@ void QPlcTimePlot::Private::removeCurve(int place)
 
 void QPlcTimePlot::Private::toggleCurve(int place)
 {
+    const bool isRun = place >= settings.curves.size() || (settings.curves.size() == 1 && curves.hasRuns());
+    if (isRun && place >= 0 && place < curves.size()) {
+        toggleRun(curves.at(place).run.name);
+        select(place);
+        return;
+    }
     if (place < 0 || place >= settings.curves.size())
         return;
     PlotSettings wanted = settings;

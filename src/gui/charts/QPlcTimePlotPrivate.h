@@ -7,6 +7,7 @@
 #include "PlotCurves.h"
 #include "PlotInteraction.h"
 #include "PlotLegend.h"
+#include "PlotNotes.h"
 #include "PlotOverlay.h"
 #include "PlotSettings.h"
 #include "PlotTime.h"
@@ -60,6 +61,7 @@ public:
     std::optional<Time> shownEvent();
     void placeTrigger(qplc::PlotOverlay::Picture *picture);
     void pointAtMouse();
+    QVector<qplc::PlotOverlay::Note> shownNotes() const;
     void showOverlay();
     QString hint() const;
     QString hintOfTime() const;
@@ -72,6 +74,8 @@ public:
     void tick() override
     {
         takeRuns();
+        if (notes.update(*context()))
+            change();
         showNumbers();
     }
     void resized() override { arrange(); }
@@ -116,6 +120,8 @@ public:
     // -- PlotComparing.cpp: runs that lie over each other --
     void connectRuns();
     void toggleRuns();
+    /// Hides all curves of a run that lies over the others, or shows them again.
+    void toggleRun(const QString &name);
     void showRuns();
     /// Finds the runs, and moves the view to them.
     void findRuns();
@@ -139,6 +145,7 @@ public:
     qplc::StatisticsView *statistics;
     qplc::EventFiles *eventFiles;
     qplc::PlotRuns runs;
+    qplc::PlotNotes notes;
     qplc::PlotCurves curves;
     qplc::ValueRanges ranges;
     qplc::PlotTime time;

@@ -57,7 +57,7 @@ public:
         , message(new QLabel)
         , legend(new QLabel)
         , moment(new QLabel)
-        , interaction(new XyInteraction(canvas, plot))
+        , interaction(new XyInteraction(canvas, canvas, plot))
     {
         auto *all = new QVBoxLayout(plot);
         all->setContentsMargins(2, 2, 2, 2);

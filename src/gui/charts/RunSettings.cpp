@@ -17,6 +17,7 @@ const QString levelRunKey = QStringLiteral("level");
 const QString lastRunKey = QStringLiteral("last");
 const QString apartRunKey = QStringLiteral("apart");
 const QString differencesRunKey = QStringLiteral("differences");
+const QString hiddenRunKey = QStringLiteral("hidden");
 const QString eventRunKey = QStringLiteral("event");
 
 constexpr int usualLast = 10;
@@ -47,6 +48,9 @@ RunSettings RunSettings::fromJson(const QJsonObject &json)
     settings.last = std::clamp(settings.others.take(lastRunKey).toInt(usualLast), 1, MostLast);
     settings.apart = std::max(settings.others.take(apartRunKey).toDouble(), 0.0);
     settings.isDifference = settings.others.take(differencesRunKey).toBool();
+    const QJsonArray hidden = settings.others.take(hiddenRunKey).toArray();
+    for (const QJsonValue &name : hidden)
+        settings.hidden << name.toString();
     return settings;
 }
 
@@ -71,6 +75,8 @@ QJsonObject RunSettings::toJson() const
         json.insert(apartRunKey, apart);
     if (isDifference)
         json.insert(differencesRunKey, true);
+    if (!hidden.isEmpty())
+        json.insert(hiddenRunKey, QJsonArray::fromStringList(hidden));
     return json;
 }
 

@@ -13,7 +13,7 @@ namespace qplc {
 ///
 /// ```json
 /// {"on": true, "plants": ["flight2"], "align": "edge", "signal": "reelOut", "level": 0.5,
-///  "last": 10, "apart": 2, "differences": true}
+///  "last": 10, "apart": 2, "differences": true, "hidden": ["flight1"]}
 /// ```
 struct RunSettings
 {
@@ -36,6 +36,7 @@ struct RunSettings
     int last = 10;              // of edges, events or pauses, 1 to MostLast
     double apart = 0.0;         // of edges, at least [s]
     bool isDifference = false;  // each run minus the one below, in place of all of them
+    QStringList hidden{};       // names of runs that are not drawn
     QJsonObject others{};       // keys that nobody knows
 
     /// Runs are pieces of the past, each of which begins where something happened.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "QPlcTheme.h"
+#include "ZoomedAxes.h"
 #include "gui/models/SiPrefix.h"
 #include "gui/plot/XyCurve.h"
 
@@ -12,7 +13,7 @@ class QwtPlotGrid;
 namespace qplc {
 
 /// The plot of an XY panel: curves, axes that hold what is shown, and the rule when to draw.
-class XyCanvas : public QwtPlot
+class XyCanvas : public QwtPlot, public ZoomedAxes
 {
     Q_OBJECT
 public:
@@ -39,11 +40,9 @@ public:
     void setAspect(Aspect aspect);
     /// Titles and colours of the curves as rich text; empty for less than two.
     QString legend() const;
-    /// About a place that stays where it is [px of the canvas]. \param xFactor, yFactor < 1: shows
-    /// less
-    void zoom(double xFactor, double yFactor, QPointF about);
-    void pan(QPointF by);
-    void zoomTo(const QRectF &box);
+    void zoom(double xFactor, double yFactor, QPointF about) override;
+    void pan(QPointF by) override;
+    void zoomTo(const QRectF &box) override;
     /// Axes that a person has zoomed stay so.
     bool isHeld() const { return m_isHeld; }
     /// Axes follow the curves again.

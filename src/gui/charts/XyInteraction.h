@@ -2,20 +2,22 @@
 #pragma once
 
 #include "ChartInteraction.h"
-#include "XyCanvas.h"
+#include "ZoomedAxes.h"
 
 class QRubberBand;
 
 namespace qplc {
 
-/// What a mouse and two fingers do over an XY plot, beside what they do over all charts: the wheel
+/// What a mouse and two fingers do over a chart whose axes are both
+/// values, beside what they do over all charts: the wheel
 /// zooms about the mouse, over an axis only its values, with Ctrl those of y; dragging pans, over
 /// an axis only its values; a box is zoomed into.
 class XyInteraction : public ChartInteraction
 {
     Q_OBJECT
 public:
-    XyInteraction(XyCanvas *canvas, QObject *parent);
+    /// \param axes  those of the chart
+    XyInteraction(QwtPlot *chart, ZoomedAxes *axes, QObject *parent);
 
 protected:
     void drag(const QWidget *watched, QPoint position, QPoint by) override;
@@ -25,7 +27,8 @@ protected:
     void wheel(const QWidget *watched, const QWheelEvent &event) override;
 
 private:
-    XyCanvas *m_canvas;
+    QwtPlot *m_chart;
+    ZoomedAxes *m_axes;
     QRubberBand *m_box;  // of the canvas
 };
 

@@ -182,6 +182,8 @@ QVariant EventLogModel::data(const QModelIndex &index, int role) const
         return isActive(entry);
     case FollowersRole:
         return entry.followers;
+    case NoteRole:
+        return event.isNote;
     case TimeRole:
         return event.time.toMSecsSinceEpoch();
     case Qt::ForegroundRole:

@@ -22,7 +22,7 @@ class EventLogModel : public QAbstractTableModel
     Q_OBJECT
 public:
     enum Column { Time, Severity, State, Source, Text, ColumnCount };
-    enum Role { SeverityRole = Qt::UserRole, AcknowledgedRole, ActiveRole, FollowersRole, TimeRole };
+    enum Role { SeverityRole = Qt::UserRole, AcknowledgedRole, ActiveRole, FollowersRole, TimeRole, NoteRole };
 
     static constexpr int MostEvents = 10'000;
     static constexpr int BurstPause = 5000;  // [ms]

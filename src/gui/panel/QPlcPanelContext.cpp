@@ -424,8 +424,13 @@ QVector<QPlcPanelContext::Sample> QPlcPanelContext::history(const QString &expre
 
 QPlcPast QPlcPanelContext::past(const QString &expression) const
 {
+    return past(expression, d->pin());
+}
+
+QPlcPast QPlcPanelContext::past(const QString &expression, const QString &plant) const
+{
     if (d->window)
-        return PastRows::past(d->window->curveSources()->find(expression, d->pin()));
+        return PastRows::past(d->window->curveSources()->find(expression, plant));
     QPlcPast past;
     past.expression = expression;
     past.problem = tr("No plant is connected.");

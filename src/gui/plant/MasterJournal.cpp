@@ -117,6 +117,7 @@ void MasterJournal::tell(messages::EventEntry event)
                     event.source == messages::masterName ? QString() : event.source, event.text, false};
     told.alarm = event.alarm;
     told.isStateChange = event.kind == messages::stateEvent;
+    told.isNote = event.kind == messages::noteEvent;
     if (!told.alarm.isEmpty())
         told.stage = event.active.value_or(false) ? PlantEvent::Begins : PlantEvent::Ends;
     if (told.stage == PlantEvent::Begins)

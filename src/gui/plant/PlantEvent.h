@@ -22,6 +22,7 @@ struct PlantEvent
     Stage stage = Once;
     QString alarm{};
     bool isStateChange = false;  // the plant starts, stops, or changes its state otherwise
+    bool isNote = false;         // a person has written it
 };
 
 }  // namespace qplc

@@ -241,6 +241,7 @@ void PlantRecording::storeOverview()
 {
     Section &section = *m_section;
     SignalStore *store = section.values.store();
+    store->setOverview();
     const double width = double(section.part.end - section.part.begin) / section.intervals;
     std::vector<float> row(section.columns.size());
     for (int half = 0; half < 2 * section.intervals; ++half) {
@@ -311,6 +312,7 @@ void PlantRecording::tell(const Happening &happening)
     event.source = m_plant->sourceOf({});
     event.text = happening.sentence();
     event.isAcknowledged = true;
+    event.isNote = happening.kind() == messages::noteEvent;
     m_plant->tell(event);
 }
 

@@ -95,6 +95,11 @@ bool QPlcPast::sharesRows(const QPlcPast &other) const
     return d->store == other.d->store;
 }
 
+bool QPlcPast::isOverview() const
+{
+    return d->ofPlant->isOverview();
+}
+
 QPlcPast::Row QPlcPast::firstRow() const
 {
     return d->store->firstRow();

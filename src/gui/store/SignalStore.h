@@ -55,6 +55,10 @@ public:
     void mark(int channel, Mark mark);
     /// What is appended next does not continue what is there.
     void interrupt() { m_interrupted = true; }
+    /// Rows are not those of cycles: two in turn have the smallest and the largest value of an
+    /// interval.
+    void setOverview() { m_isOverview = true; }
+    bool isOverview() const { return m_isOverview; }
     /// Forgets all rows. Their numbers are not given again, and any time may follow.
     void clear();
 
@@ -129,6 +133,7 @@ private:
     Row m_begin = 0;                          // the first row since clear()
     Row m_end = 0;
     bool m_interrupted = false;
+    bool m_isOverview = false;
 };
 
 }  // namespace qplc

@@ -95,6 +95,7 @@ void QPlcSignalTree::makeActions()
     };
     makeShow(tr("Show in a plot"), {Qt::Key_Return, Qt::Key_Enter}, QStringLiteral("Time plot"));
     makeShow(tr("Show in an XY plot"), {Qt::Key_X}, QStringLiteral("XY plot"));
+    makeShow(tr("Show the spectrum"), {Qt::Key_Q}, QStringLiteral("Spectrum"));
     makeShow(tr("Show as a gauge"), {Qt::Key_G}, QStringLiteral("Gauge"));
     makeShow(tr("Watch in a value table"), {Qt::Key_W}, QStringLiteral("Value table"));
     makeShow(tr("Set by a setter"), {Qt::Key_S}, QStringLiteral("Setter"));

@@ -23,6 +23,7 @@ constexpr Part parts[] = {
     {"QtPLC", "Apache-2.0", QT_TRANSLATE_NOOP("qplc::AboutWindow", "this library and its programs")},
     {"Qt 5", "LGPL-3.0", QT_TRANSLATE_NOOP("qplc::AboutWindow", "linked dynamically, unchanged")},
     {"Qwt", "Qwt License 1.0 (LGPL-2.1)", QT_TRANSLATE_NOOP("qplc::AboutWindow", "linked dynamically, unchanged")},
+    {"kissfft", "BSD-3-Clause", QT_TRANSLATE_NOOP("qplc::AboutWindow", "linked dynamically, unchanged")},
     {"muParser", "BSD-2-Clause", QT_TRANSLATE_NOOP("qplc::AboutWindow", "linked dynamically, unchanged")},
     {"libsodium", "ISC", QT_TRANSLATE_NOOP("qplc::AboutWindow", "linked dynamically, unchanged")},
     {"Zstandard", "BSD-3-Clause", QT_TRANSLATE_NOOP("qplc::AboutWindow", "programs with recordings only")},

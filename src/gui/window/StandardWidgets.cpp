@@ -8,6 +8,7 @@
 #include "QPlcNodeTable.h"
 #include "QPlcSetter.h"
 #include "QPlcSignalTree.h"
+#include "QPlcSpectrum.h"
 #include "QPlcTimePlot.h"
 #include "QPlcValueTable.h"
 #include "QPlcWidget.h"
@@ -29,7 +30,7 @@ QList<QPlcWidgetFactory *> standardWidgets()
 {
     // In the order of menus.
     static const QList<QPlcWidgetFactory *> all
-        = registered<QPlcTimePlotFactory, QPlcXyPlotFactory, QPlcGaugeFactory, QPlcSetterFactory,
+        = registered<QPlcTimePlotFactory, QPlcXyPlotFactory, QPlcSpectrumFactory, QPlcGaugeFactory, QPlcSetterFactory,
                      QPlcKeyboardControlFactory, QPlcValueTableFactory, QPlcSignalTreeFactory, QPlcNodeTableFactory,
                      QPlcJitterHistogramFactory, QPlcEventLogFactory>();
     return all;

@@ -38,6 +38,10 @@ private Q_SLOTS:
     void theKeyComparesWithTheOtherPlant();
     void withoutAnotherPlantTheKeyComparesEdges();
     void aTriggerEndsTheComparison();
+    void aRunIsHiddenFromTheLegend();
+    void theRunBelowIsHiddenAlone();
+    void formulasAreComparedOverPlants();
+    void aFormulaThatNamesItsPlantIsNotCompared();
 };
 
 namespace {
@@ -433,6 +437,66 @@ void tst_PlotRuns::aTriggerEndsTheComparison()
     window.action("runs")->trigger();
     QCOMPARE(window.drawn().size(), 3);
     QVERIFY(!window.action("trigger")->isChecked());
+}
+
+void tst_PlotRuns::aRunIsHiddenFromTheLegend()
+{
+    ThreeRises window("{}");
+    addBoat(&window);
+    window.apply(speedOverBoat);
+    QVERIFY(window.show());
+    QTRY_COMPARE(window.names().size(), 2);
+    QTest::mouseClick(window.legend(), Qt::LeftButton, {}, window.legend()->entryRect(1).center());
+    QTRY_COMPARE(window.drawn().size(), 1);
+    QVERIFY(window.settings().contains(R"("hidden":["boat"])"));
+    QCOMPARE(window.names().size(), 2);  // it can be shown again
+    QVERIFY(!window.legend()->entries().at(1).isVisible);
+    QTest::mouseClick(window.legend(), Qt::LeftButton, {}, window.legend()->entryRect(1).center());
+    QTRY_COMPARE(window.drawn().size(), 2);
+    QCOMPARE(window.settings(), speedOverBoat);
+}
+
+void tst_PlotRuns::theRunBelowIsHiddenAlone()
+{
+    ThreeRises window("{}");
+    const Plant *boat = addBoat(&window);
+    window.apply(speedOverBoat);
+    QVERIFY(window.show());
+    QTRY_COMPARE(window.names().size(), 2);
+    QTest::mouseClick(window.legend(), Qt::LeftButton, {}, window.legend()->entryRect(0).center());
+    QTRY_COMPARE(window.drawn().size(), 1);
+    QCOMPARE(window.drawn().first()->store(), boat->store());
+}
+
+void tst_PlotRuns::formulasAreComparedOverPlants()
+{
+    ThreeRises window("{}");
+    Plant *boat = window.context.plants()->addFed(QStringLiteral("boat"));
+    boat->feed()->connected(fedTable());
+    boat->feed()->started();
+    for (int i = 0; i < 100; ++i)
+        boat->feed()->add({valueOf("speed", QPlcValue(float(1000 + i)))}, window.now + i * period * millisecond);
+    window.apply(R"json({"curves":[{"signal":"= 2*speed"}],"runs":{"on":true,"plants":["boat"]}})json");
+    QVERIFY(window.show());
+    QTRY_COMPARE(window.drawn().size(), 2);
+    const auto largest = [](const StoreCurve *curve) {
+        const SignalStore *store = curve->store();
+        return double(store->range(curve->channel(), store->firstRow(), store->endRow()).maximum);
+    };
+    QTRY_COMPARE(std::max(largest(window.drawn().at(0)), largest(window.drawn().at(1))), 2.0 * 1099.0);
+    QTRY_COMPARE(std::min(largest(window.drawn().at(0)), largest(window.drawn().at(1))), 2.0 * 301.0);
+}
+
+void tst_PlotRuns::aFormulaThatNamesItsPlantIsNotCompared()
+{
+    ThreeRises window("{}");
+    addBoat(&window);
+    window.apply(R"json({"curves":[{"signal":"= 2*kite/speed"}],"runs":{"on":true,"plants":["boat"]}})json");
+    QVERIFY(window.show());
+    QCOMPARE(window.drawn().size(), 1);
+    QTRY_COMPARE(window.names().size(), 2);
+    QVERIFY2(window.legend()->entries().at(1).hint.contains(QLatin1String("names its plant")),
+             qPrintable(window.legend()->entries().at(1).hint));
 }
 
 QTEST_MAIN(tst_PlotRuns)

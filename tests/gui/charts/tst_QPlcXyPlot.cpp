@@ -372,7 +372,7 @@ void tst_QPlcXyPlot::theWheelZoomsAboutTheMouse()
 {
     const auto canvas = canvasOf(0, 1);
     canvas->show({0, 60'000'000'000, 0, false});
-    XyInteraction interaction(canvas.get(), nullptr);
+    XyInteraction interaction(canvas.get(), canvas.get(), nullptr);
     const QPoint at(120, 60);
     const QPointF value = canvas->valueAt(at);
     const double width = canvas->axisInterval(QwtPlot::xBottom).width();
@@ -399,7 +399,7 @@ void tst_QPlcXyPlot::draggingPansAndABoxIsZoomedInto()
 {
     const auto canvas = canvasOf(0, 1);
     canvas->show({0, 60'000'000'000, 0, false});
-    XyInteraction interaction(canvas.get(), nullptr);
+    XyInteraction interaction(canvas.get(), canvas.get(), nullptr);
     const QPointF value = canvas->valueAt(QPoint(100, 50));
     drag(canvas->canvas(), {100, 50}, {160, 90}, Qt::LeftButton);
     QVERIFY(isNear(canvas->valueAt(QPoint(160, 90)), value));
@@ -417,7 +417,7 @@ void tst_QPlcXyPlot::twoFingersZoom()
 {
     const auto canvas = canvasOf(0, 1);
     canvas->show({0, 60'000'000'000, 0, false});
-    XyInteraction interaction(canvas.get(), nullptr);
+    XyInteraction interaction(canvas.get(), canvas.get(), nullptr);
     const double width = canvas->axisInterval(QwtPlot::xBottom).width();
     QTouchDevice *screen = QTest::createTouchDevice();
     QWidget *on = canvas->canvas();

@@ -129,20 +129,10 @@ void tst_SignalMenu::menuListsAllPossibleActions()
         QVERIFY2(action->isEnabled(), qPrintable(action->text()));
     }
     const QStringList expected = {
-        "Show in a plot",
-        "Show in an XY plot",
-        "Show as a gauge",
-        "Watch in a value table",
-        "Set by a setter",
-        "Into 'Time plot'",
-        "Right axis of 'Time plot'",
-        "Left of 'Time plot'",
-        "Right of 'Time plot'",
-        "Above 'Time plot'",
-        "Below 'Time plot'",
-        "Into a new tab",
-        "Search signals",
-        "Columns",
+        "Show in a plot",         "Show in an XY plot",   "Show the spectrum", "Show as a gauge",
+        "Watch in a value table", "Set by a setter",      "Into 'Time plot'",  "Right axis of 'Time plot'",
+        "Left of 'Time plot'",    "Right of 'Time plot'", "Above 'Time plot'", "Below 'Time plot'",
+        "Into a new tab",         "Search signals",       "Columns",
     };
     QCOMPARE(texts, expected);
     QTest::keyClick(menu, Qt::Key_Escape);

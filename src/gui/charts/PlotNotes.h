@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "QPlcPanelContext.h"
+
+#include <vector>
+
+class QAbstractItemModel;
+
+namespace qplc {
+
+/// The notes that people have written about plants, as the event log has them: for marks in a plot.
+class PlotNotes
+{
+public:
+    using Time = QPlcPanelContext::Time;
+    struct Note
+    {
+        Time time;  // [ns]
+        QString text;
+    };
+
+    /// Looks whether the log has other notes. \return whether it has
+    bool update(const QPlcPanelContext &context);
+    /// Those of these plants in \a begin to \a end, oldest first, at most \a most: the newest ones.
+    std::vector<Note> between(Time begin, Time end, const QStringList &plants, int most) const;
+
+private:
+    struct Entry
+    {
+        Note note;
+        QString source;  // "kite", "kite/model"
+    };
+    std::vector<Entry> m_entries;
+    QPersistentModelIndex m_newest;  // event that was looked at
+};
+
+}  // namespace qplc
