@@ -66,6 +66,46 @@ public:
         qint64 time = 0;     ///< nominal [ns]
         QByteArray content;  ///< JSON, or bytes: docs/recording.md has the channels
     };
+    /// When something has happened, and who did it.
+    struct Happening
+    {
+        qint64 time = 0;        ///< nominal, of its cycle [ns]
+        qint64 wallTime = 0;    ///< [ns since 1970]; of a simulation as time
+        quint64 cycle = 0;      ///< newest one by then; of a value the one that has adopted it
+        bool isBefore = false;  ///< it was before the phase, and has led to it
+        QString by;             ///< person or program, as windows show it; of an event: node, or Master
+        QString role;           ///< that was proven: "Operator", ...; empty: none
+        QString address;        ///< of a connection; empty: nobody over a connection did it
+        QString client;         ///< uuid of the program; empty: unknown
+    };
+    /// Something that the event log of the master tells.
+    struct Event : Happening
+    {
+        QString severity;       ///< "info", "warning" or "error"
+        QString kind;           ///< "state", "node", "note", ...: docs/protocol.md, section 5.8
+        QString text;           ///< sentence for people; of a note what was noted
+        QString alarm;          ///< condition that lasts; empty: it was over at once
+        bool isActive = false;  ///< of an alarm: it has begun
+    };
+    /// A signal that was set, or another command.
+    struct Command : Happening
+    {
+        QString command;        ///< "Stop", ...; empty: a signal was set
+        QString signalName;     ///< of the signal that was set
+        QString from;           ///< value before, as text
+        QString to;             ///< value, as text
+        QString how;            ///< "set", "program", "lease", "came back" or "lease lost"
+        quint64 count = 1;      ///< values that are told together: `from` is of the first one
+        bool isAdopted = true;  ///< a cycle of the phase has taken the value
+    };
+    /// A lease of signals that was taken, released or lost.
+    struct Lease : Happening
+    {
+        QString what;             ///< "taken", "released" or "lost"
+        QStringList signalNames;  ///< of the signals
+        QStringList from;         ///< who had them before
+        QString reason;           ///< of a loss
+    };
     /// Signals of some cycles, a column for each signal.
     struct Columns
     {
@@ -98,7 +138,8 @@ public:
     /// \param paths  of the files and folders
     /// \return as open() of one
     bool open(const QStringList &paths);
-    /// Returns why the last open(), messages() or columns() has failed, as a sentence.
+    /// Returns why the last open(), messages(), columns(), events(), commands() or leases() has
+    /// failed, as a sentence.
     QString errorString() const;
     /// Returns sentences about what was left out: files without a cycle, signals that have another
     /// type in other files.
@@ -133,6 +174,28 @@ public:
     /// \param end  last time [ns]
     /// \param most  messages at most, 1 or more
     QVector<Message> messages(const QString &channel, qint64 begin, qint64 end, int most = 100'000);
+    /// Returns what the event log of the master tells of some time, notes of people among it.
+    ///
+    /// \code
+    /// for (const auto &event : recording.events(recording.begin(), recording.end())) {
+    ///     if (event.kind == QLatin1String("note"))
+    ///         qInfo("cycle %llu: %s", event.cycle, qPrintable(event.text));
+    /// }
+    /// \endcode
+    /// \param begin  first time [ns]
+    /// \param end  last time [ns]
+    /// \param most  events at most, 1 or more
+    QVector<Event> events(qint64 begin, qint64 end, int most = 100'000);
+    /// Returns who has set signals, and commanded the plant, in some time.
+    /// \param begin  first time [ns]
+    /// \param end  last time [ns]
+    /// \param most  commands at most, 1 or more
+    QVector<Command> commands(qint64 begin, qint64 end, int most = 100'000);
+    /// Returns who has taken, released and lost leases in some time.
+    /// \param begin  first time [ns]
+    /// \param end  last time [ns]
+    /// \param most  leases at most, 1 or more
+    QVector<Lease> leases(qint64 begin, qint64 end, int most = 100'000);
     /// Returns the extremes of a signal in intervals of equal length: a curve of days. It reads the
     /// overviews of the files, so it takes about as long for a day as for a minute.
     /// \param name  of a numeric signal. Without one of this name, no interval has a value
@@ -141,7 +204,8 @@ public:
     /// \param end  time behind the last interval [ns]
     /// \param count  intervals, 1 or more
     QVector<Extremes> overview(const QString &name, int element, qint64 begin, qint64 end, int count);
-    /// Returns how many damaged places columns() and messages() have left out since open().
+    /// Returns how many damaged places columns(), messages(), events(), commands() and leases()
+    /// have left out since open().
     int damages() const;
 
 private:

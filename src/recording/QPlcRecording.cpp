@@ -1,10 +1,85 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "QPlcRecording.h"
 
+#include "Happenings.h"
 #include "QPlcRecordedRows.h"
 #include "QPlcRecordingPrivate.h"
 
 #include <algorithm>
+
+namespace {
+
+using qplc::Happening;
+
+QString textIn(const Happening &happening, const char *key)
+{
+    return happening.text.value(QLatin1String(key)).toString();
+}
+
+QStringList listIn(const Happening &happening, const char *key)
+{
+    return happening.text.value(QLatin1String(key)).toVariant().toStringList();
+}
+
+void read(const Happening &happening, QPlcRecording::Event *event)
+{
+    event->severity = happening.severity();
+    event->kind = happening.kind();
+    event->text = textIn(happening, "text");
+    event->alarm = textIn(happening, "alarm");
+    event->isActive = happening.text.value(QLatin1String("active")).toBool();
+}
+
+void read(const Happening &happening, QPlcRecording::Command *command)
+{
+    command->command = textIn(happening, "command");
+    command->signalName = textIn(happening, "signal");
+    command->from = textIn(happening, "from");
+    command->to = textIn(happening, "to");
+    command->how = textIn(happening, "how");
+    command->count = quint64(std::max(happening.text.value(QLatin1String("count")).toDouble(), 1.0));
+    command->isAdopted = happening.text.value(QLatin1String("adopted")).toBool(true);
+}
+
+void read(const Happening &happening, QPlcRecording::Lease *lease)
+{
+    lease->what = textIn(happening, "what");
+    lease->signalNames = listIn(happening, "signals");
+    lease->from = listIn(happening, "from");
+    lease->reason = textIn(happening, "reason");
+}
+
+/// \param d  QPlcRecording::Private
+template<typename Kind, typename Private>
+QVector<Kind> happenings(Private *d, int topic, qint64 begin, qint64 end, int most)
+{
+    QVector<Kind> result;
+    d->error.clear();
+    if (!d->isOpen) {
+        d->error = QStringLiteral("no recording is open");
+        return result;
+    }
+    qplc::HappeningReader reader(d->recording, topic);
+    for (Happening happening; result.size() < most && reader.next(&happening);) {
+        if (happening.time < begin || happening.time > end || happening.text.contains(QLatin1String("lost")))
+            continue;
+        Kind kind;
+        kind.time = happening.time;
+        kind.wallTime = happening.wallTime;
+        kind.cycle = happening.cycle();
+        kind.isBefore = happening.text.value(QLatin1String("before")).toBool();
+        kind.by = happening.source();
+        kind.role = textIn(happening, "role");
+        kind.address = textIn(happening, "address");
+        kind.client = textIn(happening, "client");
+        read(happening, &kind);
+        result.append(kind);
+    }
+    d->damages += reader.damages();
+    return result;
+}
+
+}  // namespace
 
 QPlcRecording::QPlcRecording()
     : d(std::make_unique<Private>())
@@ -129,6 +204,21 @@ QVector<QPlcRecording::Message> QPlcRecording::messages(const QString &channel, 
         continue;
     d->damages += rows.damages();
     return result;
+}
+
+QVector<QPlcRecording::Event> QPlcRecording::events(qint64 begin, qint64 end, int most)
+{
+    return happenings<Event>(d.get(), qplc::Happening::Event, begin, end, most);
+}
+
+QVector<QPlcRecording::Command> QPlcRecording::commands(qint64 begin, qint64 end, int most)
+{
+    return happenings<Command>(d.get(), qplc::Happening::Command, begin, end, most);
+}
+
+QVector<QPlcRecording::Lease> QPlcRecording::leases(qint64 begin, qint64 end, int most)
+{
+    return happenings<Lease>(d.get(), qplc::Happening::Lease, begin, end, most);
 }
 
 QVector<QPlcRecording::Extremes> QPlcRecording::overview(const QString &name, int element, qint64 begin, qint64 end,

@@ -23,6 +23,7 @@ private Q_SLOTS:
     void rowsOfATimeAreThoseOfTheTime();
     void columnsGoOnWhereTheyWereCut();
     void messagesAreThoseOfTheirChannel();
+    void whatHasHappenedHasItsCycleAndWhoDidIt();
     void theOverviewHasTheExtremesOfTheRows();
     void whatIsNotKnownIsNamed();
     void whatIsNoRecordingIsRefused();
@@ -136,6 +137,60 @@ void tst_QPlcRecording::messagesAreThoseOfTheirChannel()
     QCOMPARE(recording.messages("/digest", 0, recording.end(), 2).size(), 2);
     QVERIFY(recording.messages("/gaps", 0, recording.end()).isEmpty());
     QVERIFY(recording.messages("/nowhere", 0, recording.end()).isEmpty());
+}
+
+void tst_QPlcRecording::whatHasHappenedHasItsCycleAndWhoDidIt()
+{
+    RecordedFlight flight(1 << 20, 1 << 16);
+    const auto tell = [&flight](RecordedText::Topic topic, quint64 cycle, const QByteArray &text) {
+        RecordedText head;
+        head.topic = topic;
+        head.cycle = cycle;
+        head.wallTime = 1'700'000'000'123'000'000;
+        flight.ring->addText(head, text);
+    };
+    QVERIFY2(flight.begin(), qPrintable(flight.error));
+    tell(RecordedText::Event, RecordedText::BeforePhase, R"({"severity":"info","kind":"state","text":"armed"})");
+    QVERIFY(flight.start());
+    flight.step(10);
+    tell(RecordedText::Event, 9,
+         R"({"severity":"warning","kind":"node","source":"Winch","text":"late","alarm":"node Winch","active":true})");
+    tell(RecordedText::Event, 9, R"({"kind":"note","source":"anna","address":"10.0.0.7:4711","text":"gust"})");
+    tell(RecordedText::Command, 9,
+         R"({"by":"anna","role":"Operator","client":"7","signal":"on","from":"0","to":"1","how":"set","count":3})");
+    tell(RecordedText::Command, 9, R"({"by":"bert","command":"Stop"})");
+    tell(RecordedText::Lease, 9,
+         R"({"what":"lost","by":"anna","signals":["on","force"],"from":["bert"],"reason":"gone"})");
+    flight.step(10);
+    flight.cycle.stop();
+    flight.ring->endTexts();
+    QCOMPARE(flight.recorder.proceed(&flight.error), PlantRecorder::Ended);
+    QVERIFY2(flight.recorder.finish(&flight.error), qPrintable(flight.error));
+
+    QPlcRecording recording;
+    QVERIFY2(recording.open(flight.file), qPrintable(recording.errorString()));
+    const QVector<QPlcRecording::Event> events = recording.events(0, recording.end());
+    QCOMPARE(events.size(), 3);
+    QVERIFY(events[0].isBefore && events[0].kind == "state" && events[0].text == "armed" && events[0].alarm.isEmpty());
+    QVERIFY(events[1].severity == "warning" && events[1].by == "Winch" && events[1].isActive);
+    QCOMPARE(events[1].alarm, QString("node Winch"));
+    QCOMPARE(events[2].cycle, quint64(9));
+    QCOMPARE(events[2].time, 9 * Period);
+    QVERIFY(events[2].kind == "note" && events[2].text == "gust" && events[2].address == "10.0.0.7:4711");
+    QCOMPARE(recording.events(0, recording.end(), 1).size(), 1);
+    QCOMPARE(recording.events(8 * Period, recording.end()).size(), 2);
+    QCOMPARE(recording.events(10 * Period, recording.end()).size(), 0);
+    const QVector<QPlcRecording::Command> commands = recording.commands(0, recording.end());
+    QCOMPARE(commands.size(), 2);
+    QVERIFY(commands[0].by == "anna" && commands[0].role == "Operator" && commands[0].client == "7");
+    QVERIFY(commands[0].signalName == "on" && commands[0].from == "0" && commands[0].to == "1");
+    QVERIFY(commands[0].how == "set" && commands[0].count == 3 && commands[0].isAdopted);
+    QVERIFY(commands[1].command == "Stop" && commands[1].signalName.isEmpty() && commands[1].count == 1);
+    const QVector<QPlcRecording::Lease> leases = recording.leases(0, recording.end());
+    QCOMPARE(leases.size(), 1);
+    QCOMPARE(leases[0].signalNames, (QStringList{"on", "force"}));
+    QVERIFY(leases[0].what == "lost" && leases[0].from == QStringList("bert") && leases[0].reason == "gone");
+    QCOMPARE(recording.damages(), 0);
 }
 
 void tst_QPlcRecording::theOverviewHasTheExtremesOfTheRows()
