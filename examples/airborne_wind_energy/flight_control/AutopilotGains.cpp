@@ -147,11 +147,11 @@ AutopilotGains AutopilotGains::steeredTuned()
     return gains;
 }
 
-AutopilotGains AutopilotGains::invertedFor(double turnRateFactor, double weightFactor) const
+AutopilotGains AutopilotGains::invertedFor(double turnRate, double weight) const
 {
     AutopilotGains gains = *this;
-    gains.turnRateFactor = turnRateFactor;
-    gains.weightFactor = weightFactor;
+    gains.turnRateFactor = turnRate;
+    gains.weightFactor = weight;
     return gains;
 }
 
