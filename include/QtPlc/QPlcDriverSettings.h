@@ -91,6 +91,15 @@ public:
     /// \param key  empty: the section as a whole
     /// \param message  what is wrong, and what to do
     void addError(const QString &key, const QString &message);
+    /// Adds a warning: the configuration is accepted, and people are told.
+    /// \param key  empty: the section as a whole
+    /// \param message  what is doubtful, and what to do
+    void addWarning(const QString &key, const QString &message);
+    /// Claims something that can be used once, for example a line of a chip. A second claim, also
+    /// by another device of the node, is an error that names both lines.
+    /// \param key  that uses it
+    /// \param what  a name of it for people: "line 17 of gpiochip0"
+    void claim(const QString &key, const QString &what);
     /// Adds errors of another file that the configuration names, for example a DBC file.
     void addErrors(const QVector<QPlcParseError> &errors);
 

@@ -89,6 +89,10 @@ public:
     /// Returns all errors of the last configuration, in the order in which they were found.
     QVector<QPlcParseError> configurationErrors() const;
 
+    /// Returns what is doubtful in the last configuration, and no error: for example a `safeStop`
+    /// that reads "not pressed" when its wire is torn.
+    QVector<QPlcParseError> configurationWarnings() const;
+
     /// Makes a driver of your own available to configurations (`driver = KIND`). A kind with this
     /// name is replaced. Call it before the first node is configured.
     /// \param kind  name in the configuration

@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <limits>
+#include <optional>
 
 /// A value that comes from a device.
 ///
@@ -60,6 +61,13 @@ public:
     /// Removes the value, for example because a wire is broken or the device reports an error.
     void invalidate() { m_time = Never; }
 
+    /// Sets which value the channel has when its wire is torn. If such a channel is a `safeStop`
+    /// and this value is 0, the node warns: a torn wire would be a button that is not pressed.
+    /// \param value  NaN: an open wire floats, and the value is undefined
+    void setTornValue(double value) { m_tornValue = value; }
+    /// Returns the value of a torn wire; empty (default): not known.
+    std::optional<double> tornValue() const { return m_tornValue; }
+
     /// Sets for how long a value is fresh; by default it is QPlcDriver::timeout(). Call it before
     /// the device is opened.
     /// \param timeout  0: forever
@@ -76,4 +84,5 @@ private:
     double m_value = 0.0;
     qint64 m_time = Never;  // [ns]
     qint64 m_timeout = -1;  // [ns]; -1: that of the driver
+    std::optional<double> m_tornValue;
 };

@@ -4,6 +4,7 @@
 #include "QPlcChannel.h"
 
 #include <limits>
+#include <optional>
 
 /// A value that goes to a device.
 ///
@@ -58,6 +59,12 @@ public:
     /// Returns the highest value that the device can take; default: infinity.
     double maximum() const { return m_maximum; }
 
+    /// Sets which value the device has while no program drives it. If the safe value differs, the
+    /// node warns: it would end with the power or the program.
+    void setRestValue(double value) { m_restValue = value; }
+    /// Returns the value of a device that is not driven; empty (default): not known.
+    std::optional<double> restValue() const { return m_restValue; }
+
     /// Returns true if there is a value to write.
     bool hasValue() const { return m_hasValue; }
     /// Returns the value, in the unit of the device.
@@ -74,6 +81,7 @@ private:
 
     double m_minimum = -std::numeric_limits<double>::infinity();
     double m_maximum = std::numeric_limits<double>::infinity();
+    std::optional<double> m_restValue;
     double m_value = 0.0;
     bool m_hasValue = false;
     bool m_isSafe = true;

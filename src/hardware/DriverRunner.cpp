@@ -3,6 +3,7 @@
 
 #include "QPlcDriverSettings.h"
 #include "node/session/BackOff.h"
+#include "signals/DurationText.h"
 #include "signals/MessageText.h"
 
 #include <QtCore/QRandomGenerator>
@@ -64,6 +65,11 @@ void DriverRunner::configure(QPlcDriverSettings &settings)
     m_driver->m_timeout
         = settings.duration(QStringLiteral("timeout"),
                             isOwnPace ? 3 * m_driver->m_interval : std::chrono::nanoseconds(100ms), 1ms, longestTime);
+    if (isOwnPace && m_driver->m_timeout < m_driver->m_interval)
+        settings.addError(QStringLiteral("timeout"),
+                          QStringLiteral("timeout is shorter than interval (%1), so values would be invalid between "
+                                         "two readings; write at least that")
+                              .arg(durationText(m_driver->m_interval)));
     m_driver->configure(settings);
 }
 
@@ -101,6 +107,17 @@ QString DriverRunner::problemOf(int writeChannel, double value) const
                           "device")
         .arg(QString::number(value, 'g', 10), QString::number(lowest, 'g', 10), QString::number(highest, 'g', 10),
              channel.name());
+}
+
+std::optional<double> DriverRunner::tornValue(int readChannel) const
+{
+    const QPlcReadChannel *channel = m_readChannels[std::size_t(readChannel)].channel;
+    return channel ? channel->tornValue() : std::nullopt;
+}
+
+std::optional<double> DriverRunner::restValue(int writeChannel) const
+{
+    return m_writeChannels[std::size_t(writeChannel)]->restValue();
 }
 
 /// Number of \a end among \a ends; one that is new goes to their end.

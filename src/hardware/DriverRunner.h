@@ -12,6 +12,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <thread>
 
 namespace qplc {
@@ -52,6 +53,9 @@ public:
     /// Whether the device can take a value. \param writeChannel  its number, of wire() \return an
     /// empty text, or what is wrong and what would be right
     QString problemOf(int writeChannel, double value) const;
+    /// Of the channel \a readChannel, and \a writeChannel.
+    std::optional<double> tornValue(int readChannel) const;
+    std::optional<double> restValue(int writeChannel) const;
 
     /// The wires are known: values can be set. start() and openNow() do it, too.
     void prepare();

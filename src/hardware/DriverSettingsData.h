@@ -4,6 +4,7 @@
 #include "HardwareConfiguration.h"
 #include "QPlcDriverSettings.h"
 
+#include <QtCore/QMap>
 #include <QtCore/QSet>
 
 struct QPlcDriverSettings::Private
@@ -13,6 +14,10 @@ struct QPlcDriverSettings::Private
     qplc::ConfigurationEntry section;
     QVector<qplc::ConfigurationEntry> entries;
     QVector<QPlcParseError> *errors = nullptr;
+    QVector<QPlcParseError> *warnings = nullptr;
+    QMap<QString, int> *claims = nullptr;  // of all drivers: lines
+    QStringList failedKeys;                // that have an error
+    bool hasErrorsElsewhere = false;       // in another file
     QSet<QString> used;
     QStringList asked;  // keys that the driver knows
 
@@ -21,5 +26,6 @@ struct QPlcDriverSettings::Private
     void addError(const qplc::ConfigurationEntry &entry, const QString &message)
     {
         errors->append({fileName, entry.line, entry.column, message});
+        failedKeys << entry.key;
     }
 };

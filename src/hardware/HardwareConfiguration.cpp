@@ -204,18 +204,36 @@ std::unique_ptr<QPlcDriverSettings> HardwareConfiguration::settings(const Driver
     data->entries = driver.keys;
     data->section = driver.entry;
     data->errors = errorList();
+    data->warnings = &m_warnings;
+    data->claims = &m_claims;
     return std::unique_ptr<QPlcDriverSettings>(new QPlcDriverSettings(std::move(data)));
 }
 
 void HardwareConfiguration::checkUse(const QPlcDriverSettings &settings)
 {
-    const QPlcDriverSettings::Private &data = *settings.d;
+    QPlcDriverSettings::Private &data = *settings.d;
     for (const ConfigurationEntry &entry : data.entries) {
         if (!data.used.contains(entry.key))
-            addError(entry,
-                     QStringLiteral("%1 is not a key of this driver%2")
-                         .arg(quoted(entry.key), didYouMean(closeNames(entry.key, data.asked))));
+            data.addError(entry,
+                          QStringLiteral("%1 is not a key of this driver%2")
+                              .arg(quoted(entry.key), didYouMean(closeNames(entry.key, data.asked))));
     }
+}
+
+bool HardwareConfiguration::isExcused(const QPlcDriverSettings &settings, const QString &channel)
+{
+    const QPlcDriverSettings::Private &data = *settings.d;
+    // "register.speed" is that of 'speed', "frame.Drive" that of 'Drive.Speed'.
+    const auto isOfChannel = [&channel](const QString &key) {
+        const QString name = key.section(QLatin1Char('.'), 1);
+        return !name.isEmpty() && (channel == name || channel.startsWith(name + QLatin1Char('.')));
+    };
+    return data.hasErrorsElsewhere || std::any_of(data.failedKeys.begin(), data.failedKeys.end(), isOfChannel);
+}
+
+void HardwareConfiguration::addWarning(const ConfigurationEntry &entry, const QString &message)
+{
+    m_warnings.append({fileName(), entry.line, entry.column, message});
 }
 
 }  // namespace qplc

@@ -5,6 +5,7 @@
 #include "QPlcDriverSettings.h"
 #include "signals/ConfigurationFile.h"
 
+#include <QtCore/QMap>
 #include <QtCore/QVector>
 
 #include <memory>
@@ -62,6 +63,12 @@ public:
     std::unique_ptr<QPlcDriverSettings> settings(const Driver &driver);
     /// After the driver has read its keys: those that are left are misspelt.
     void checkUse(const QPlcDriverSettings &settings);
+    /// Whether an error of the settings may be the reason why a driver has no such channel.
+    static bool isExcused(const QPlcDriverSettings &settings, const QString &channel);
+
+    /// What is doubtful, and no error.
+    const QVector<QPlcParseError> &warnings() const { return m_warnings; }
+    void addWarning(const ConfigurationEntry &entry, const QString &message);
 
 private:
     void readJson(const QByteArray &text);
@@ -76,6 +83,8 @@ private:
     QString m_nodeName;
     QVector<Watched> m_safeStops;
     QVector<Driver> m_drivers;
+    QVector<QPlcParseError> m_warnings;
+    QMap<QString, int> m_claims;  // what is used once: lines
 };
 
 }  // namespace qplc

@@ -175,7 +175,27 @@ void QPlcDriverSettings::addError(const QString &key, const QString &message)
     d->addError(entry ? *entry : d->section, message);
 }
 
+void QPlcDriverSettings::addWarning(const QString &key, const QString &message)
+{
+    const ConfigurationEntry *entry = key.isEmpty() ? nullptr : d->find(key);
+    const ConfigurationEntry &place = entry ? *entry : d->section;
+    d->warnings->append({d->fileName, place.line, place.column, message});
+}
+
+void QPlcDriverSettings::claim(const QString &key, const QString &what)
+{
+    const ConfigurationEntry *entry = d->find(key);
+    const int line = entry ? entry->line : d->section.line;
+    const auto former = d->claims->constFind(what);
+    if (former == d->claims->constEnd())
+        d->claims->insert(what, line);
+    else
+        d->addError(entry ? *entry : d->section,
+                    QStringLiteral("%1 is used twice, first in line %2; use it once").arg(what).arg(*former));
+}
+
 void QPlcDriverSettings::addErrors(const QVector<QPlcParseError> &errors)
 {
+    d->hasErrorsElsewhere = d->hasErrorsElsewhere || !errors.isEmpty();
     *d->errors += errors;
 }

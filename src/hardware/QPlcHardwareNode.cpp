@@ -13,6 +13,7 @@
 #include <QtCore/QFile>
 
 #include <algorithm>
+#include <cmath>
 #include <thread>
 
 using qplc::ChannelPort;
@@ -41,12 +42,16 @@ struct QPlcHardwareNode::Private
     {
     }
 
+    /// Of what can be read of the file, also when another part of it is wrong: so all errors are
+    /// told at once.
     void build(HardwareConfiguration *configuration)
     {
         for (const HardwareConfiguration::Driver &driver : configuration->drivers())
             buildDriver(configuration, driver);
         for (const HardwareConfiguration::Watched &watched : configuration->safeStops())
             buildSafeStop(configuration, watched);
+        if (!configuration->errors().isEmpty())
+            return;  // a wire that is wrong would be missed here
         for (const std::unique_ptr<ChannelPort> &port : ports) {
             const QString missing = port->isInput() ? QString() : port->missingElements();
             if (!missing.isEmpty())
@@ -71,18 +76,24 @@ struct QPlcHardwareNode::Private
         runners.push_back(std::make_unique<DriverRunner>(driver.name, driver.kind, kind->make()));
         DriverRunner *runner = runners.back().get();
         const std::unique_ptr<QPlcDriverSettings> settings = configuration->settings(driver);
-        const int former = configuration->errors().size();
         runner->configure(*settings);
         configuration->checkUse(*settings);
-        if (configuration->errors().size() > former)
-            return;  // what its channels are is not known: their errors would be echoes
         for (const HardwareConfiguration::SafeValue &safe : driver.safeValues)
-            buildSafeValue(configuration, runner, safe);
+            buildSafeValue(configuration, runner, *settings, safe);
         for (const HardwareConfiguration::Wire &wire : driver.wires)
-            buildWire(configuration, runner, wire);
+            buildWire(configuration, runner, *settings, wire);
     }
 
-    void buildWire(HardwareConfiguration *configuration, DriverRunner *runner, const HardwareConfiguration::Wire &wire)
+    /// A channel that is missing because of another error is not told: it would be an echo.
+    static void tellMissingChannel(HardwareConfiguration *configuration, const QPlcDriverSettings &settings,
+                                   const QString &channel, const qplc::ConfigurationEntry &entry, const QString &error)
+    {
+        if (!HardwareConfiguration::isExcused(settings, channel))
+            configuration->addError(entry, error);
+    }
+
+    void buildWire(HardwareConfiguration *configuration, DriverRunner *runner, const QPlcDriverSettings &settings,
+                   const HardwareConfiguration::Wire &wire)
     {
         const bool isRead = wire.direction == QPlcChannel::Read;
         const qplc::ConfigurationTerm &signal = isRead ? wire.target : wire.source;
@@ -90,7 +101,7 @@ struct QPlcHardwareNode::Private
         QString error;
         const int number = runner->wire(channel, wire.direction, &error);
         if (number < 0) {
-            configuration->addError(wire.entry, error);
+            tellMissingChannel(configuration, settings, channel, wire.entry, error);
             return;
         }
         bool isConstant = false;
@@ -108,16 +119,25 @@ struct QPlcHardwareNode::Private
                     .arg(qplc::quoted(signal.name)));
     }
 
-    void buildSafeValue(HardwareConfiguration *configuration, DriverRunner *runner,
+    void buildSafeValue(HardwareConfiguration *configuration, DriverRunner *runner, const QPlcDriverSettings &settings,
                         const HardwareConfiguration::SafeValue &safe)
     {
         QString error;
         const int number = runner->wire(safe.channel, QPlcChannel::Write, &error);
         if (number < 0) {
-            configuration->addError(safe.entry, error);
+            tellMissingChannel(configuration, settings, safe.channel, safe.entry, error);
             return;
         }
         checkValue(configuration, runner, number, safe.value, safe.entry);
+        const std::optional<double> rest = runner->restValue(number);
+        if (rest && *rest != safe.value)
+            configuration->addWarning(
+                safe.entry,
+                QStringLiteral("the safe value of %1 is %2, and without the program or its power it is %3; wire the "
+                               "device so that %3 is safe")
+                    .arg(qplc::quoted(safe.channel))
+                    .arg(safe.value)
+                    .arg(*rest));
         safeValues.push_back({runner, number, safe.value});
     }
 
@@ -138,16 +158,39 @@ struct QPlcHardwareNode::Private
                 continue;
             QString error;
             const int number = runner->wire(watched.channel, QPlcChannel::Read, &error);
-            if (number < 0)
+            if (number < 0) {
                 configuration->addError(watched.entry, error);
-            else
-                safeStops.push_back({runner.get(), number});
+                return;
+            }
+            safeStops.push_back({runner.get(), number});
+            warnOfTornWire(configuration, watched, runner->tornValue(number));
             return;
+        }
+        for (const HardwareConfiguration::Driver &driver : configuration->drivers()) {
+            if (driver.name == watched.driver)
+                return;  // its section has an error
         }
         configuration->addError(
             watched.entry,
             QStringLiteral("there is no device %1%2")
                 .arg(qplc::quoted(watched.driver), qplc::didYouMean(qplc::closeNames(watched.driver, names))));
+    }
+
+    static void warnOfTornWire(HardwareConfiguration *configuration, const HardwareConfiguration::Watched &watched,
+                               std::optional<double> value)
+    {
+        const QString name = watched.driver + QLatin1Char('.') + watched.channel;
+        if (value && std::isnan(*value))
+            configuration->addWarning(watched.entry,
+                                      QStringLiteral("%1 has no resistor: with a torn wire its value is undefined; add "
+                                                     "pull-up, or no-pull if there is an external resistor")
+                                          .arg(qplc::quoted(name)));
+        else if (value && *value == 0.0)
+            configuration->addWarning(
+                watched.entry,
+                QStringLiteral("%1 is 0 with a torn wire, so the plant would not stop; use a contact that is normally "
+                               "closed to ground, pull-up, and no active-low")
+                    .arg(qplc::quoted(name)));
     }
 
     /// A number in place of a signal: while the node computes, the channel has it.
@@ -248,6 +291,7 @@ struct QPlcHardwareNode::Private
 
     QPlcHardwareNode *q;
     QVector<QPlcParseError> errors;
+    QVector<QPlcParseError> warnings;
     std::vector<std::unique_ptr<DriverRunner>> runners;
     std::vector<std::unique_ptr<ChannelPort>> ports;  // destroyed before the runners
     std::vector<SafeStop> safeStops;
@@ -289,9 +333,9 @@ bool QPlcHardwareNode::configure(const QByteArray &text, const QString &fileName
 {
     Q_ASSERT_X(m_hardware->runners.empty(), "QPlcHardwareNode::configure", "a node is configured once");
     HardwareConfiguration configuration(text, fileName);
-    if (configuration.errors().isEmpty())
-        m_hardware->build(&configuration);
+    m_hardware->build(&configuration);
     m_hardware->errors = configuration.errors();
+    m_hardware->warnings = configuration.warnings();
     if (!m_hardware->errors.isEmpty()) {
         m_hardware->clear();
         return false;
@@ -309,6 +353,11 @@ bool QPlcHardwareNode::configure(const QByteArray &text, const QString &fileName
 QVector<QPlcParseError> QPlcHardwareNode::configurationErrors() const
 {
     return m_hardware->errors;
+}
+
+QVector<QPlcParseError> QPlcHardwareNode::configurationWarnings() const
+{
+    return m_hardware->warnings;
 }
 
 void QPlcHardwareNode::addDriverKind(const QString &kind, const QString &description,

@@ -191,6 +191,21 @@ void CanConfiguration::readSignals(QPlcDriverSettings &settings)
         QString error;
         if (!addSignal(name, settings.text(key), &error))
             settings.addError(key, error);
+        else
+            warnOfOverlap(find(name.section(QLatin1Char('.'), 0, 0))->description, key, settings);
+    }
+}
+
+/// Of the last signal of a message.
+void CanConfiguration::warnOfOverlap(const DbcMessage &message, const QString &key, QPlcDriverSettings &settings)
+{
+    const DbcSignal &last = message.content.last();
+    for (const DbcSignal &other : message.content) {
+        if (other.name != last.name && other.overlaps(last))
+            settings.addWarning(key,
+                                QStringLiteral("signals '%1' and '%2' of frame '%3' have bits in common; correct start "
+                                               "and length if this is not on purpose")
+                                    .arg(other.name, last.name, message.name));
     }
 }
 
@@ -267,8 +282,16 @@ void CanConfiguration::readTimeouts(QPlcDriverSettings &settings)
     for (const QString &name : names) {
         const QString key = QStringLiteral("timeout.") + name;
         const std::chrono::nanoseconds timeout = settings.duration(key, 100ms, 1ms, longestCanTime);
-        if (CanMessage *message = messageOf(name, key, settings))
-            message->timeout = timeout;
+        CanMessage *message = messageOf(name, key, settings);
+        if (!message)
+            continue;
+        message->timeout = timeout;
+        const std::chrono::nanoseconds cycle = message->description.cycleTime;
+        if (timeout < cycle)
+            settings.addError(key,
+                              QStringLiteral("%1 is shorter than the cycle time of '%2' (%3), so its values would be "
+                                             "invalid between two frames; write at least that")
+                                  .arg(durationText(timeout), name, durationText(cycle)));
     }
 }
 

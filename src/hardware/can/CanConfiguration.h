@@ -52,6 +52,7 @@ private:
     void readTimeouts(QPlcDriverSettings &settings);
     void finish(QPlcDriverSettings &settings);
     bool addFrame(const QString &name, const QStringList &words, QString *error);
+    static void warnOfOverlap(const DbcMessage &message, const QString &key, QPlcDriverSettings &settings);
     bool addSignal(const QString &name, const QString &text, QString *error);
     CanMessage *messageOf(const QString &name, const QString &key, QPlcDriverSettings &settings);
     QStringList names() const;

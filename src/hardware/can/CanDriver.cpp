@@ -79,7 +79,8 @@ protected:
             return direction == QPlcChannel::Read ? ownChannel(name) : nullptr;
         const CanMessage *message = m_configuration.find(name.section(QLatin1Char('.'), 0, 0));
         const QString signal = name.section(QLatin1Char('.'), 1);
-        if (!message || (!message->description.find(signal) && !signal.startsWith(QLatin1Char('@'))))
+        const bool isOwn = direction == QPlcChannel::Read && signal.startsWith(QLatin1Char('@'));
+        if (!message || (!message->description.find(signal) && !isOwn))
             return nullptr;
         if (!message->description.unsupported.isEmpty()) {
             *error = QStringLiteral("message '%1' cannot be used: %2")
@@ -88,7 +89,14 @@ protected:
         }
         if (direction == QPlcChannel::Read)
             return receiverOf(*message).channel(signal);
-        return senderOf(*message).channel(signal);
+        CanSender &sender = senderOf(*message);
+        const QString other = sender.overlapWith(*message->description.find(signal));
+        if (!other.isEmpty()) {
+            *error = QStringLiteral("signals '%1' and '%2' of message '%3' have bits in common; write one of them")
+                         .arg(other, signal, message->description.name);
+            return nullptr;
+        }
+        return sender.channel(signal);
     }
 
     QStringList channelNames(QPlcChannel::Direction direction) const override

@@ -36,6 +36,14 @@ QPlcWriteChannel *CanSender::channel(const QString &name)
     return m_parts.back().channel.get();
 }
 
+QString CanSender::overlapWith(const DbcSignal &signal) const
+{
+    const auto found = std::find_if(m_parts.begin(), m_parts.end(), [&signal](const Part &part) {
+        return part.signal.name != signal.name && part.signal.overlaps(signal);
+    });
+    return found == m_parts.end() ? QString() : found->signal.name;
+}
+
 void CanSender::prepare()
 {
     std::vector<quint64> values;

@@ -28,6 +28,9 @@ public:
     /// message has none of this name
     QPlcWriteChannel *channel(const QString &name);
 
+    /// The signal that has a channel and bits in common with another one; empty: there is none.
+    QString overlapWith(const DbcSignal &signal) const;
+
     /// Before the cycles: memory is taken here. Frames that it sends at a time are at most
     /// mostFrames().
     void prepare();

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "DbcSignal.h"
 
+#include "CanFrame.h"
+
 #include <algorithm>
+#include <array>
 
 namespace qplc {
 
@@ -76,6 +79,17 @@ RawNumber numberOf(const DbcSignal &signal) noexcept
 }
 
 }  // namespace
+
+bool DbcSignal::overlaps(const DbcSignal &other) const
+{
+    if (role == Multiplexed && other.role == Multiplexed && multiplexValue != other.multiplexValue)
+        return false;
+    std::array<quint8, CanFrame::MaximumSize> ours{};
+    std::array<quint8, CanFrame::MaximumSize> theirs{};
+    setBits(ours.data(), ~quint64(0));
+    other.setBits(theirs.data(), ~quint64(0));
+    return !std::equal(ours.begin(), ours.end(), theirs.begin(), [](quint8 a, quint8 b) { return (a & b) == 0; });
+}
 
 RawNumber::Limits DbcSignal::limits() const
 {

@@ -45,6 +45,8 @@ struct DbcSignal
     QMap<qint64, QString> valueNames;
 
     bool isFloat() const { return kind == Float32 || kind == Float64; }
+    /// Whether a frame can hold both, with a bit in common.
+    bool overlaps(const DbcSignal &other) const;
     /// Of the bits, and of what the file says.
     RawNumber::Limits limits() const;
     /// Bytes that a frame needs to hold the value.

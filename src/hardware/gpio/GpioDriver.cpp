@@ -8,6 +8,7 @@
 #include "hardware/Drivers.h"
 
 #include <cerrno>
+#include <limits>
 #include <vector>
 
 namespace qplc {
@@ -32,11 +33,17 @@ protected:
         m_device = settings.requiredText(QStringLiteral("device"), QStringLiteral("gpiochip0"));
         m_readOperation = "cannot read a line of " + m_device.toLocal8Bit();
         m_writeOperation = "cannot write a line of " + m_device.toLocal8Bit();
+        bool hasLines = false;
         for (const bool isOutput : {false, true}) {
             const QString prefix = isOutput ? QStringLiteral("output.") : QStringLiteral("input.");
-            for (const QString &name : settings.namesBehind(prefix)) {
+            const QStringList names = settings.namesBehind(prefix);
+            hasLines = hasLines || !names.isEmpty();
+            for (const QString &name : names) {
                 GpioLineWords words;
                 const QString error = GpioLineWords::read(settings.list(prefix + name), isOutput, &words);
+                if (error.isEmpty())
+                    settings.claim(prefix + name,
+                                   QStringLiteral("line %1 of %2").arg(words.request.line, chipName(m_device)));
                 if (!error.isEmpty())
                     settings.addError(prefix + name, error);
                 else if (isOutput)
@@ -45,7 +52,7 @@ protected:
                     m_inputs.push_back(std::make_unique<Input>(this, name, words));
             }
         }
-        if (m_inputs.empty() && m_outputs.empty())
+        if (!hasLines)
             settings.addError(QString(),
                               QStringLiteral("no line of the chip is used; say 'input.NAME = LINE' or "
                                              "'output.NAME = LINE'"));
@@ -109,6 +116,9 @@ protected:
     }
 
 private:
+    /// "gpiochip0" of "/dev/gpiochip0".
+    static QString chipName(QString device) { return device.remove(QStringLiteral("/dev/")); }
+
     struct Input
     {
         Input(QPlcDriver *driver, const QString &name, const GpioLineWords &lineWords)
@@ -119,6 +129,11 @@ private:
             , debouncer(lineWords.debounce)
         {
             time.setTimeout(std::chrono::nanoseconds::zero());  // it is old by its nature
+            const GpioLineRequest &request = words.request;
+            if (request.pull == GpioLineRequest::AsItIs)
+                value.setTornValue(std::numeric_limits<double>::quiet_NaN());
+            else if (request.pull != GpioLineRequest::NoPull)
+                value.setTornValue((request.pull == GpioLineRequest::PullUp) != request.isActiveLow ? 1.0 : 0.0);
         }
 
         bool wantsEdges() const { return words.debounce > 0 || edges.isWired() || time.isWired(); }
@@ -145,6 +160,8 @@ private:
             , value(driver, name)
         {
             value.setRange(0.0, 1.0);
+            if (!words.isKept)
+                value.setRestValue(0.0);
         }
 
         const GpioLineWords words;

@@ -31,21 +31,25 @@ protected:
         settings.requiredText(QStringLiteral("address"), QStringLiteral("0x68"));
         m_address = int(settings.integer(QStringLiteral("address"), I2cBus::FirstAddress, I2cBus::FirstAddress,
                                          I2cBus::LastAddress));
+        settings.claim(QStringLiteral("address"),
+                       QStringLiteral("address %1 of %2")
+                           .arg(i2cAddressText(m_address), QString(m_device).remove(QStringLiteral("/dev/"))));
         m_bus.configure(settings);
         configureBytes(settings, QStringLiteral("identity"), &m_identity);
         configureBytes(settings, QStringLiteral("setup"), &m_setUp);
         const QString prefix = QStringLiteral("register.");
-        for (const QString &name : settings.namesBehind(prefix)) {
+        const QStringList names = settings.namesBehind(prefix);
+        for (const QString &name : names) {
             I2cRegister reg;
             const QString error = I2cRegister::read(settings.list(prefix + name), &reg);
             if (!error.isEmpty())
                 settings.addError(prefix + name, error);
             else if (reg.isWritten)
-                addOutput(name, reg);
+                addOutput(settings, prefix + name, name, reg);
             else
                 m_inputs.push_back(std::make_unique<Item<QPlcReadChannel>>(this, name, reg));
         }
-        if (m_inputs.empty() && m_outputs.empty())
+        if (names.isEmpty())
             settings.addError(QString(),
                               QStringLiteral("no register of the device is used; say 'register.NAME = 0x3b, int16'"));
     }
@@ -123,8 +127,14 @@ private:
         const I2cRegister reg;
         Channel channel;
     };
-    void addOutput(const QString &name, const I2cRegister &reg)
+    void addOutput(QPlcDriverSettings &settings, const QString &key, const QString &name, const I2cRegister &reg)
     {
+        for (const auto &other : m_outputs) {
+            if (reg.first < other->reg.first + other->reg.size && other->reg.first < reg.first + reg.size)
+                settings.addError(key,
+                                  QStringLiteral("%1 and %2 write the same register; write one of them")
+                                      .arg(quoted(name), quoted(other->channel.name())));
+        }
         m_outputs.push_back(std::make_unique<Item<QPlcWriteChannel>>(this, name, reg));
         const RawNumber::Limits limits = reg.limits();
         m_outputs.back()->channel.setRange(limits.lowest, limits.highest);

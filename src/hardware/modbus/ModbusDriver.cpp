@@ -106,6 +106,8 @@ private:
     {
         m_device = settings.text(QStringLiteral("device"));
         m_link = makeModbusLink(settings);
+        if (m_device.startsWith(QLatin1String("rtu:")))
+            settings.claim(QStringLiteral("device"), QStringLiteral("serial line ") + m_device.mid(4));
         m_retries = int(
             settings.integer(QStringLiteral("retries"), DeviceHealth::DefaultRetries, 0, DeviceHealth::MostRetries));
         m_gap = int(settings.integer(QStringLiteral("gap"), 0, 0, ModbusRequest::MostBitsRead));
@@ -195,6 +197,12 @@ private:
             QString error;
             if (!ModbusRegister::parse(settings.text(prefix + name), defaults, &entry.place, &error)) {
                 settings.addError(prefix + name, error);
+                continue;
+            }
+            if (isSerial && (entry.place.unit < 1 || entry.place.unit > 247)) {
+                settings.addError(prefix + name,
+                                  QStringLiteral("a serial line has no unit %1 that answers; use a unit of 1 ... 247")
+                                      .arg(entry.place.unit));
                 continue;
             }
             m_units[entry.place.unit].number = entry.place.unit;

@@ -137,6 +137,8 @@ int main(int argc, char **argv)
     QPlcHardwareNode node;
     if (!node.configureFromFile(words.first()))
         return application.usageError(QPlcParseError::toString(node.configurationErrors()));
+    for (const QPlcParseError &warning : node.configurationWarnings())
+        QTextStream(stderr) << QStringLiteral("warning: ") << QPlcParseError::toString({warning}) << Qt::endl;
     if (node.name().isEmpty() && !application.isSet(QStringLiteral("name")))
         return application.usageError(
             QStringLiteral("the node has no name: add 'name = ...' to [node] of the configuration, or use --name"));

@@ -40,6 +40,7 @@ protected:
     void configure(QPlcDriverSettings &settings) override
     {
         m_device = settings.requiredText(QStringLiteral("device"), QStringLiteral("/dev/ttyUSB0"));
+        settings.claim(QStringLiteral("device"), QStringLiteral("serial line ") + m_device);
         m_settings.baud = int(settings.integer(QStringLiteral("baud"), 4800, 1, 10000000));
         if (!SerialLine::isKnownRate(m_settings.baud))
             settings.addError(QStringLiteral("baud"),

@@ -35,6 +35,7 @@ protected:
     void configure(QPlcDriverSettings &settings) override
     {
         m_device = settings.requiredText(QStringLiteral("device"), QStringLiteral("/dev/spidev0.0"));
+        settings.claim(QStringLiteral("device"), QStringLiteral("chip at ") + m_device);
         m_reference = settings.number(QStringLiteral("reference"), 3.3, 0.25, 5.5);
         m_settings.speed = quint32(settings.integer(QStringLiteral("speed"), 1000000, 10000, 2000000));
         // The chip knows the two modes in which data is taken at a rising edge of the clock.
