@@ -140,6 +140,14 @@ public:
     /// \pre no real-time phase runs: there the cycles do it
     void readDevices();
 
+    /// Opens all devices with outputs, and waits until they have the safe values of the
+    /// configuration: after a crash of the node, without a master. They keep getting these values
+    /// until closeDevices().
+    /// \param timeout  how long to wait for devices that do not answer
+    /// \return a sentence for each device that was not reached, and for each output without a safe
+    ///     value in the configuration; empty: all are safe
+    QStringList makeSafe(std::chrono::milliseconds timeout);
+
 public Q_SLOTS:
     /// Begins to open the devices: deviceOpened() or deviceFailed() follows for each. The first
     /// initialization calls it, too.

@@ -120,6 +120,16 @@ std::optional<double> DriverRunner::restValue(int writeChannel) const
     return m_writeChannels[std::size_t(writeChannel)]->restValue();
 }
 
+QStringList DriverRunner::unsetOutputs() const
+{
+    QStringList names;
+    for (std::size_t i = 0; i < m_orders.size(); ++i) {
+        if (m_orders[i].kind == Order::None)
+            names << m_writeChannels[i]->name();
+    }
+    return names;
+}
+
 /// Number of \a end among \a ends; one that is new goes to their end.
 template<typename End>
 int DriverRunner::placeOf(std::vector<End> *ends, const End &end)

@@ -63,6 +63,9 @@ public:
     void start(Report report);
     /// Gives the device its safe values and lets it go.
     void stop();
+    bool hasOutputs() const { return !m_writeChannels.empty(); }
+    /// Outputs that nobody has given a value.
+    QStringList unsetOutputs() const;
     bool isOnline() const { return m_state.load(std::memory_order_acquire) >= Open; }
     quint64 failures() const { return m_failures.load(std::memory_order_relaxed); }
 

@@ -10,6 +10,7 @@
 #include "realtime/TimeSource.h"
 #include "signals/MessageText.h"
 
+#include <QtCore/QCoreApplication>
 #include <QtCore/QFile>
 
 #include <algorithm>
@@ -268,6 +269,15 @@ struct QPlcHardwareNode::Private
         give(safeValues, true);
     }
 
+    void open(DriverRunner *runner)
+    {
+        QPlcHardwareNode *node = q;
+        runner->start([node, name = runner->name()](const QString &error) {
+            QMetaObject::invokeMethod(
+                node, [node, name, error] { node->deviceChanged(name, error); }, Qt::QueuedConnection);
+        });
+    }
+
     static void give(const std::vector<GivenValue> &values, bool isSafe) noexcept
     {
         for (const GivenValue &given : values)
@@ -382,13 +392,38 @@ void QPlcHardwareNode::openDevices()
     if (m_hardware->isOpen)
         return;
     m_hardware->isOpen = true;
+    for (const std::unique_ptr<DriverRunner> &runner : m_hardware->runners)
+        m_hardware->open(runner.get());
+}
+
+QStringList QPlcHardwareNode::makeSafe(std::chrono::milliseconds timeout)
+{
+    m_hardware->setSafeValues(false);
+    m_hardware->leaveAll();
+    m_hardware->isOpen = true;
+    std::vector<DriverRunner *> runners;
     for (const std::unique_ptr<DriverRunner> &runner : m_hardware->runners) {
-        const QString name = runner->name();
-        runner->start([this, name](const QString &error) {
-            QMetaObject::invokeMethod(
-                this, [this, name, error] { deviceChanged(name, error); }, Qt::QueuedConnection);
-        });
+        if (runner->hasOutputs())
+            runners.push_back(runner.get());
     }
+    for (DriverRunner *runner : runners)
+        m_hardware->open(runner);
+    const auto isMissing = [](const DriverRunner *runner) { return !runner->isOnline(); };
+    const qint64 end = qplc::monotonicNow() + std::chrono::nanoseconds(timeout).count();
+    while (std::any_of(runners.begin(), runners.end(), isMissing) && qplc::monotonicNow() < end)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    QCoreApplication::sendPostedEvents(this, QEvent::MetaCall);  // what the threads have reported
+    QStringList problems;
+    for (const DriverRunner *runner : runners) {
+        if (isMissing(runner))
+            problems << QStringLiteral("device '%1' was not reached: %2")
+                            .arg(runner->name(),
+                                 m_hardware->failures.value(runner->name(), QStringLiteral("no answer")));
+        for (const QString &output : runner->unsetOutputs())
+            problems << QStringLiteral("%1.%2 has no safe value in the configuration; add it to the section '%1.safe'")
+                            .arg(runner->name(), output);
+    }
+    return problems;
 }
 
 void QPlcHardwareNode::deviceChanged(const QString &driver, const QString &error)

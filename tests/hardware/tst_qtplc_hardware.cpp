@@ -16,6 +16,8 @@ private Q_SLOTS:
     void helpNamesItsOptions();
     void watchdogIsActiveUnlessDisabled_data();
     void watchdogIsActiveUnlessDisabled();
+    void safeNamesWhatItCannotReachAndEnds();
+    void checkShowsWarnings();
     void invalidConfigurationEndsWithExitCodeTwo_data();
     void invalidConfigurationEndsWithExitCodeTwo();
     void aScanListsTheDevicesOfABus();
@@ -45,7 +47,7 @@ void tst_qtplc_hardware::helpNamesItsOptions()
     const Run help = run({"--help"});
     QCOMPARE(help.code, 0);
     for (const char *word :
-         {"--check", "--monitor", "--drivers", "--master", "configuration", "0.5 for nodes with devices"})
+         {"--check", "--monitor", "--safe", "--drivers", "--master", "configuration", "0.5 for nodes with devices"})
         QVERIFY2(help.output.simplified().contains(word), qPrintable(help.output));
     QCOMPARE(run({"--drivers"}).code, 0);
 }
@@ -85,6 +87,42 @@ void tst_qtplc_hardware::watchdogIsActiveUnlessDisabled()
     board.terminate();
     QVERIFY(board.waitForFinished(10000));
     QCOMPARE(board.readAll().contains("safe state"), barks);
+}
+
+void tst_qtplc_hardware::safeNamesWhatItCannotReachAndEnds()
+{
+    QTemporaryDir folder;
+    qputenv("QTPLC_FAKE_DEVICES", folder.path().toLocal8Bit());
+    const QString fileName = folder.filePath("a.ini");
+    QFile file(fileName);
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    file.write("[node]\nname = A\n[board]\ndriver = gpio\ndevice = fake:none\noutput.brake = 1\noutput.lamp = 2\n"
+               "[board.write]\nlamp = lampOn\n[board.safe]\nbrake = 0\n"
+               "[drive]\ndriver = modbus\ndevice = fake:drive\nregister.a = coil 1\n[drive.safe]\na = 1\n");
+    file.close();
+    const Run safe = run({fileName, "--safe"});
+    QCOMPARE(safe.code, 1);
+    QVERIFY2(safe.errors.contains("device 'board' was not reached: ") && safe.errors.contains("fake:none"),
+             qPrintable(safe.errors));
+    QVERIFY2(safe.errors.contains("board.lamp has no safe value in the configuration; add it to the section "
+                                  "'board.safe'"),
+             qPrintable(safe.errors));
+    QVERIFY2(!safe.errors.contains("'drive' was not reached"), qPrintable(safe.errors));
+    qunsetenv("QTPLC_FAKE_DEVICES");
+}
+
+void tst_qtplc_hardware::checkShowsWarnings()
+{
+    QTemporaryDir folder;
+    const QString fileName = folder.filePath("a.ini");
+    QFile file(fileName);
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    file.write("[node]\nname = A\nsafeStop = b.stop\n[b]\ndriver = gpio\ndevice = fake:b\ninput.stop = 1, pull-down\n");
+    file.close();
+    const Run check = run({fileName, "--check"});
+    QCOMPARE(check.code, 0);
+    QVERIFY2(check.errors.contains("warning: " + fileName + ":3:12: 'b.stop' is 0 with a torn wire"),
+             qPrintable(check.errors));
 }
 
 void tst_qtplc_hardware::invalidConfigurationEndsWithExitCodeTwo_data()

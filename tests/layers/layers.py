@@ -320,6 +320,7 @@ OF_MACHINE = (
     ("waits for answers of a device, before the cycles", "a sleep", "hardware/canopen/CanOpenClient.cpp"),
     ("waits for the threads of devices", "a sleep", "hardware/QPlcHardwareNode.cpp"),
     ("lets a line become quiet after a damaged answer", "a sleep", "hardware/modbus/LibModbusLink.cpp"),
+    ("ends a program whose device hangs", "a timer", "hardware/program/main.cpp"),
     ("is a bus of the kernel", "a socket", "hardware/can/SocketCanBus.cpp hardware/can/FakeCanBus.cpp"),
     ("ends a process whose foreign code does not return", "a timer", "models/program/CrashReport.cpp"),
     ("prints at a rate that a person wants", "a clock", "tools/EchoCommand.cpp"),

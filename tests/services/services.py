@@ -96,7 +96,9 @@ def check_with_systemd(options, folder):
     units = []
     for unit in sorted(options.units.iterdir()):
         copy = folder / unit.name
-        text = unit.read_text().replace(f"ExecStart={options.installed}/", f"ExecStart={options.programs}/")
+        text = unit.read_text()
+        for key in ("ExecStart", "ExecStopPost"):
+            text = text.replace(f"{key}={options.installed}/", f"{key}={options.programs}/")
         copy.write_text(
             text if (options.programs / "qtplc_hardware").is_file() else text.replace("/qtplc_hardware ", "/qtplc ")
         )

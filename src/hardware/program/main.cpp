@@ -7,7 +7,12 @@
 #include <QtCore/QTextStream>
 #include <QtCore/QTimer>
 
+#include <chrono>
+#include <unistd.h>
+
 namespace {
+
+constexpr int NotSafe = 1;  // exit code of --safe
 
 void print(const QString &text)
 {
@@ -102,6 +107,18 @@ int monitor(QPlcNodeApplication &application, QPlcHardwareNode &node)
     return code;
 }
 
+/// After the node has died: writes the safe values, and ends in any case.
+int makeSafe(QPlcHardwareNode &node)
+{
+    constexpr unsigned longest = 4;  // [s] also if a device hangs; below TimeoutStopSec of the service
+    ::alarm(longest);
+    const QStringList problems = node.makeSafe(std::chrono::seconds(2));
+    for (const QString &problem : problems)
+        QTextStream(stderr) << problem << Qt::endl;
+    node.closeDevices();
+    return problems.isEmpty() ? QPlcNodeApplication::Success : NotSafe;
+}
+
 }  // namespace
 
 int main(int argc, char **argv)
@@ -122,6 +139,9 @@ int main(int argc, char **argv)
     application.addOption({QStringLiteral("monitor"),
                            QStringLiteral("Opens the devices and shows their values each second, without a master. "
                                           "Writes only safe values to them.")});
+    application.addOption({QStringLiteral("safe"),
+                           QStringLiteral("Writes the safe values of the configuration to all devices, without a "
+                                          "master, and ends within 4 s: 0 if all devices have them, else 1.")});
     application.addOption({QStringLiteral("drivers"), QStringLiteral("Lists the kinds of drivers.")});
     if (!application.parseNodeOptions())
         return application.exitCode();
@@ -146,6 +166,8 @@ int main(int argc, char **argv)
         printWires(node);
         return QPlcNodeApplication::Success;
     }
+    if (application.isSet(QStringLiteral("safe")))
+        return makeSafe(node);
     if (application.isSet(QStringLiteral("monitor")))
         return monitor(application, node);
     node.openDevices();

@@ -16,7 +16,8 @@ const QByteArray tableText = "[button]\ntype = Bool\nhold = 1000\n"
                              "[brakeRelease]\ntype = Bool\nsafe = 0\nhold = 1000\n";
 const QByteArray wiring = "[node]\nname = Buttons\n[board]\ndriver = gpio\ndevice = fake:board\n"
                           "input.button = 2, pull-up\noutput.brakeRelease = 5\n"
-                          "[board.read]\nbutton = button\n[board.write]\nbrakeRelease = brakeRelease\n";
+                          "[board.read]\nbutton = button\n[board.write]\nbrakeRelease = brakeRelease\n"
+                          "[board.safe]\nbrakeRelease = 0\n";
 
 /// A plant of a master and a board, in a phase.
 struct Plant
@@ -71,6 +72,7 @@ private Q_SLOTS:
     void boardLinesAreConnectedToSignals();
     void theBoardIsSafeWhenTheProgramIsTerminated();
     void boardIsSafeAfterLossOfTheMaster();
+    void aKilledProgramIsMadeSafeByTheNextOne();
     void unpluggedBoardReconnectsDuringThePhase();
 };
 
@@ -104,6 +106,23 @@ void tst_BoardOfAProgram::boardIsSafeAfterLossOfTheMaster()
     QTRY_COMPARE(plant.brakeRelease(), 1);
     plant.master.reset();
     QTRY_COMPARE(plant.brakeRelease(), 0);
+}
+
+// As ExecStopPost= of its service does.
+void tst_BoardOfAProgram::aKilledProgramIsMadeSafeByTheNextOne()
+{
+    Plant plant;
+    QVERIFY(plant.start());
+    QTRY_COMPARE(plant.brakeRelease(), 1);
+    plant.program.kill();
+    QVERIFY(plant.program.waitForFinished(20000));
+    QCOMPARE(plant.brakeRelease(), 1);  // the line keeps its level
+    QProcess safe;
+    safe.setProcessChannelMode(QProcess::ForwardedErrorChannel);
+    safe.start(QStringLiteral(QTPLC_HARDWARE_PROGRAM), {plant.folder.filePath("board.ini"), "--safe"});
+    QVERIFY(safe.waitForFinished(20000));
+    QCOMPARE(safe.exitCode(), 0);
+    QCOMPARE(plant.brakeRelease(), 0);
 }
 
 void tst_BoardOfAProgram::unpluggedBoardReconnectsDuringThePhase()
