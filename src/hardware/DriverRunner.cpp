@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "DriverRunner.h"
 
+#include "HardwareLogging.h"
 #include "QPlcDriverSettings.h"
 #include "node/session/BackOff.h"
 #include "signals/DurationText.h"
@@ -65,6 +66,7 @@ void DriverRunner::configure(QPlcDriverSettings &settings)
     m_driver->m_timeout
         = settings.duration(QStringLiteral("timeout"),
                             isOwnPace ? 3 * m_driver->m_interval : std::chrono::nanoseconds(100ms), 1ms, longestTime);
+    m_priority = int(settings.integer(QStringLiteral("priority"), 0, 0, 98));
     if (isOwnPace && m_driver->m_timeout < m_driver->m_interval)
         settings.addError(QStringLiteral("timeout"),
                           QStringLiteral("timeout is shorter than interval (%1), so values would be invalid between "
@@ -378,9 +380,7 @@ void DriverRunner::stop()
 
 void DriverRunner::run()
 {
-    const sched_param ordinary{};
-    pthread_setschedparam(pthread_self(), SCHED_OTHER,
-                          &ordinary);  // a slow bus is no part of the cycle, whatever chrt says
+    setPriority();
     pthread_setname_np(pthread_self(), m_driver->m_name.toLocal8Bit().left(15).constData());
     BackOff backOff;
     qint64 next = monotonicNow();
@@ -416,6 +416,30 @@ void DriverRunner::run()
     if (isOnline())
         writeNow(monotonicNow());
     closeNow();
+}
+
+/// A slow bus is no part of the cycle, whatever chrt says, unless its section says so.
+void DriverRunner::setPriority()
+{
+    const sched_param ordinary{};
+    sched_param wanted{};
+    wanted.sched_priority = m_priority;
+    int policy = SCHED_OTHER;
+    sched_param obtained{};
+    const int error = m_priority > 0 ? pthread_setschedparam(pthread_self(), SCHED_FIFO, &wanted) : 0;
+    pthread_getschedparam(pthread_self(), &policy, &obtained);
+    const bool isObtained = policy == SCHED_FIFO && obtained.sched_priority == m_priority;
+    if (m_priority > 0 && isObtained)
+        return;
+    pthread_setschedparam(pthread_self(), SCHED_OTHER, &ordinary);
+    if (m_priority > 0)
+        qCWarning(lcHardware).noquote()
+            << QStringLiteral(
+                   "device '%1': its thread did not get the priority %2 (%3) and has the ordinary one; allow "
+                   "it with LimitRTPRIO= in the unit, or 'ulimit -r'")
+                   .arg(name())
+                   .arg(m_priority)
+                   .arg(qt_error_string(error));
 }
 
 void DriverRunner::tell(const QString &error)

@@ -119,6 +119,7 @@ private:
     template<typename End>
     static int placeOf(std::vector<End> *ends, const End &end);
     void run();
+    void setPriority();
     void tell(const QString &error);
     void waitFor(std::chrono::nanoseconds time);
     void wake() noexcept;
@@ -152,8 +153,9 @@ private:
     std::atomic<State> m_state{Closed};
     std::atomic<quint64> m_failures{0};
     std::atomic<bool> m_stop{false};
-    int m_wakeUp = -1;  // eventfd
-    QString m_told;     // last error
+    int m_priority = 0;  // of the thread: SCHED_FIFO; 0: ordinary
+    int m_wakeUp = -1;   // eventfd
+    QString m_told;      // last error
     std::thread m_thread;
 };
 

@@ -9,6 +9,7 @@
 #include <atomic>
 #include <cerrno>
 #include <memory>
+#include <sched.h>
 #include <stdexcept>
 #include <thread>
 
@@ -30,6 +31,7 @@ struct BenchDevice
     std::atomic<int> opened{0};
     std::atomic<int> closed{0};
     std::atomic<int> reads{0};
+    std::atomic<int> priority{-1};  // of the thread that reads; 0: ordinary
     std::atomic<int> writes{0};
     std::atomic<double> torqueAtClose{-1.0};
     std::atomic<bool> isSlow{false};  // a call takes its time
@@ -87,6 +89,10 @@ private:
     {
         const Visit visit(m_device.get());
         ++m_device->reads;
+        sched_param parameters{};
+        m_device->priority = sched_getscheduler(0) == SCHED_OTHER || sched_getparam(0, &parameters) != 0
+            ? 0
+            : parameters.sched_priority;
         throwIf("read");
         if (m_device->isBroken)
             return fail("read from the bench", EIO);

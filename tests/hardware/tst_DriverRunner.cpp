@@ -80,6 +80,8 @@ private Q_SLOTS:
     void lastCycleValuesAreWrittenAgainAfterTheCyclesEnd();
     void valuesAreFreshWithoutCycles_data() { addPaces(); }
     void valuesAreFreshWithoutCycles();
+    void aThreadHasThePriorityOfItsSection_data() { addPaces(); }
+    void aThreadHasThePriorityOfItsSection();
     void deviceLossWithoutCyclesIsReported_data() { addPaces(); }
     void deviceLossWithoutCyclesIsReported();
     void newCycleUsesTheDeviceAgain();
@@ -306,6 +308,34 @@ void tst_DriverRunner::valuesAreFreshWithoutCycles()
     bench.device->speed = 3.0;
     QTRY_VERIFY(hasFresh(3.0));
     bench.runner().stop();
+}
+
+void tst_DriverRunner::aThreadHasThePriorityOfItsSection()
+{
+    QFETCH(int, pace);
+    bool isAllowed = false;
+    std::thread([&isAllowed] {
+        sched_param parameters{};
+        parameters.sched_priority = 3;
+        isAllowed = pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters) == 0;
+    }).join();
+    if (!isAllowed)
+        QTest::ignoreMessage(QtWarningMsg,
+                             QRegularExpression("'bench': its thread did not get the priority 3 .*; allow"));
+    Bench bench(pace, "device = bench0\npriority = 3\n");
+    QCOMPARE(bench.errors(), QString());
+    bench.wireRead("speed");
+    bench.runner().start({});
+    QTRY_VERIFY(bench.device->reads > 1);
+    bench.runner().stop();
+    QCOMPARE(bench.device->priority.load(), isAllowed ? 3 : 0);
+    Bench ordinary(pace);
+    ordinary.wireRead("speed");
+    ordinary.runner().start({});
+    QTRY_VERIFY(ordinary.device->reads > 1);
+    ordinary.runner().stop();
+    QCOMPARE(ordinary.device->priority.load(), 0);
+    QVERIFY(Bench(pace, "device = bench0\npriority = 99\n").errors().contains("from 0 to 98"));
 }
 
 void tst_DriverRunner::deviceLossWithoutCyclesIsReported()
