@@ -33,6 +33,7 @@ bool readNode(const QJsonObject &object, int signalCount, RosterNode *node)
     node->isListener = isSet("listener");
     node->isLocal = isSet("local");
     node->hasDevices = isSet("devices");
+    node->goesOn = isSet("goesOn");
     node->sameCycle.fill(false, node->inputs.size());
     for (const QPlcSignalIndex field : list("sameCycle")) {
         if (int(field) < node->sameCycle.size())

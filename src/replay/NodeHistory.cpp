@@ -54,8 +54,8 @@ private:
     void take(const RecordedRow &row, const RosterNode &node)
     {
         const std::uint64_t number = row.cycle.number;
-        if (m_passages.empty() || m_passages.back().node.id != node.id)
-            open(number, node);
+        if (m_passages.empty() || m_id != node.id)
+            begin(number, node);
         NodePassage &passage = m_passages.back();
         passage.node.stage = node.stage;
         if (row.cycle.flags & RecordedCycle::Safe)
@@ -75,6 +75,15 @@ private:
         }
         note(&passage, m_newest);
     }
+    /// A node that has lost nothing but its connection is the same program.
+    void begin(std::uint64_t number, const RosterNode &node)
+    {
+        m_id = node.id;
+        m_newest = RecordedNode::NoCycle;
+        m_asked.clear();
+        if (!node.goesOn || m_passages.empty())
+            open(number, node);
+    }
     void open(std::uint64_t number, const RosterNode &node)
     {
         NodePassage passage;
@@ -86,8 +95,6 @@ private:
             passage.first = start->second.first;
         }
         m_passages.push_back(passage);
-        m_newest = RecordedNode::NoCycle;
-        m_asked.clear();
         m_hasFirst = false;
     }
     void note(NodePassage *passage, std::uint64_t cycle)
@@ -117,6 +124,7 @@ private:
     const QString m_name;
     std::vector<NodePassage> &m_passages;
     std::map<std::uint16_t, RecordedStart> m_starts;
+    std::uint16_t m_id = 0;  // of the newest connection
     QMap<QString, bool> m_names;
     std::uint64_t m_newest = RecordedNode::NoCycle;
     std::vector<std::uint64_t> m_asked;  // cycles, until there is an answer

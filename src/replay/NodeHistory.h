@@ -29,7 +29,8 @@ struct NodePassage
     std::uint64_t count() const;
 };
 
-/// Reads the passages of the node \a name: each registration makes one, in their order.
+/// Reads the passages of the node \a name: each registration makes one, in their order, but
+/// for those of a node that goes on after it has lost its connection.
 /// \return false when the recording cannot be read, or does not know such a node
 bool readPassages(const RecordedPhase &phase, const QString &name, std::vector<NodePassage> *passages, QString *error);
 

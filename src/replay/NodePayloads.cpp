@@ -17,7 +17,8 @@ bool NodePayloads::isPossible(const RosterNode &node)
 
 NodePayloads::NodePayloads(const ProcessImage &image, const RosterNode &node,
                            const QVector<QPlcSignalIndex> &ownSignals)
-    : m_id(node.id)
+    : m_name(node.name)
+    , m_id(node.id)
     , m_inputs(image.table(), node.inputs,
                node.hasInputQualities ? PayloadLayout::WithQualities : PayloadLayout::WithoutQualities)
     , m_outputs(image.table(), node.outputs)
@@ -31,9 +32,18 @@ NodePayloads::NodePayloads(const ProcessImage &image, const RosterNode &node,
     m_sameCycle = image.gatherRuns(m_inputs, std::vector<bool>(node.sameCycle.begin(), node.sameCycle.end()));
 }
 
+std::uint16_t NodePayloads::idIn(const RecordedRow &row) const
+{
+    for (const RosterNode &node : row.roster ? row.roster->nodes : QVector<RosterNode>()) {
+        if (node.goesOn && node.name == m_name)
+            return node.id;
+    }
+    return m_id;
+}
+
 bool NodePayloads::inputs(const RecordedRow &row, QByteArray *payload) const
 {
-    if (const QByteArray *raw = RecordedRow::find(row.rawInputs, m_id)) {
+    if (const QByteArray *raw = RecordedRow::find(row.rawInputs, idIn(row))) {
         *payload = *raw;
         return std::uint32_t(raw->size()) == m_inputs.size();
     }
@@ -50,10 +60,11 @@ bool NodePayloads::inputs(const RecordedRow &row, QByteArray *payload) const
 
 bool NodePayloads::outputs(const RecordedRow &row, QByteArray *values) const
 {
-    const RecordedNode *node = row.node(m_id);
+    const std::uint16_t id = idIn(row);
+    const RecordedNode *node = row.node(id);
     if (!node || !(node->flags & RecordedNode::Stored) || (node->flags & RecordedNode::Hidden))
         return false;
-    const QByteArray *raw = RecordedRow::find(row.rawOutputs, m_id);
+    const QByteArray *raw = RecordedRow::find(row.rawOutputs, id);
     if ((node->flags & RecordedNode::HasRaw) != 0 && (!raw || std::uint32_t(raw->size()) < m_outputs.size()))
         return false;
     values->resize(int(m_outputs.size()));

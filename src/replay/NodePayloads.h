@@ -13,6 +13,8 @@ public:
     NodePayloads(const ProcessImage &image, const RosterNode &node, const QVector<QPlcSignalIndex> &ownSignals);
     static bool isPossible(const RosterNode &node);
 
+    /// Its number in the cycle of \a row: another one after each connection.
+    std::uint16_t idIn(const RecordedRow &row) const;
     const PayloadLayout &inputLayout() const { return m_inputs; }
     const PayloadLayout &outputLayout() const { return m_outputs; }
     /// What the node was sent, or would have been sent, in the cycle of \a row. \return false when
@@ -23,7 +25,8 @@ public:
     bool outputs(const RecordedRow &row, QByteArray *values) const;
 
 private:
-    std::uint16_t m_id;
+    QString m_name;
+    std::uint16_t m_id;  // of its first connection
     PayloadLayout m_inputs;
     PayloadLayout m_outputs;
     std::vector<CopyRun> m_all;

@@ -27,7 +27,6 @@ OutputComparison::OutputComparison(const QPlcSignalTable &table, const NodePaylo
     : m_table(table)
     , m_payloads(payloads)
     , m_isTwoPhase(passage.node.isTwoPhase)
-    , m_id(passage.node.id)
     , m_period(double(period) * 1e-9)
     , m_from(from)
     , m_result(*result)
@@ -55,7 +54,7 @@ void OutputComparison::add(std::uint64_t cycle, const char *outputs)
 void OutputComparison::compare(const RecordedRow &row)
 {
     const std::optional<std::uint64_t> lastRow = std::exchange(m_lastRow, row.cycle.number);
-    const RecordedNode *node = row.node(m_id);
+    const RecordedNode *node = row.node(m_payloads.idIn(row));
     if (!node || !(node->flags & RecordedNode::Stored) || (m_isTwoPhase && !lastRow))
         return;
     const std::uint64_t cycle = m_isTwoPhase ? *lastRow : node->cycle;

@@ -38,7 +38,6 @@ private:
     const QPlcSignalTable &m_table;
     const NodePayloads &m_payloads;
     const bool m_isTwoPhase;
-    const std::uint16_t m_id;
     const double m_period;  // [s]
     const double m_from;
     ReplayResult &m_result;

@@ -408,6 +408,7 @@ void tst_Sequences::returningNodeMayContinueInASimulation()
     bench.joining.handleAnswer(*kite, kite->outputs, false);
     QVERIFY(bench.hasEvent("node Winch goes on where it was"));
     QVERIFY(bench.hasEvent("node Kite begins again at its initial state"));
+    QVERIFY(winch->slot()->goesOn && !kite->slot()->goesOn);  // recordings tell it
 }
 
 void tst_Sequences::aNodeThatJoinsAgainHasNotFailed()

@@ -39,6 +39,7 @@ public:
     std::function<void(const QPlcCycle &)> onStep;
     double gain = 0.1;
     double offset = 0.0;  // of its first sum
+    double missedGain = 0.25;
     /// The values of all inputs, by cycle, as they lie in a payload.
     std::map<quint64, QByteArray> seen()
     {
@@ -64,7 +65,7 @@ private:
             m_sum += gain * value;
             values.append(reinterpret_cast<const char *>(&value), sizeof value);
         }
-        m_sum += double(cycle.number() % 13) + 0.25 * double(cycle.missedCycles());
+        m_sum += double(cycle.number() % 13) + missedGain * double(cycle.missedCycles());
         const std::lock_guard<std::mutex> lock(m_mutex);
         m_seen[cycle.number()] = values;
         if (onStep)

@@ -28,6 +28,7 @@ private Q_SLOTS:
     void aRecordingFromTheMiddleOfAPhaseIsRefused();
     void theFilesOfAPhaseAreOneRecording();
     void aSecuredPlantIsReplayedWithoutKeys();
+    void aNodeThatHasLostItsConnectionIsReplayedAsOne();
 
 private:
     static ReplayResult replay(const QString &file, QPlcSlaveNode &node)
@@ -292,6 +293,33 @@ void tst_NodeReplay::aSecuredPlantIsReplayedWithoutKeys()
     QVERIFY2(result.kind == ReplayResult::Done, qPrintable(result.error));
     QVERIFY(result.compared >= 199);
     QCOMPARE(result.differences, quint64(0));
+}
+
+/// It is the same program before and after, with the state that it had.
+void tst_NodeReplay::aNodeThatHasLostItsConnectionIsReplayedAsOne()
+{
+    Probe echo("Echo", {{"s0"}, {"moved"}, {"jitter"}}, {"s1"});
+    echo.missedGain = 0.0;  // it counts them anew after a connection
+    RecordedMaster master(QPlcClock::realTime());
+    QVERIFY(master.listen() && master.admitOver(echo, "tcp"));
+    master.startRealTime();
+    QVERIFY(master.waitForState(QPlcMasterNode::RealTime));
+    QVERIFY(master.waitForCycles(100));
+    echo.disconnectFromMaster();
+    QTRY_VERIFY(master.nodes().isEmpty());
+    const quint64 left = master.statistics().cycles;
+    QVERIFY(master.admitOver(echo, "tcp"));
+    QTRY_COMPARE(echo.state(), QPlcSlaveNode::RealTime);
+    const quint64 back = master.statistics().cycles;
+    QVERIFY(master.waitForCycles(int(back) + 100));
+    QVERIFY2(master.finish(), qPrintable(master.error));
+
+    Probe again("Echo", {{"s0"}, {"moved"}, {"jitter"}}, {"s1"});
+    again.missedGain = 0.0;
+    const ReplayResult result = replay(master.recording(), again);
+    QVERIFY2(result.kind == ReplayResult::Done, qPrintable(result.error));
+    QVERIFY2(result.compared > left, "what it has computed later is compared, too");
+    QVERIFY2(!result.first, result.first ? qPrintable(QString::number(result.first->cycle)) : "");
 }
 
 QTEST_GUILESS_MAIN(tst_NodeReplay)

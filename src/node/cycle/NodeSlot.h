@@ -60,10 +60,11 @@ struct NodeSlot
     quint16 id = 0;
     QPlcSlaveNode::RealTimeViolationPolicy policy = QPlcSlaveNode::ErrorZeroOrderHold;
     bool listener = false;
-    bool critical = false;                     // the plant must not go on without it
-    bool hardware = false;                     // drives real devices
-    std::chrono::nanoseconds watchdog{0};      // that it has set itself; 0: none
-    ListeningInterval interval;                // longer than a cycle for listeners alone
+    bool critical = false;                 // the plant must not go on without it
+    bool hardware = false;                 // drives real devices
+    bool goesOn = false;                   // it was in this phase before, lost its connection, and has kept its state
+    std::chrono::nanoseconds watchdog{0};  // that it has set itself; 0: none
+    ListeningInterval interval;            // longer than a cycle for listeners alone
     const TransportKind *transport = nullptr;  // null for a local node
     bool twoPhase = false;                     // the answer to cycle k holds the outputs of cycle k + 1
     QString faultPlan;                         // that the node injects; empty: none

@@ -86,6 +86,7 @@ RosterContent Roster::describe() const
             node.isListener = slot.listener;
             node.isLocal = slot.local != nullptr;
             node.hasDevices = slot.hardware;
+            node.goesOn = slot.goesOn;
             node.interval = quint64(slot.interval.cycles());
             node.stage = int(stage);
             content.nodes.append(node);

@@ -37,7 +37,8 @@ QByteArray nodeText(const RosterNode &node)
                                                    {"twoPhase", node.isTwoPhase},
                                                    {"listener", node.isListener},
                                                    {"local", node.isLocal},
-                                                   {"devices", node.hasDevices}};
+                                                   {"devices", node.hasDevices},
+                                                   {"goesOn", node.goesOn}};
     for (const auto &[name, isSet] : flags) {
         if (isSet)
             text.append(",\"").append(name).append("\":true");

@@ -23,6 +23,7 @@ struct RosterNode
     bool isListener = false;
     bool isLocal = false;  // in the process of the master
     bool hasDevices = false;
+    bool goesOn = false;   // it was in the phase before, lost its connection, and has kept its state
     quint64 interval = 1;  // [cycles] between two requests
     int stage = 0;         // in which it is asked, from 0
 };

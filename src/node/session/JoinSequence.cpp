@@ -30,6 +30,7 @@ void JoinSequence::handleAnswer(NodeSession &node, const QByteArray &outputs, bo
     if (node.stage() == NodeSession::GivingOutputs) {
         if (!storeOutputs(node, outputs))
             return;
+        node.slot()->goesOn = goesOn && m_cycles.isRunning();
         tellReturn(node, goesOn);
     }
     node.setStage(NodeSession::Stage(node.stage() + 1));

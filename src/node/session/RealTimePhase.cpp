@@ -87,6 +87,8 @@ std::shared_ptr<RecordRing> RealTimePhase::makeRing()
 bool RealTimePhase::start(QString *error)
 {
     m_rosters.forgetWritten();
+    for (const std::shared_ptr<NodeSlot> &slot : m_registry.nodes())
+        slot->goesOn = false;
     renewRoster();
     MasterCycle::Phase cycles = settingsOfCycles();
     cycles.ring = makeRing();
