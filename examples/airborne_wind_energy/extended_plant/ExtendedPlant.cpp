@@ -15,6 +15,8 @@ constexpr double dampingRamp = 1e-4;           // strain up to which the damping
 constexpr double longestSubstepLength = 75.0;  // of a segment in a step of a whole cycle [m]
 constexpr int machineSubsteps = 5;
 constexpr int driveStepsInCycle = 10;
+constexpr double dockingDistance = 0.3;  // the wing docks up to this far beyond the mast's top [m]
+constexpr double mastClearance = 1.0;    // further out it has left the mast, further in it hit it [m]
 
 }  // namespace
 
@@ -47,6 +49,11 @@ void ExtendedPlant::reset()
     single(m_state, TetherLength) = start.tetherLength;
     single(m_state, AveragePower) = start.averagePower;
     single(m_state, Energy) = start.energy;
+    m_isDocked = false;
+    m_dockings = 0;
+    m_dockingSpeed = 0.0;
+    if (m_options.mast.isPresent)
+        hangOnMast();
     noticeGround();
 }
 
@@ -245,7 +252,9 @@ int ExtendedPlant::substeps() const
 
 double ExtendedPlant::drumSpeed(const PlantInputs &inputs) const
 {
-    return m_options.hasMachine ? m_machine.speed() * m_options.machine.leverage() : inputs.tetherSpeed;
+    if (m_options.hasMachine)
+        return m_machine.speed() * m_options.machine.leverage();
+    return m_isDocked ? 0.0 : inputs.tetherSpeed;
 }
 
 double ExtendedPlant::tensionNow(int number, double tetherSpeed) const
@@ -274,6 +283,9 @@ void ExtendedPlant::step(const PlantInputs &inputs)
         return m_thesis.step(inputs);
     if (isHeld())
         return;
+    m_isDocked = m_isDocked && !inputs.release;
+    if (m_isDocked)
+        return waitOnMast();
     const Sample air = sampled(inputs);
     const int count = substeps();
     const double h = m_parameters.step / count;
@@ -287,15 +299,69 @@ void ExtendedPlant::step(const PlantInputs &inputs)
         m_state += h / 6.0 * (k1 + 2.0 * (k2 + k3) + k4);
     }
     noticeGround();
+    if (m_options.mast.isPresent)
+        noticeMast(inputs.release);
 }
 
 void ExtendedPlant::noticeGround()
 {
     if (m_isThesis || m_crashed || pointIn(m_state, m_points).z() > 0.0)
         return;
+    crash();
+}
+
+void ExtendedPlant::crash()
+{
     m_crashed = true;
     if (m_parameters.groundContact == GroundContact::Hold)
         m_state.segment(3 * m_points, 3 * m_points).setZero();
+}
+
+// ---- mast ----
+
+void ExtendedPlant::noticeMast(bool release)
+{
+    if (m_crashed)
+        return;
+    const MastParameters &mast = m_options.mast;
+    const Eigen::Vector3d wing = pointIn(m_state, m_points);
+    const double distance = wing.norm();
+    m_hasLeftMast = m_hasLeftMast || distance > mast.distance + mastClearance;
+    if (distance < mast.distance - mastClearance)
+        return crash();
+    const bool isThere = distance <= mast.distance + dockingDistance && (wing - mast.top()).norm() <= mast.reach;
+    if (release || !m_hasLeftMast || !isThere)
+        return;
+    ++m_dockings;
+    m_dockingSpeed = velocityIn(m_state, m_points).norm();
+    hangOnMast();
+}
+
+void ExtendedPlant::hangOnMast()
+{
+    m_isDocked = true;
+    m_hasLeftMast = false;
+    for (int point = 1; point <= m_points; ++point)
+        setPoint(point, double(point) / m_points * m_options.mast.top(), Eigen::Vector3d::Zero());
+    const PlantState atRest = PlantParameters::stateAtRest(m_options.mast.elevation, m_options.mast.azimuth, 1.0);
+    single(m_state, PitchAngle) = atRest.pitchAngle;
+    single(m_state, YawAngle) = atRest.yawAngle;
+    single(m_state, Steering) = 0.0;
+    single(m_state, TetherLength) = m_options.mast.distance;
+}
+
+/// A cycle on the mast: the drum holds, the average power falls.
+void ExtendedPlant::waitOnMast()
+{
+    const double h = m_parameters.step;
+    single(m_state, AveragePower) *= 1.0 - h / m_parameters.averagePowerTime;
+    if (!m_options.hasMachine)
+        return;
+    WinchDriveInputs hold;
+    hold.hasCommand = true;
+    hold.enable = true;
+    for (int i = 0; i < driveStepsInCycle; ++i)
+        m_machine.step(hold, h / driveStepsInCycle);
 }
 
 // ---- what it tells ----
@@ -344,7 +410,7 @@ PlantOutputs ExtendedPlant::outputs(const PlantInputs &inputs) const
     y.averagePower = state.averagePower;
     y.energy = state.energy;
     y.crashed = m_crashed;
-    if (isHeld())
+    if (isAtRest())
         return y;
     const double speed = drumSpeed(inputs);
     y.aerodynamicForce = wing.air.force;
@@ -372,7 +438,10 @@ PlantDetails ExtendedPlant::details(const PlantInputs &inputs) const
     details.machineCurrent = m_machine.current();
     details.machinePosition = m_machine.position();
     details.energies = m_machine.energies();
-    if (isHeld())
+    details.isDocked = m_isDocked;
+    details.dockings = m_dockings;
+    details.dockingSpeed = m_dockingSpeed;
+    if (isAtRest())
         return details;
     details.turbinePower = wing(m_state, air, inputs).turbinePower;
     details.electricalPower = m_machine.electricalPower();

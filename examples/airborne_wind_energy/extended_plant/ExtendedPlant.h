@@ -26,12 +26,15 @@ struct PlantDetails
     double machinePosition = 0.0;                        // [rad]
     double electricalPower = 0.0;                        // [W], > 0 while the winch generates
     WinchEnergies energies;                              // of the winch [J]
+    bool isDocked = false;                               // the wing hangs on the mast
+    int dockings = 0;                                    // times it came back since reset()
+    double dockingSpeed = 0.0;                           // |v| as it last came back [m/s]
 };
 
 /// The plant of the thesis, and what its outlook asks for: wind that grows with the height, a
-/// tether with mass and drag, an electrical machine at the winch, a wing that the air turns, and
-/// turbines on board. Each is one of the PlantOptions. Without any it is KitePlant, bit for
-/// bit.
+/// tether with mass and drag, an electrical machine at the winch, a wing that the air turns, a
+/// mast, and turbines on board. Each is one of the PlantOptions. Without any it is KitePlant, bit
+/// for bit.
 ///
 /// Points: 0 is the winch, N the wing; between them are the nodes of the tether, if it has
 /// segments.
@@ -45,6 +48,10 @@ struct PlantDetails
 ///     Turn rate:  psi = -gamma_c, V = |v_r|
 ///         psi' = c_1 V u_s + c_2 / max(V, 5 m/s) sin(psi) cos(el) + az' sin(el)
 ///         u_s' = (u_cmd - u_s) / T_s, at most +-rate;  c_d (1 + 0.6 |u_s|)
+///
+/// With a mast (MastParameters) the flight begins docked, whatever the initial state says: the wing
+/// hangs on the mast, no force acts, the tether is as long as the mast is far, and the drum stands.
+/// Inputs of the wing do nothing until PlantInputs::release.
 ///
 /// The damping of a segment begins with its stretch, so that the force is continuous. The axes of
 /// the wing are those of the last segment: it hangs on the tether. The air (Air) is sampled once in
@@ -82,7 +89,14 @@ public:
     /// Of the turbines, since reset() [J].
     double turbineEnergy() const { return single(m_state, TurbineEnergy); }
 
-    /// true since the wing first was at z <= 0, until reset()
+    /// true while the wing hangs on the mast
+    bool isDocked() const { return m_isDocked; }
+    /// How often the wing came back to the mast since reset().
+    int dockings() const { return m_dockings; }
+    /// |v| of the wing as it last came back [m/s]; 0 before.
+    double dockingSpeed() const { return m_dockingSpeed; }
+
+    /// true since the wing first was at z <= 0 or hit the mast, until reset()
     bool hasCrashed() const { return m_thesis.hasCrashed() || m_crashed; }
 
     /// N, 1 without segments
@@ -141,6 +155,12 @@ private:
     double drumSpeed(const PlantInputs &inputs) const;
     double driven(double time, int driveSteps, const PlantInputs &inputs);
     void noticeGround();
+    void noticeMast(bool release);
+    void crash();
+    void hangOnMast();
+    void waitOnMast();
+    /// No force acts on the wing: it lies on the ground or hangs on the mast.
+    bool isAtRest() const { return isHeld() || m_isDocked; }
     bool isHeld() const { return m_crashed && m_parameters.groundContact == GroundContact::Hold; }
 
     PlantParameters m_parameters;
@@ -153,6 +173,10 @@ private:
     WinchDrive m_machine;
     State m_state;
     bool m_crashed = false;
+    bool m_isDocked = false;
+    bool m_hasLeftMast = false;  // far enough to come back
+    int m_dockings = 0;
+    double m_dockingSpeed = 0.0;  // [m/s]
 };
 
 }  // namespace awe

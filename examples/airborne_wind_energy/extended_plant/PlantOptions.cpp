@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PlantOptions.h"
 
+#include "PlantParameters.h"
 #include "RangeCheck.h"
 
 namespace awe {
@@ -14,6 +15,18 @@ std::string TetherParameters::validate() const
 }
 
 std::string SteeringParameters::validate() const
+{
+    RangeCheck check;
+    check.constants(*this);
+    return check.message();
+}
+
+Eigen::Vector3d MastParameters::top() const
+{
+    return PlantParameters::stateAtRest(elevation, azimuth, distance).position;
+}
+
+std::string MastParameters::validate() const
 {
     RangeCheck check;
     check.constants(*this);
@@ -40,12 +53,13 @@ PlantOptions PlantOptions::drag()
 bool PlantOptions::isThesis() const
 {
     return air.profile == WindProfile::Uniform && !air.isThinner && tether.kind == TetherKind::Spring
-        && steering.kind == SteeringKind::Kinematic && !hasMachine && !hasTurbines;
+        && steering.kind == SteeringKind::Kinematic && !hasMachine && !mast.isPresent && !hasTurbines;
 }
 
 std::string PlantOptions::validate() const
 {
-    for (const std::string &complaint : {air.validate(), tether.validate(), steering.validate(), machine.validate()}) {
+    for (const std::string &complaint :
+         {air.validate(), tether.validate(), steering.validate(), machine.validate(), mast.validate()}) {
         if (!complaint.empty())
             return complaint;
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "AirParameters.h"
+#include "MastParameters.h"
 #include "SteeringParameters.h"
 #include "TetherParameters.h"
 #include "WinchDriveParameters.h"
@@ -18,6 +19,7 @@ struct PlantOptions
     SteeringParameters steering;
     bool hasMachine = false;  // whether the winch is a drive that has to follow the tether speed
     WinchDriveParameters machine;
+    MastParameters mast;
     bool hasTurbines = false;  // whether turbines on board brake the wing: drag mode
 
     /// What a plant that is built has: log wind, a tether in segments, a machine at the winch, and

@@ -6,6 +6,7 @@
 #include "CourseController.h"
 #include "FlightMeasurements.h"
 #include "LowPass.h"
+#include "MastController.h"
 #include "OrientationController.h"
 #include "PowerController.h"
 #include "SteeringController.h"
@@ -19,6 +20,9 @@ namespace awe {
 ///                               | power |-------------->| course |---------->| orientation | --> pitchSpeed
 ///                               +-------+               +--------+           +-------------+
 ///                                   +-----------------------------------------------------------> tetherSpeed
+///
+/// With a mast (MastGains) the mast controller starts and lands the wing, and gives the power
+/// controller the time between. A request (FlightRequest) makes it start or land at once.
 ///
 ///     wind azimuth  low pass 20 s of the measured direction, starts with the first measurement
 ///     F_f           low pass 0.25 s of the tether force (in the power controller)
@@ -42,20 +46,26 @@ public:
     /// One control cycle.
     AutopilotOutputs step(const FlightMeasurements &measurements);
 
-    FlightPhase phase() const { return m_power.phase(); }
+    FlightPhase phase() const { return m_phase; }
     const AutopilotGains &gains() const { return m_gains; }
     const PowerController &powerController() const { return m_power; }
     const CourseController &courseController() const { return m_course; }
+    const MastController &mastController() const { return m_mast; }
 
 private:
     static bool isUsable(const FlightMeasurements &measurements);
     void filterWindDirection(double direction);
+    void flyCycle(const FlightMeasurements &measurements, const FlightGeometry &geometry, AutopilotOutputs *outputs);
+    bool flyAtMast(const FlightMeasurements &measurements, const FlightGeometry &geometry, AutopilotOutputs *outputs);
 
     AutopilotGains m_gains;
     OrientationController m_orientation;
     SteeringController m_steering;
     CourseController m_course;
     PowerController m_power;
+    MastController m_mast;
+    FlightPhase m_phase;
+    double m_tetherSpeed = 0.0;  // last v_t [m/s]
     LowPass m_flightSpeed;
     LowPass m_windDirection;  // [deg]
     bool m_hasWindDirection = false;

@@ -172,6 +172,7 @@ std::string AutopilotGains::validate() const
     checkCycle(*this, check);
     checkRecovery(*this, check);
     checkFiltersAndLimit(*this, check);
+    mast.check(check);
     return check.message();
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "MastGains.h"
+
 #include <limits>
 #include <string>
 
@@ -84,6 +86,8 @@ struct AutopilotGains
     double constantTether = 0.0;      // tether length to hold while on the eight [m]; 0: pumping cycles
     double constantTetherGain = 0.5;  // [1/s]
     double turbineCoefficient = 0.0;  // c_dt while on the eight [-]
+
+    MastGains mast;
 
     // Filters
     double forceFilterTime = 0.25;          // [s]

@@ -13,6 +13,7 @@ struct AutopilotOutputs
     double tetherSpeed = 0.0;         // v_t [m/s], > 0 reels out
     double steering = 0.0;            // u_cmd of a steered wing [-], -1...1
     double turbineCoefficient = 0.0;  // c_dt of turbines on board [-]
+    bool release = false;             // the mast lets the wing go
     FlightPhase phase = FlightPhase::Launch;
 };
 

@@ -95,6 +95,7 @@ void ClosedLoopFlight::reset()
     m_cycle = 0;
     m_outputs = PlantOutputs();
     m_commands = AutopilotOutputs();
+    m_request = FlightRequest::Automatic;
 }
 
 FlightMeasurements ClosedLoopFlight::measured(const PlantOutputs &outputs)
@@ -109,14 +110,15 @@ FlightMeasurements ClosedLoopFlight::measured(const PlantOutputs &outputs)
     measurements.tetherForce = outputs.tetherForce.norm();
     const Eigen::Vector3d &wind = outputs.inputs.windVelocity;
     measurements.airspeed = (wind - outputs.velocity).norm();
+    measurements.windVelocity = wind;
     measurements.windDirection = std::atan2(wind.y(), wind.x()) * degreesPerRadian;
     return measurements;
 }
 
 PlantInputs ClosedLoopFlight::inputs() const
 {
-    return {m_commands.pitchSpeed, m_commands.yawSpeed, m_commands.tetherSpeed,       m_wind.velocity(),
-            m_wind.turbulence(),   m_commands.steering, m_commands.turbineCoefficient};
+    return {m_commands.pitchSpeed, m_commands.yawSpeed, m_commands.tetherSpeed,        m_wind.velocity(),
+            m_wind.turbulence(),   m_commands.steering, m_commands.turbineCoefficient, m_commands.release};
 }
 
 // Without dead time the answer to the outputs of this cycle acts in this one, otherwise in the next
@@ -148,6 +150,9 @@ void ClosedLoopFlight::recordStatistics()
     sample.energy = m_outputs.energy;
     sample.electricalEnergy = m_plant.electricalEnergy();
     sample.turbineEnergy = m_plant.turbineEnergy();
+    sample.isDocked = m_plant.isDocked();
+    sample.dockings = m_plant.dockings();
+    sample.dockingSpeed = m_plant.dockingSpeed();
     sample.flightPhase = static_cast<std::int8_t>(m_commands.phase);
     m_statistics.step(sample);
 }
@@ -158,7 +163,10 @@ void ClosedLoopFlight::askAutopilot()
     const auto slot = [](std::int64_t cycle) {
         return static_cast<std::size_t>(cycle % (ClosedLoopParameters::largestDeadTime + 1));
     };
-    m_delayed[slot(m_cycle)] = measured(m_outputs);
+    FlightMeasurements &now = m_delayed[slot(m_cycle)];
+    now = measured(m_outputs);
+    now.isDocked = m_plant.isDocked();
+    now.request = m_request;
     const std::int64_t seen = m_cycle - std::max(0, m_parameters.deadTime - 1);
     if (seen < 0)
         return;

@@ -60,6 +60,9 @@ public:
     /// Cycles until \a duration [s] more have passed.
     void fly(double duration);
 
+    /// What an operator wants from now on; automatic after construction. With a mast only.
+    void setRequest(FlightRequest request) { m_request = request; }
+
     FlightReport report() const { return m_statistics.report(); }
     const PlantOutputs &outputs() const { return m_outputs; }                // of the last cycle
     const AutopilotOutputs &autopilotOutputs() const { return m_commands; }  // of the last cycle
@@ -84,6 +87,7 @@ private:
     std::int64_t m_cycle = 0;
     PlantOutputs m_outputs;
     AutopilotOutputs m_commands;
+    FlightRequest m_request = FlightRequest::Automatic;
 };
 
 }  // namespace awe

@@ -18,6 +18,14 @@ const char *flightPhaseName(FlightPhase phase)
         return "ReelIn";
     case FlightPhase::Recover:
         return "Recover";
+    case FlightPhase::Docked:
+        return "Docked";
+    case FlightPhase::Ascend:
+        return "Ascend";
+    case FlightPhase::Park:
+        return "Park";
+    case FlightPhase::Descend:
+        return "Descend";
     }
     return "unknown";
 }

@@ -94,8 +94,26 @@ void FlightStatistics::step(const FlightSample &sample)
     m_maximumSpeed = std::max(m_maximumSpeed, sample.velocity.norm());
     m_maximumPower = std::max(m_maximumPower, sample.power);
     m_maximumTetherForce = std::max(m_maximumTetherForce, sample.tetherForce.norm());
-    double &altitude = m_launched ? m_minimumAltitude : m_launchAltitude;
+    double &altitude = altitudeIn(sample.flightPhase);
     altitude = std::min(altitude, sample.position.z());
+    followMast(sample);
+}
+
+/// The flights from and to the mast are low on purpose.
+double &FlightStatistics::altitudeIn(std::int8_t phase)
+{
+    const bool isPumping = phase < static_cast<std::int8_t>(FlightPhase::Docked);
+    return m_launched && isPumping ? m_minimumAltitude : m_launchAltitude;
+}
+
+void FlightStatistics::followMast(const FlightSample &sample)
+{
+    if (m_isDocked && !sample.isDocked)
+        ++m_starts;
+    if (sample.dockings > m_dockings)
+        m_dockingSpeed = std::max(m_dockingSpeed, sample.dockingSpeed);
+    m_isDocked = sample.isDocked;
+    m_dockings = sample.dockings;
 }
 
 void FlightStatistics::followPhase(std::int8_t phase)
@@ -105,7 +123,8 @@ void FlightStatistics::followPhase(std::int8_t phase)
         ++m_pumpingCycles;
     if (!is(m_phase, FlightPhase::Recover) && is(phase, FlightPhase::Recover))
         ++m_recoveries;
-    m_launched = m_launched || !is(phase, FlightPhase::Launch);
+    const bool isPumping = phase < static_cast<std::int8_t>(FlightPhase::Docked);
+    m_launched = m_launched || (isPumping && !is(phase, FlightPhase::Launch));
     m_phase = phase;
 }
 
@@ -139,9 +158,13 @@ FlightReport FlightStatistics::report() const
     report.meanSpeed = mean(window.speed, window.count);
     report.maximumSpeed = m_maximumSpeed;
     report.maximumPower = m_maximumPower;
-    const double altitude = m_launched ? m_minimumAltitude : m_launchAltitude;
+    const double altitude = std::isfinite(m_minimumAltitude) ? m_minimumAltitude : m_launchAltitude;
     report.minimumAltitude = std::isfinite(altitude) ? altitude : 0.0;
     report.maximumTetherForce = m_maximumTetherForce;
+    report.starts = m_starts;
+    report.dockings = m_dockings;
+    report.dockingSpeed = m_dockingSpeed;
+    report.landed = m_starts > 0 && m_isDocked;
     report.crashed = m_crashed;
     report.crashTime = m_crashTime;
     return report;

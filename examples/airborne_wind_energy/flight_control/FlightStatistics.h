@@ -25,6 +25,9 @@ struct FlightSample
     double electricalEnergy = 0.0;                           // of the winch [J]
     double turbineEnergy = 0.0;                              // of turbines on board [J]
     std::int8_t flightPhase = 0;                             // number of the FlightPhase
+    bool isDocked = false;                                   // on the mast
+    int dockings = 0;                                        // so far
+    double dockingSpeed = 0.0;                               // of the last one [m/s]
 };
 
 struct FlightStatisticsParameters
@@ -65,8 +68,13 @@ struct FlightReport
     double maximumPower = 0.0;         // largest power, all [W]
     int pumpingCycles = 0;             // completed reel-ins (ReelIn left for Power), all
     int recoveries = 0;                // times the phase Recover began, all
-    double minimumAltitude = 0.0;      // [m], all but the first Launch; all when there is nothing else
+    double minimumAltitude = 0.0;      // [m], all but the first Launch and the phases of the
+                                       // mast; all when there is nothing else
     double maximumTetherForce = 0.0;   // [N], all
+    int starts = 0;                    // from the mast, all
+    int dockings = 0;                  // all
+    double dockingSpeed = 0.0;         // fastest docking [m/s], all
+    bool landed = false;               // started, and on the mast at the end
     bool crashed = false;              // z <= 0 in any sample, all
     double crashTime = 0.0;            // of the first such sample, since the begin [s]
 };
@@ -103,6 +111,8 @@ private:
     };
 
     void followPhase(std::int8_t phase);
+    void followMast(const FlightSample &sample);
+    double &altitudeIn(std::int8_t phase);
     double bestPower(double cubedWind) const;
 
     FlightStatisticsParameters m_parameters;
@@ -115,6 +125,10 @@ private:
     Energies m_first, m_firstAfterWarmUp, m_last;
     std::int8_t m_phase = 0;
     bool m_launched = false;
+    bool m_isDocked = false;
+    int m_starts = 0;
+    int m_dockings = 0;
+    double m_dockingSpeed = 0.0;  // fastest [m/s]
     int m_pumpingCycles = 0;
     int m_recoveries = 0;
     double m_minimumAltitude = std::numeric_limits<double>::infinity();

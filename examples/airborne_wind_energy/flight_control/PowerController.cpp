@@ -84,6 +84,11 @@ void PowerController::chooseNext(const FlightMeasurements &measurements, const F
             && measurements.angleOfAttack < m_gains.recoverAngleOfAttack)
             enter(FlightPhase::Power);
         break;
+    case FlightPhase::Docked:  // phases of the mast controller
+    case FlightPhase::Ascend:
+    case FlightPhase::Park:
+    case FlightPhase::Descend:
+        break;
     }
 }
 
@@ -138,6 +143,11 @@ double PowerController::wantedTetherSpeed(const FlightMeasurements &measurements
         return m_gains.retractFactor * reelOutLaw();
     case FlightPhase::ReelIn:
         return reelInLaw();
+    case FlightPhase::Docked:  // phases of the mast controller
+    case FlightPhase::Ascend:
+    case FlightPhase::Park:
+    case FlightPhase::Descend:
+        return 0.0;
     case FlightPhase::Recover:
         break;
     }

@@ -16,6 +16,7 @@ struct PlantInputs
     Eigen::Vector3d turbulence = Eigen::Vector3d::Zero();  // the part of w that is the same at every height [3] [m/s]
     double steering = 0.0;                                 // u_cmd, with the turn-rate law [-], -1...1
     double turbineCoefficient = 0.0;                       // c_dt: drag of the turbines on board [-], >= 0
+    bool release = false;                                  // the mast lets the wing go, and does not catch it
 };
 
 }  // namespace awe

@@ -9,6 +9,8 @@ namespace awe {
 
 namespace {
 
+constexpr double fullTurn = 6.2831853071795864769;
+
 // Columns: along the mean wind, across it (level), upwards. A vertical mean wind has no "across": x
 // stands for it.
 Eigen::Matrix3d windFrame(const Eigen::Vector3d &meanVelocity)
@@ -48,7 +50,19 @@ void Wind::reset()
                                     m_parameters.lengthScale, m_parameters.step, m_parameters.seed);
         moveKaimal();
     }
+    composeVelocity();
+}
+
+void Wind::composeVelocity()
+{
+    m_turbulenceNow = m_turbulence;
     m_velocity = m_parameters.meanVelocity * gustFactor() + m_turbulence;
+    if (m_parameters.dayShare == 1.0)
+        return;
+    const double rising = 0.5 * (1.0 - std::cos(fullTurn * time() / m_parameters.dayDuration));
+    const double factor = m_parameters.dayShare + (1.0 - m_parameters.dayShare) * rising;
+    m_turbulenceNow *= factor;
+    m_velocity *= factor;
 }
 
 double Wind::gustFactor() const
@@ -56,7 +70,6 @@ double Wind::gustFactor() const
     const double sinceStart = time() - m_parameters.gustStart;
     if (m_parameters.gustAmplitude == 0.0 || sinceStart <= 0.0 || sinceStart >= m_parameters.gustDuration)
         return 1.0;
-    constexpr double fullTurn = 6.2831853071795864769;
     return 1.0 + 0.5 * m_parameters.gustAmplitude * (1.0 - std::cos(fullTurn * sinceStart / m_parameters.gustDuration));
 }
 
@@ -79,7 +92,7 @@ void Wind::step()
             = m_excitation.col(0) * along + m_excitation.col(1) * across + m_excitation.col(2) * upwards;
         m_turbulence = m_memory * m_turbulence + excitation;
     }
-    m_velocity = m_parameters.meanVelocity * gustFactor() + m_turbulence;
+    composeVelocity();
 }
 
 }  // namespace awe

@@ -16,6 +16,10 @@ namespace awe {
 ///     w(t) = w_mean (1 + A/2 (1 - cos(2 pi (t - t0) / D)))  for t0 < t < t0 + D,  w_mean otherwise      1-cos gust
 ///          + n(t)                                                                                        turbulence
 ///
+/// With dayShare < 1 all of it, turbulence too, comes and goes in days of the length T:
+///
+///     w(t) <- w(t) (share + (1 - share) / 2 (1 - cos(2 pi t / T)))
+///
 /// The turbulence n has three independent parts: along the mean wind, across it (level), and
 /// upwards. By the TurbulenceModel it is that of KaimalTurbulence, or each part is an
 /// Ornstein-Uhlenbeck process, n' = -n |w_mean| / L + white noise, of the standard deviation sigma
@@ -42,7 +46,7 @@ public:
     const Eigen::Vector3d &velocity() const { return m_velocity; }
 
     /// The part of velocity() that is turbulence [3] [m/s]
-    const Eigen::Vector3d &turbulence() const { return m_turbulence; }
+    const Eigen::Vector3d &turbulence() const { return m_turbulenceNow; }
 
     /// Time since reset() [s]
     double time() const { return static_cast<double>(m_steps) * m_parameters.step; }
@@ -51,6 +55,7 @@ public:
 
 private:
     double gustFactor() const;
+    void composeVelocity();
     void moveKaimal();
 
     WindParameters m_parameters;
@@ -62,7 +67,8 @@ private:
     Eigen::Matrix3d m_frame = Eigen::Matrix3d::Identity();   // columns: along the mean wind, across it, upwards
     Eigen::Matrix3d m_excitation = Eigen::Matrix3d::Zero();  // columns: sigma sqrt(1 - a^2) times direction [m/s]
     std::int64_t m_steps = 0;
-    Eigen::Vector3d m_turbulence = Eigen::Vector3d::Zero();  // n [m/s]
+    Eigen::Vector3d m_turbulence = Eigen::Vector3d::Zero();     // n [m/s], without the day
+    Eigen::Vector3d m_turbulenceNow = Eigen::Vector3d::Zero();  // [m/s]
     Eigen::Vector3d m_velocity = Eigen::Vector3d::Zero();
 };
 

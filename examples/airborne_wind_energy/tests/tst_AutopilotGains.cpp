@@ -70,6 +70,9 @@ void tst_AutopilotGains::badGainIsNamedWithItsRemedy_data()
     row(
         "no force", [](AutopilotGains &g) { g.forceLimit = 0.0; }, "forceLimit is 0 N");
     row(
+        "mast", [](AutopilotGains &g) { g.mast.landWind = 7.0; },
+        "mast.landWind is 7 m/s; choose a value from 0 to 6.2");
+    row(
         "no step", [](AutopilotGains &g) { g.step = 0.0; }, "step is 0 s");
 }
 
@@ -84,8 +87,10 @@ void tst_AutopilotGains::badGainIsNamedWithItsRemedy()
 
 void tst_AutopilotGains::everyPhaseHasAName()
 {
-    const QStringList names = {QStringLiteral("Launch"),  QStringLiteral("Power"),  QStringLiteral("ReelOut"),
-                               QStringLiteral("Retract"), QStringLiteral("ReelIn"), QStringLiteral("Recover")};
+    const QStringList names
+        = {QStringLiteral("Launch"), QStringLiteral("Power"),   QStringLiteral("ReelOut"), QStringLiteral("Retract"),
+           QStringLiteral("ReelIn"), QStringLiteral("Recover"), QStringLiteral("Docked"),  QStringLiteral("Ascend"),
+           QStringLiteral("Park"),   QStringLiteral("Descend")};
     QCOMPARE(names.size(), awe::flightPhaseCount);
     for (int i = 0; i < names.size(); ++i)
         QCOMPARE(QString::fromLatin1(awe::flightPhaseName(static_cast<awe::FlightPhase>(i))), names[i]);
