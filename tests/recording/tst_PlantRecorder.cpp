@@ -211,12 +211,17 @@ void tst_PlantRecorder::aFullDiskLosesNothing()
     flight.step(100);
     QCOMPARE(flight.recorder.proceed(&flight.error), PlantRecorder::Recorded);
     isFull = true;
-    QVERIFY(!flight.recorder.save(false, &flight.error));
-    QCOMPARE(flight.error, QString("the disk is full"));
+    QVERIFY(!flight.recorder.save(false, &flight.error));  // its first attachment
+    QCOMPARE(flight.ring->readPlace(), std::uint64_t(0));
+    isFull = false;
+    QVERIFY(flight.recorder.save(false, &flight.error));
+    const std::uint64_t saved = flight.ring->readPlace();
+    isFull = true;
     flight.step(500);
     flight.recorder.proceed(&flight.error);
-    QVERIFY(!flight.recorder.save(false, &flight.error));
-    QCOMPARE(flight.ring->readPlace(), std::uint64_t(0));
+    QVERIFY(!flight.recorder.save(false, &flight.error));  // a chunk
+    QCOMPARE(flight.error, QString("the disk is full"));
+    QCOMPARE(flight.ring->readPlace(), saved);
     isFull = false;
     flight.cycle.stop();
     QCOMPARE(flight.recorder.proceed(&flight.error), PlantRecorder::Ended);
