@@ -9,7 +9,9 @@
 #include "gui/panel/DrawNow.h"
 #include "gui/plant/PlantRecording.h"
 
+#include <QtCore/QCoreApplication>
 #include <QtCore/QElapsedTimer>
+#include <QtCore/QEventLoop>
 #include <QtCore/QFileInfo>
 #include <QtCore/QStorageInfo>
 
