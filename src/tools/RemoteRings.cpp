@@ -65,6 +65,8 @@ void RemoteRings::start()
 void RemoteRings::lost(ControlClient::Loss loss, const QString &reason)
 {
     m_due.stop();
+    if (loss == ControlClient::Loss::MasterEnded && m_isRecording)
+        forget();
     const bool isFinal = loss == ControlClient::Loss::Rejected || loss == ControlClient::Loss::NoGreeting
         || loss == ControlClient::Loss::OtherVersion;
     const QString text = QStringLiteral("no connection to the master at %1: %2").arg(placeText(m_master), reason);
@@ -119,8 +121,8 @@ void RemoteRings::refused(const qplc::messages::Failed &refusal)
         return;  // lost() follows
     if (refusal.error == qplc::messages::errorWord::unknownRing) {
         trouble(QStringLiteral("the master was started again; its former phase has no more cycles"));
-        m_copy->abandon();
-        taken();
+        forget();
+        ask();
     } else if (!m_isRecording) {
         fail(QStringLiteral("the master at %1 refuses: %2").arg(placeText(m_master), refusal.text));
     } else {
@@ -137,11 +139,17 @@ void RemoteRings::taken()
             return fail(m_recorder->errorString());
         m_trouble.clear();
     }
-    if (m_copy->state() == RingCopy::Ended || m_copy->state() == RingCopy::Abandoned) {
-        m_copy = std::make_unique<RingCopy>(QSysInfo::machineHostName());
-        m_isRecording = false;
-    }
+    if (m_copy->state() == RingCopy::Ended)
+        forget();
     ask();
+}
+
+/// The next ring is another one. The recorder gets what has come of this one.
+void RemoteRings::forget()
+{
+    m_copy->abandon();
+    m_copy = std::make_unique<RingCopy>(QSysInfo::machineHostName());
+    m_isRecording = false;
 }
 
 void RemoteRings::finish()

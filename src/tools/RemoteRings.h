@@ -43,6 +43,7 @@ private:
     void handle(const Reply &reply);
     void refused(const qplc::messages::Failed &refusal);
     void taken();
+    void forget();
     void fail(const QString &text);
     void trouble(const QString &text);
 

@@ -117,14 +117,28 @@ def killed_recorders_are_continued(plant):
     assert not list(plant.rings[1].iterdir()), "a copy is left"
 
 
+def master_that_ends_is_recorded_as_far_as_it_came(plant, master):
+    file = plant.folder / "ended.mcap"
+    recorder = plant.record(file)
+    assert plant.run("start").returncode == 0
+    wait_for(lambda: plant.recorder().get("state") == "Recording", "cycles are recorded")
+    time.sleep(1)
+    master.send_signal(signal.SIGTERM)
+    said = recorder.communicate(timeout=PATIENCE)[0]
+    assert recorder.returncode in (0, 1) and "cycles in" in said, said  # the end of the phase may have come
+    assert plant.verify(file)[0]["cycles"] > 0
+    assert not list(plant.rings[1].iterdir()), "a copy is left"
+
+
 def main(programs):
     with tempfile.TemporaryDirectory() as folder, tempfile.TemporaryDirectory(dir="/dev/shm") as rings:
         plant = Computers(Path(programs), Path(folder), rings)
         try:
-            plant.start(0, "awe_master", "--port", plant.port, "--duration", 0)
+            master = plant.start(0, "awe_master", "--port", plant.port, "--duration", 0)
             wait_for(lambda: plant.state().get("state"), "the master listens")
             whole_flight_is_in_the_file(plant)
             killed_recorders_are_continued(plant)
+            master_that_ends_is_recorded_as_far_as_it_came(plant, master)
         finally:
             plant.end()
 
