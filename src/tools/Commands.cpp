@@ -322,7 +322,7 @@ const QVector<Command> &commands()
          &checkManifest},
         {"record",
          "FILE | FOLDER/ | VERB FOLDER | mark",
-         "Records every cycle of plants, here or on another computer.",
+         "Records every cycle of plants, also of other computers.",
          "Reads the ring of a master, which runs on this computer and belongs to the same\n"
          "user, or with --master of one on another computer, and writes FILE, which must\n"
          "not exist. It begins with the cycles that are in the ring, and ends with the\n"
