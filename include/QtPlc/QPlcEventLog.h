@@ -7,8 +7,8 @@
 /// A panel with the events of all plants, newest last: filtered by severity and words, and
 /// acknowledged.
 ///
-/// A double click, or Enter, shows the time of the event in all plots of the window. N writes a
-/// note into the log. The panel follows the newest event unless a person has scrolled up.
+/// A double click, or Enter, shows the time of the event in all plots of the window. The panel
+/// follows the newest event unless a person has scrolled up.
 ///
 /// \code
 /// QPlcEventLog log;

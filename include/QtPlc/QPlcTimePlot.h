@@ -29,7 +29,7 @@
 /// | move the last cursor | drag | `Ctrl+Left`, `Ctrl+Right` |
 /// | statistics between A and B | arrow | `S` |
 /// | add a signal | drop | `Insert`; `+` while there is none |
-/// | choose, hide, remove a curve | legend; context menu | `N`, `Shift+N`; `V`; `Delete` |
+/// | choose, hide, remove a curve | legend; context menu | `J`, `Shift+J`; `V`; `Delete` |
 /// | axis of a curve to the other side | context menu of the curve | `Y` |
 /// | reference line, with its value; none | context menu | `R`; `Shift+R` |
 /// | trigger on and off | context menu | `T` |

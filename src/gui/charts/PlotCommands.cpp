@@ -43,8 +43,8 @@ void QPlcTimePlot::Private::makeCurveActions()
                              [this] { removeCurve(curves.selected()); });
     toggleAction = addAction(QPlcTimePlot::tr("Hide or show curve"), {Qt::Key_V}, "toggle",
                              [this] { toggleCurve(curves.selected()); });
-    addAction(QPlcTimePlot::tr("Next curve"), {Qt::Key_N}, "next", choose(1));
-    addAction(QPlcTimePlot::tr("Previous curve"), {int(Qt::SHIFT) | Qt::Key_N}, "previous", choose(-1));
+    addAction(QPlcTimePlot::tr("Next curve"), {Qt::Key_J}, "next", choose(1));
+    addAction(QPlcTimePlot::tr("Previous curve"), {int(Qt::SHIFT) | Qt::Key_J}, "previous", choose(-1));
 }
 
 void QPlcTimePlot::Private::makeViewActions()

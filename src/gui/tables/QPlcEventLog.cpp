@@ -50,11 +50,9 @@ struct QPlcEventLog::Private
     QPlcPanelContext *context = nullptr;  // from contextChanged() on
     QComboBox *severity = nullptr;
     QLineEdit *search = nullptr;
-    QLineEdit *note = nullptr;
     QAction *onlyUnacknowledged = nullptr;
     QAction *acknowledge = nullptr;
     QAction *acknowledgeAll = nullptr;
-    QAction *writeNote = nullptr;
     PanelSettings settings{"severity", "unacknowledged", "search", "columns"};
     bool isFollowing = true;
 
@@ -66,7 +64,7 @@ struct QPlcEventLog::Private
         row->setSpacing(4);
         row->addWidget(severity);
         row->addWidget(search, 1);
-        for (QAction *action : {onlyUnacknowledged, acknowledge, acknowledgeAll, writeNote}) {
+        for (QAction *action : {onlyUnacknowledged, acknowledge, acknowledgeAll}) {
             auto *button = new QToolButton(bar);
             button->setDefaultAction(action);
             button->setAutoRaise(true);
@@ -74,33 +72,6 @@ struct QPlcEventLog::Private
             row->addWidget(button);
         }
         return bar;
-    }
-
-    /// The line for a note, there while one is written.
-    void makeNote(QWidget *parent)
-    {
-        note = new QLineEdit(parent);
-        note->setPlaceholderText(QPlcEventLog::tr("Note for the log; Enter writes it, Escape forgets it"));
-        note->setAccessibleName(QPlcEventLog::tr("Note for the log"));
-        note->setMaxLength(500);
-        note->setObjectName(QStringLiteral("note"));
-        note->hide();
-        QObject::connect(writeNote, &QAction::triggered, note, [this] {
-            note->show();
-            note->setFocus(Qt::ShortcutFocusReason);
-        });
-        const auto close = [this] {
-            note->clear();
-            note->hide();
-            table->setFocus(Qt::OtherFocusReason);
-        };
-        addPanelAction(note, {}, {Qt::Key_Escape}, close, "", Qt::WidgetShortcut);
-        QObject::connect(note, &QLineEdit::returnPressed, note, [this, close] {
-            const QString text = note->text().simplified();
-            if (!text.isEmpty() && context)
-                context->report(QPlcPanelContext::Information, QPlcEventLog::tr("Note"), text);
-            close();
-        });
     }
 
     /// New rows do not move what somebody reads.
@@ -139,8 +110,6 @@ QPlcEventLog::QPlcEventLog(QWidget *parent)
     column->setSpacing(0);
     column->addWidget(d->makeBar(this));
     column->addWidget(d->table);
-    d->makeNote(this);
-    column->addWidget(d->note);
     setFocusProxy(d->table);
     d->follow();
 }
@@ -164,7 +133,6 @@ void QPlcEventLog::makeActions()
     d->acknowledge = make(tr("Acknowledge the selected events"), tr("Ack"), QKeySequence(Qt::Key_A));
     d->acknowledgeAll
         = make(tr("Acknowledge all events"), tr("Ack all"), QKeySequence(int(Qt::SHIFT) | int(Qt::Key_A)));
-    d->writeNote = make(tr("Write a note into the log"), tr("Note"), QKeySequence(Qt::Key_N));
     QAction *find = make(tr("Search events"), tr("Search"), QKeySequence(QKeySequence::Find));
     connect(find, &QAction::triggered, d->search, [this] { d->search->setFocus(Qt::ShortcutFocusReason); });
     leaveByEscape(d->search, d->table);

@@ -75,6 +75,8 @@ void ControlCenterActions::makeViewMenu()
     makeRateMenu();
     viewMenu->addSeparator();
     eventLog = add(viewMenu, tr("&Event log"), tr("F8"));
+    note = add(viewMenu, tr("Write a &note..."), tr("N"));
+    note->setToolTip(tr("One line for the event log of the plant; it is in its recordings, too"));
     acknowledge = add(viewMenu, tr("&Acknowledge all events"), tr("Ctrl+Shift+A"));
     viewMenu->addSeparator();
     QMenu *themeMenu = viewMenu->addMenu(tr("&Theme"));

@@ -62,6 +62,7 @@ public:
     QAction *faster = nullptr;
     QVector<Rate> rates;
     QAction *eventLog = nullptr;
+    QAction *note = nullptr;
     QAction *acknowledge = nullptr;
     QAction *fullScreen = nullptr;
     QAction *touch = nullptr;

@@ -74,6 +74,7 @@ void QPlcControlCenter::Private::connectViewActions()
     for (const ControlCenterActions::Rate &each : qAsConst(actions->rates))
         connect(each.action, &QAction::triggered, q, [this, each] { setRate(each.timesPerSecond); });
     connect(actions->eventLog, &QAction::triggered, placer, [this] { placer->showPanel(QStringLiteral("Event log")); });
+    connect(actions->note, &QAction::triggered, noteStrip, &NoteStrip::open);
     connect(actions->acknowledge, &QAction::triggered, context.events(), &EventLogModel::acknowledgeAll);
     connect(actions->fullScreen, &QAction::toggled, q, [this](bool isFull) {
         q->setWindowState(isFull ? q->windowState() | Qt::WindowFullScreen : q->windowState() & ~Qt::WindowFullScreen);

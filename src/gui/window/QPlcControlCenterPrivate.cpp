@@ -62,6 +62,7 @@ void QPlcControlCenter::Private::makeCentre()
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(0);
     connectStrip = new ConnectStrip(&context, centre);
+    noteStrip = new NoteStrip(&selection, &context, centre);
     hint = new HintLine(&context, centre);
     pages = new QStackedWidget(centre);
     startPage = new StartPage(&context);
@@ -85,6 +86,7 @@ void QPlcControlCenter::Private::makeCentre()
     stopQuestion = new StopQuestion(&selection, &context, centre);
     column->addWidget(stopQuestion);
     column->addWidget(connectStrip);
+    column->addWidget(noteStrip);
     column->addWidget(new InsecureNotice(&context, centre));
     column->addWidget(new MissingNotice(&context, centre));
     stopNotice = new StopNotice(&context, centre);
@@ -150,6 +152,7 @@ void QPlcControlCenter::Private::connectParts()
     connect(&selection, &PlantSelection::commandFailed, q,
             [this](const QString &sentence) { hint->showText(sentence); });
     connect(connectStrip, &ConnectStrip::connectRequested, q, [this](const QString &address) { connectTo(address); });
+    connect(noteStrip, &NoteStrip::refused, q, [this](const QString &sentence) { hint->showText(sentence); });
     connect(startPage, &StartPage::masterChosen, q, [this](const QString &address) { connectTo(address); });
     connect(dock->tree(), &QPlcWidget::showRequested, placer, &SignalPlacer::show);
     new SignalPlaceActions(dock->tree(), view, placer);

@@ -12,6 +12,7 @@
 #include "LatchBanner.h"
 #include "LayoutShelf.h"
 #include "MasterSearch.h"
+#include "NoteStrip.h"
 #include "PanelPlants.h"
 #include "PanelWiring.h"
 #include "Playback.h"
@@ -119,6 +120,7 @@ struct QPlcControlCenter::Private
     qplc::StopNotice *stopNotice = nullptr;
     qplc::StopQuestion *stopQuestion = nullptr;
     qplc::ConnectStrip *connectStrip = nullptr;
+    qplc::NoteStrip *noteStrip = nullptr;
     QStackedWidget *pages = nullptr;
     qplc::StartPage *startPage = nullptr;
     qplc::LayoutView *view = nullptr;

@@ -164,14 +164,14 @@ void tst_PlotEditing::keysChooseHideAndRemoveCurves()
     window.plot->activateWindow();
     QVERIFY(QTest::qWaitForWindowActive(window.plot));
     window.plot->setFocus();
-    QTest::keyClick(window.plot, Qt::Key_N);
-    QTest::keyClick(window.plot, Qt::Key_N);
+    QTest::keyClick(window.plot, Qt::Key_J);
+    QTest::keyClick(window.plot, Qt::Key_J);
     QTest::keyClick(window.plot, Qt::Key_V);
     QCOMPARE(window.settings(),
              QByteArray(R"({"curves":[{"signal":"a"},{"signal":"b","visible":false},{"signal":"c"}]})"));
     QTest::keyClick(window.plot, Qt::Key_Delete);
     QCOMPARE(window.settings(), QByteArray(R"({"curves":[{"signal":"a"},{"signal":"c"}]})"));
-    QTest::keyClick(window.plot, Qt::Key_N, Qt::ShiftModifier);
+    QTest::keyClick(window.plot, Qt::Key_J, Qt::ShiftModifier);
     QTest::keyClick(window.plot, Qt::Key_Delete);
     QCOMPARE(window.settings(), QByteArray(R"({"curves":[{"signal":"c"}]})"));
     QTest::keyClick(window.plot, Qt::Key_Space);

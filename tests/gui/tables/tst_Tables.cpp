@@ -117,7 +117,6 @@ private Q_SLOTS:
     void aWindowWithoutPlantsHasAnEmptyTable();
     void eventsAreFilteredAndAcknowledged();
     void logScrollsToNewEventsUnlessTheUserScrolledBack();
-    void aNoteIsWrittenIntoTheLog();
     void anEventLeadsToItsTime();
 };
 
@@ -450,35 +449,6 @@ void tst_Tables::logScrollsToNewEventsUnlessTheUserScrolledBack()
     append();
     QTRY_VERIFY(bar->maximum() > 110);
     QTRY_COMPARE(bar->value(), bar->maximum());
-}
-
-void tst_Tables::aNoteIsWrittenIntoTheLog()
-{
-    WindowContext context;
-    QPlcEventLog log;
-    QVERIFY(openLog(&log, &context));
-    auto *view = log.findChild<QTreeView *>();
-    auto *note = log.findChild<QLineEdit *>(QStringLiteral("note"));
-    view->setFocus();
-    QVERIFY(note->isHidden());
-    QTest::keyClick(view, Qt::Key_N);
-    QVERIFY(note->hasFocus());
-    QTest::keyClicks(note, QStringLiteral("  gust at  the mast "));
-    QTest::keyClick(note, Qt::Key_Return);
-    QVERIFY(note->isHidden());
-    QVERIFY(view->hasFocus());
-    QCOMPARE(context.events()->rowCount(), 1);
-    QCOMPARE(context.events()->at(0).text, QStringLiteral("gust at the mast"));
-    QCOMPARE(context.events()->at(0).source, QStringLiteral("Note"));
-    QCOMPARE(context.events()->unacknowledged(), 0);  // it asks nobody
-    for (const Qt::Key key : {Qt::Key_Return, Qt::Key_Escape}) {
-        QTest::keyClick(view, Qt::Key_N);
-        QCOMPARE(note->text(), QString());
-        QTest::keyClicks(note, QStringLiteral(" "));
-        QTest::keyClick(note, key);
-        QVERIFY(note->isHidden());
-    }
-    QCOMPARE(context.events()->rowCount(), 1);
 }
 
 void tst_Tables::anEventLeadsToItsTime()

@@ -249,8 +249,8 @@ void FlyingWindow::makeEdits()
     addEdit(QStringLiteral("search of events"),
             [this, focused] { return focused(events->findChild<QLineEdit *>(QStringLiteral("search"))); });
     addEdit(QStringLiteral("note"), [this] {
-        actionOf(events, "Write a note into the log")->trigger();
-        return events->findChild<QLineEdit *>(QStringLiteral("note"));
+        part<NoteStrip>()->open();
+        return part<NoteStrip>()->line();
     });
     addEdit(QStringLiteral("search of values"), [this] {
         actionOf(values, "Search in the table")->trigger();

@@ -32,6 +32,13 @@ private Q_SLOTS:
     void theLogIsInTheOrderOfTime();
     void startsAndStopsAreOnTheBottomLine();
     void eventsAndLeasesUseTheSamePersonName();
+    void aNoteIsAnEventOfTheMaster();
+    void nIsALetterWhileAPersonTypes();
+    void escapeForgetsANoteAndStopsNothing();
+    void aNoteBelongsToThePlantInWhichItWasBegun();
+    void withoutAConnectionNobodyTakesANote();
+    void aNoteStaysInItsLineWhenTheConnectionIsLost();
+    void withoutAMasterANoteIsInTheLogOfTheWindow();
 
 private:
     std::unique_ptr<TestSettings> m_settings;
@@ -86,6 +93,132 @@ void tst_WindowEvents::startsAndStopsAreOnTheBottomLine()
     fixture.plant()->stop();
     QTRY_VERIFY_WITH_TIMEOUT(line->detail().contains(QLatin1String("kite: state Off")), patience);
     QVERIFY2(line->detail().contains(PlantLeases::whoever()), qPrintable(line->detail()));
+}
+
+namespace {
+
+QVector<PlantEvent> notesOf(const EventLogModel &events)
+{
+    QVector<PlantEvent> notes;
+    for (int row = 0; row < events.rowCount(); ++row) {
+        if (events.at(row).isNote)
+            notes.append(events.at(row));
+    }
+    return notes;
+}
+
+}  // namespace
+
+void tst_WindowEvents::aNoteIsAnEventOfTheMaster()
+{
+    RunningMaster master;
+    WindowFixture fixture;
+    fixture.window.connectToMaster(master.address(), QStringLiteral("kite"));
+    QTRY_VERIFY_WITH_TIMEOUT(fixture.plant()->isConnected(), patience);
+    auto *strip = fixture.part<NoteStrip>();
+    QVERIFY(strip->isHidden());
+    fixture.press(Qt::Key_N);
+    QVERIFY(strip->isVisible() && strip->line()->hasFocus());
+    fixture.type(QStringLiteral("  gust at  the mast "));
+    fixture.press(Qt::Key_Return);
+    const EventLogModel &events = *fixture.window.context()->events();
+    QTRY_COMPARE_WITH_TIMEOUT(notesOf(events).size(), 1, patience);
+    QCOMPARE(notesOf(events).first().text, QStringLiteral("gust at the mast"));
+    QVERIFY(notesOf(events).first().source.startsWith(QLatin1String("kite")));
+    QCOMPARE(events.unacknowledged(), 0);  // it asks nobody
+    QTRY_VERIFY(strip->isHidden());
+}
+
+void tst_WindowEvents::nIsALetterWhileAPersonTypes()
+{
+    RunningMaster master;
+    WindowFixture fixture;
+    fixture.window.connectToMaster(master.address(), QStringLiteral("kite"));
+    QTRY_VERIFY_WITH_TIMEOUT(fixture.plant()->isConnected(), patience);
+    fixture.press(Qt::Key_O, Qt::ControlModifier);
+    fixture.part<ConnectStrip>()->addressLine()->clear();
+    fixture.type(QStringLiteral("north"));
+    QCOMPARE(fixture.part<ConnectStrip>()->addressLine()->text(), QStringLiteral("north"));
+    QVERIFY(fixture.part<NoteStrip>()->isHidden());
+}
+
+void tst_WindowEvents::escapeForgetsANoteAndStopsNothing()
+{
+    FlyingMaster master;
+    QVERIFY(master.startRealTime());
+    WindowFixture fixture;
+    fixture.window.connectToMaster(master.address(), QStringLiteral("kite"));
+    QTRY_VERIFY_WITH_TIMEOUT(fixture.plant()->isConnected(), patience);
+    auto *strip = fixture.part<NoteStrip>();
+    for (const bool hasText : {true, false}) {
+        fixture.press(Qt::Key_N);
+        fixture.type(hasText ? QStringLiteral("no") : QStringLiteral(" "));
+        fixture.press(hasText ? Qt::Key_Escape : Qt::Key_Return);
+        QVERIFY(strip->isHidden());
+    }
+    fixture.press(Qt::Key_N);
+    QCOMPARE(strip->line()->text(), QString());
+    fixture.press(Qt::Key_Escape);
+    QCOMPARE(master.state(), QPlcMasterNode::RealTime);
+    QVERIFY(notesOf(*fixture.window.context()->events()).isEmpty());
+}
+
+void tst_WindowEvents::aNoteBelongsToThePlantInWhichItWasBegun()
+{
+    RunningMaster north;
+    RunningMaster south;
+    WindowFixture fixture;
+    fixture.window.connectToMaster(north.address(), QStringLiteral("north"));
+    fixture.window.connectToMaster(south.address(), QStringLiteral("south"));
+    QTRY_VERIFY_WITH_TIMEOUT(fixture.plant(0)->isConnected() && fixture.plant(1)->isConnected(), patience);
+    fixture.window.context()->plants()->select(fixture.plant(0));
+    fixture.press(Qt::Key_N);
+    fixture.type(QStringLiteral("calm"));
+    fixture.window.context()->plants()->select(fixture.plant(1));
+    fixture.press(Qt::Key_Return);
+    const EventLogModel &events = *fixture.window.context()->events();
+    QTRY_COMPARE_WITH_TIMEOUT(notesOf(events).size(), 1, patience);
+    QVERIFY(notesOf(events).first().source.startsWith(QLatin1String("north")));
+}
+
+void tst_WindowEvents::withoutAConnectionNobodyTakesANote()
+{
+    WindowFixture fixture;
+    fixture.window.connectToMaster(QStringLiteral("127.0.0.1:%1").arg(freePort()), QStringLiteral("kite"));
+    fixture.press(Qt::Key_N);
+    QVERIFY(fixture.part<NoteStrip>()->isHidden());
+    QVERIFY2(fixture.hint().contains(QLatin1String("kite is not connected")), qPrintable(fixture.hint()));
+}
+
+void tst_WindowEvents::aNoteStaysInItsLineWhenTheConnectionIsLost()
+{
+    auto master = std::make_unique<RunningMaster>();
+    WindowFixture fixture;
+    fixture.window.connectToMaster(master->address(), QStringLiteral("kite"));
+    QTRY_VERIFY_WITH_TIMEOUT(fixture.plant()->isConnected(), patience);
+    auto *strip = fixture.part<NoteStrip>();
+    fixture.press(Qt::Key_N);
+    fixture.type(QStringLiteral("gust"));
+    master.reset();
+    QTRY_VERIFY_WITH_TIMEOUT(!fixture.plant()->isConnected(), patience);
+    fixture.press(Qt::Key_Return);
+    QVERIFY(strip->isVisible());
+    QCOMPARE(strip->line()->text(), QStringLiteral("gust"));
+    QVERIFY2(strip->error().contains(QLatin1String("kite is not connected")), qPrintable(strip->error()));
+}
+
+void tst_WindowEvents::withoutAMasterANoteIsInTheLogOfTheWindow()
+{
+    WindowFixture fixture;
+    fixture.window.context()->plants()->addFed(QStringLiteral("model"));
+    fixture.window.context()->plants()->select(fixture.plant());
+    fixture.press(Qt::Key_N);
+    fixture.type(QStringLiteral("new gains"));
+    fixture.press(Qt::Key_Return);
+    const EventLogModel &events = *fixture.window.context()->events();
+    QCOMPARE(notesOf(events).size(), 1);
+    QCOMPARE(notesOf(events).first().source, QStringLiteral("model"));
+    QVERIFY(fixture.part<NoteStrip>()->isHidden());
 }
 
 void tst_WindowEvents::eventsAndLeasesUseTheSamePersonName()
