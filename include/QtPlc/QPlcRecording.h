@@ -177,6 +177,8 @@ public:
     /// Returns what the event log of the master tells of some time, notes of people among it.
     ///
     /// \code
+    /// QPlcRecording recording;
+    /// recording.open("flight.mcap");
     /// for (const auto &event : recording.events(recording.begin(), recording.end())) {
     ///     if (event.kind == QLatin1String("note"))
     ///         qInfo("cycle %llu: %s", event.cycle, qPrintable(event.text));
