@@ -9,6 +9,7 @@
 #include <QtWidgets/QAction>
 #include <QtWidgets/QApplication>
 #include <QtWidgets/QLabel>
+#include <QtWidgets/QScrollArea>
 #include <QtWidgets/QVBoxLayout>
 
 #include <algorithm>
@@ -44,11 +45,23 @@ StartPage::StartPage(WindowContext *context, QWidget *parent)
     m_recent->setSpacing(2);
     // What is found and remembered has the room below for itself: as it grows, nothing above moves
     // under the mouse.
-    auto *page = new QVBoxLayout(this);
+    auto *content = new QWidget;
+    auto *page = new QVBoxLayout(content);
     page->addStretch(2);
     page->addWidget(makeHead(), 0, Qt::AlignHCenter);
     page->addSpacing(22);
     page->addWidget(makeMasters(), 3, Qt::AlignHCenter);
+    // Many actions must not make the window higher than a small screen.
+    auto *scroll = new QScrollArea;
+    scroll->setFrameShape(QFrame::NoFrame);
+    scroll->setFocusPolicy(Qt::NoFocus);
+    scroll->setWidgetResizable(true);
+    scroll->setWidget(content);
+    for (QWidget *see : {static_cast<QWidget *>(content), scroll->viewport()})
+        see->setAutoFillBackground(false);
+    auto *frame = new QVBoxLayout(this);
+    frame->setContentsMargins(0, 0, 0, 0);
+    frame->addWidget(scroll);
     m_recentTitle->hide();
     setFoundMasters({});
     connect(m_found, &FoundMasters::masterChosen, this, &StartPage::masterChosen);
