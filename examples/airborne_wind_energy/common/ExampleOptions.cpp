@@ -16,7 +16,7 @@ namespace awe {
 
 namespace {
 
-const char *const plantOptions[] = {"plant", "mode"};
+const char *const plantOptions[] = {"plant", "winch", "mode"};
 const char *const modelOptions[] = {"wind", "turbulence", "seed"};
 const char *const autopilotOptions[] = {"gains", "force-limit", "dead-time"};
 

@@ -118,8 +118,7 @@ bool readModel(QPlcCoreApplication &application, Settings *settings)
     if (!settings->isExported && kind != QLatin1String("compact"))
         error = QStringLiteral("--model %1: use compact or lawe").arg(kind);
     QStringList given = awe::givenModelOptions(application) + awe::givenPlantOptions(application);
-    if (settings->run.plant.options.hasMachine)
-        given << QStringLiteral("--winch=machine");
+    given.removeAll(QStringLiteral("--winch=ideal"));  // it has that one
     if (settings->isExported && !given.isEmpty())
         error = QStringLiteral("--model lawe and %1 exclude each other, because the exported model has its own "
                                "parameters: use --model compact")
@@ -194,9 +193,6 @@ int conclude(QJsonObject report, const Settings &settings, int exitCode)
 /// What the programs are told of the winch drive.
 void addWinch(QPlcCoreApplication &application, const awe::RunSettings &run, awe::ProcessArguments *arguments)
 {
-    const QString winch = QStringLiteral("--winch=drive");
-    arguments->master << winch;
-    arguments->model << winch;
     arguments->hardware = run.plant.winchHardware;
     if (!application.isSet(QStringLiteral("scale")) && !application.isSet(QStringLiteral("real-time")))
         arguments->master << QStringLiteral("--real-time");
@@ -232,15 +228,9 @@ int flyInProcesses(QPlcCoreApplication &application, const Settings &settings)
     arguments.model = table + processor + order;
     if (!settings.isExported)  // that one is generated, and has no options of the example
         arguments.model += awe::givenPlantOptions(application) + awe::givenModelOptions(application);
-    arguments.autopilot = table + processor + order + awe::givenAutopilotOptions(application);
-    if (!settings.isExported)
-        arguments.autopilot += awe::givenPlantOptions(application);
+    arguments.autopilot
+        = table + processor + order + awe::givenPlantOptions(application) + awe::givenAutopilotOptions(application);
     arguments.transport = settings.transport;
-    const QString winch = QStringLiteral("winch");
-    if (application.isSet(winch) && !settings.run.plant.hasDrive()) {
-        for (QStringList *program : {&arguments.master, &arguments.model, &arguments.autopilot})
-            *program << QStringLiteral("--winch=%1").arg(application.value(winch));
-    }
     if (settings.run.plant.hasDrive())
         addWinch(application, settings.run, &arguments);
     arguments.watch = settings.run.watch;

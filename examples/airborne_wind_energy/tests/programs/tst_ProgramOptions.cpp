@@ -198,6 +198,7 @@ void tst_ProgramOptions::badOptionsAreRefusedWithOneSentence_data()
     row("awe_sil", "--model lawe --turbulence 0.1", "--model lawe and --turbulence=0.1 exclude each other");
     row("awe_sil", "--model lawe --plant realistic", "--model lawe and --plant=realistic exclude each other");
     row("awe_sil", "--model lawe --winch machine", "--model lawe and --winch=machine exclude each other");
+    row("awe_sil", "--model lawe --winch drive", "--model lawe and --winch=drive exclude each other");
     row("awe_sil", "--processes --watch", "--watch draws on a terminal");
     row("awe_sil", "--controls 0,0", "--controls 0,0: use three numbers X,Y,Z");
     row("awe_sil", "--controls 0,0,1 --processes", "leave out --processes and --winch drive");

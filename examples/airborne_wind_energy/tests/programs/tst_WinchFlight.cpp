@@ -69,6 +69,7 @@ private Q_SLOTS:
     void init();
     void winchKindReplacesTheIdealWinchByADrive();
     void idealWinchIsTheDefault();
+    void driveGivenReplacesTheMachineOfTheFileInEveryProgram();
     void driveRefusesLockstepSimulation();
     void missingConfigurationIsNamed();
     void emergencyStopStopsDriveAndFlight();
@@ -78,9 +79,11 @@ private Q_SLOTS:
 
 private:
     static QString path(const char *program) { return QStringLiteral(AWE_PROGRAMS "/") + QString::fromLatin1(program); }
-    /// The files of the example in a folder of this test, with a drive. \param simulated whether
-    /// awe_sil starts the drive \return the file of the plant
-    QString plant(bool simulated);
+    /// Copies the files of the example to a folder of this test.
+    /// \param simulated  whether awe_sil starts the drive
+    /// \param kind       of the winch
+    /// \return the file of the plant
+    QString plant(bool simulated, const QByteArray &kind = "drive");
     QStringList flightWithRealDrive() { return {"--plant", plant(false), "--duration=0", "--report", reportFile()}; }
     QString reportFile() const { return m_folder->filePath(QStringLiteral("report.json")); }
     QJsonObject report() const;
@@ -98,14 +101,14 @@ void tst_WinchFlight::init()
     qputenv("QTPLC_FAKE_DEVICES", m_folder->path().toLocal8Bit());
 }
 
-QString tst_WinchFlight::plant(bool simulated)
+QString tst_WinchFlight::plant(bool simulated, const QByteArray &kind)
 {
     for (const char *name : {"plant.ini", "winch.ini", "winch_drive.dbc", "winch-canopen.ini", "winch_drive.eds"})
         QFile::copy(QStringLiteral(AWE_HARDWARE "/") + QString::fromLatin1(name),
                     m_folder->filePath(QString::fromLatin1(name)));
     QFile file(m_folder->filePath(QStringLiteral("plant.ini")));
     file.open(QIODevice::ReadOnly);
-    QByteArray text = file.readAll().replace("kind = ideal", "kind = drive");
+    QByteArray text = file.readAll().replace("kind = ideal", "kind = " + kind);
     file.close();
     if (!simulated)
         text.replace("simulated = fake:winch", "simulated =");
@@ -186,6 +189,17 @@ void tst_WinchFlight::idealWinchIsTheDefault()
             digest = flight.value(QStringLiteral("image_digest"));
         QCOMPARE(flight.value(QStringLiteral("image_digest")), digest);
     }
+}
+
+/// A program that only read the file would refuse it: a machine and mode drag exclude each other.
+void tst_WinchFlight::driveGivenReplacesTheMachineOfTheFileInEveryProgram()
+{
+    const Outcome outcome = runProgram(
+        path("awe_sil"),
+        {"--plant", plant(true, "machine"), "--winch=drive", "--mode=drag", "--duration=2", "--report", reportFile()});
+    QVERIFY2(outcome.exitCode == 0, qPrintable(outcome.errors));
+    QVERIFY(report().contains(QStringLiteral("winch")));
+    QVERIFY(report().contains(QStringLiteral("turbine_power_W")));
 }
 
 void tst_WinchFlight::driveRefusesLockstepSimulation()

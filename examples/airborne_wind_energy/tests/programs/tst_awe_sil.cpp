@@ -366,6 +366,7 @@ void tst_awe_sil::exportedModelFliesTheSameFlight_data()
     QTest::addColumn<QString>("options");
     QTest::newRow("in one process") << QString();
     QTest::newRow("processes") << QStringLiteral("--processes");
+    QTest::newRow("processes, ideal winch") << QStringLiteral("--processes --winch ideal");
 }
 
 /// The third model: code in the form that Simulink exports, and a generated node around it.
