@@ -226,11 +226,12 @@ void tst_awe_sil::sameCycleFlightIsIdenticalOverEveryTransport()
     QVERIFY(flight.value(QStringLiteral("image_digest")) != m_flight.value(QStringLiteral("image_digest")));
 }
 
-/// Plant and autopilot in one loop, without QtPLC, with the rounding of the signals: the same
-/// figures to the last bit.
-void tst_awe_sil::sameCycleFlightEqualsTheSingleLoopFlight()
+/// Plant and autopilot in one loop, without QtPLC, with the rounding of the signals, in the wind of
+/// fly().
+/// \param duration  [s] a cycle less than that of the program: the observer sees a cycle after it
+///                  has been, and the last one not at all
+static awe::FlightReport singleLoop(awe::ClosedLoopParameters parameters, double duration)
 {
-    awe::ClosedLoopParameters parameters;
     parameters.deadTime = 0;
     parameters.precision = awe::SignalPrecision::Real32;
     parameters.wind.turbulenceIntensity = 0.15;
@@ -238,14 +239,29 @@ void tst_awe_sil::sameCycleFlightEqualsTheSingleLoopFlight()
     parameters.plant.initialState
         = awe::PlantParameters::stateAtRest(30.0, std::atan2(wind.y(), wind.x()) * 180.0 / M_PI, 100.0);
     awe::ClosedLoopFlight loop(parameters);
-    loop.fly(299.99);  // the observer sees a cycle after it has been, and the last one not at all
-    const awe::FlightReport expected = loop.report();
+    loop.fly(duration);
+    return loop.report();
+}
+
+static double figure(const QJsonObject &flight, const char *name)
+{
+    return flight.value(QLatin1String(name)).toDouble();
+}
+
+static void compareToTheLastBit(const QJsonObject &flight, const awe::FlightReport &expected)
+{
+    QVERIFY(figure(flight, "energy_J") == expected.energy);
+    QVERIFY(figure(flight, "min_altitude_m") == expected.minimumAltitude);
+    QVERIFY(figure(flight, "max_tether_force_N") == expected.maximumTetherForce);
+}
+
+/// The same figures to the last bit.
+void tst_awe_sil::sameCycleFlightEqualsTheSingleLoopFlight()
+{
+    const awe::FlightReport expected = singleLoop({}, 299.99);
     const QJsonObject flight = fly(QStringLiteral("--same-cycle --duration 300"));
-    const auto seen = [&](const char *figure) { return flight.value(QLatin1String(figure)).toDouble(); };
-    QVERIFY(seen("energy_J") == expected.energy);
-    QVERIFY(seen("min_altitude_m") == expected.minimumAltitude);
-    QVERIFY(seen("max_tether_force_N") == expected.maximumTetherForce);
-    QVERIFY(seen("pumping_cycles") == expected.pumpingCycles);
+    compareToTheLastBit(flight, expected);
+    QVERIFY(figure(flight, "pumping_cycles") == expected.pumpingCycles);
     QVERIFY(expected.pumpingCycles >= 1 && expected.energy > 0.0);
 }
 
@@ -284,9 +300,8 @@ void tst_awe_sil::optionsAddTheirFiguresToTheReport()
     QVERIFY(!has(thesis, "electrical_power_W") && !has(thesis, "turbine_power_W"));
     QVERIFY(has(machine, "electrical_power_W") && !has(machine, "turbine_power_W"));
     QVERIFY(!has(drag, "electrical_power_W") && has(drag, "turbine_power_W"));
-    QVERIFY(machine.value(QStringLiteral("electrical_power_W")).toDouble()
-            < machine.value(QStringLiteral("mean_power_W")).toDouble());
-    QVERIFY(drag.value(QStringLiteral("turbine_power_W")).toDouble() > 500.0);
+    QVERIFY(figure(machine, "electrical_power_W") < figure(machine, "mean_power_W"));
+    QVERIFY(figure(drag, "turbine_power_W") > 500.0);
 }
 
 /// As sameCycleFlightEqualsTheSingleLoopFlight(). The loop counts the electrical energy a cycle
@@ -296,21 +311,10 @@ void tst_awe_sil::plantWithOptionsEqualsTheSingleLoopFlight()
     awe::ClosedLoopParameters parameters;
     parameters.options = awe::PlantOptions::realistic();
     parameters.gains = awe::AutopilotGains::steered();
-    parameters.deadTime = 0;
-    parameters.precision = awe::SignalPrecision::Real32;
-    parameters.wind.turbulenceIntensity = 0.15;
-    const Eigen::Vector3d &wind = parameters.wind.meanVelocity;
-    parameters.plant.initialState
-        = awe::PlantParameters::stateAtRest(30.0, std::atan2(wind.y(), wind.x()) * 180.0 / M_PI, 100.0);
-    awe::ClosedLoopFlight loop(parameters);
-    loop.fly(199.99);
-    const awe::FlightReport expected = loop.report();
+    const awe::FlightReport expected = singleLoop(parameters, 199.99);
     const QJsonObject flight = fly(QStringLiteral("--plant realistic --same-cycle --duration 200"));
-    const auto seen = [&](const char *figure) { return flight.value(QLatin1String(figure)).toDouble(); };
-    QVERIFY(seen("energy_J") == expected.energy);
-    QVERIFY(seen("min_altitude_m") == expected.minimumAltitude);
-    QVERIFY(seen("max_tether_force_N") == expected.maximumTetherForce);
-    QVERIFY(std::abs(seen("electrical_power_W") - expected.electricalPower) < 1.0);
+    compareToTheLastBit(flight, expected);
+    QVERIFY(std::abs(figure(flight, "electrical_power_W") - expected.electricalPower) < 1.0);
     QVERIFY(expected.pumpingCycles >= 1 && expected.electricalPower > 0.0);
 }
 
