@@ -39,12 +39,17 @@ QStringList given(const QPlcCoreApplication &application, const char *const (&na
     return arguments;
 }
 
+bool accept(QPlcCoreApplication &application, const QString &error)
+{
+    if (error.isEmpty())
+        return true;
+    application.usageError(error);
+    return false;
+}
+
 bool accept(QPlcCoreApplication &application, const std::string &error)
 {
-    if (error.empty())
-        return true;
-    application.usageError(QString::fromStdString(error));
-    return false;
+    return accept(application, QString::fromStdString(error));
 }
 
 }  // namespace
@@ -97,8 +102,8 @@ bool addOptionSignals(QPlcCoreApplication &application, const PlantOptions &opti
         if (error.isEmpty() && wanted.contains(signal.name) && !table.contains(signal.name))
             table.append(signal, &error);
     }
-    if (!error.isEmpty())
-        return application.usageError(error), false;
+    if (!accept(application, error))
+        return false;
     QPlcSignalIndexTable::setCurrent(table);
     return true;
 }
@@ -206,8 +211,8 @@ static bool readGains(QPlcCoreApplication &application, const PlantConfiguration
         error = QStringLiteral("--gains %1: use default or tuned").arg(set);
     else if (isTuned && plant.options.hasTurbines)
         error = QStringLiteral("--gains tuned: there is no tuned set for turbines on board; use default");
-    if (!error.isEmpty())
-        return application.usageError(error), false;
+    if (!accept(application, error))
+        return false;
     if (isSteered) {
         const AutopilotGains steered = isTuned ? AutopilotGains::steeredTuned() : AutopilotGains::steered();
         *gains = steered.invertedFor(plant.options.steering.turnRateFactor, plant.options.steering.weightFactor);
