@@ -22,6 +22,12 @@ double ratio(double part, double whole)
     return whole > 0.0 ? part / whole : 0.0;
 }
 
+/// A phase of the pumping cycle, not of the mast.
+bool isPumping(std::int8_t phase)
+{
+    return phase < static_cast<std::int8_t>(FlightPhase::Docked);
+}
+
 }  // namespace
 
 std::string FlightStatisticsParameters::validate() const
@@ -102,8 +108,7 @@ void FlightStatistics::step(const FlightSample &sample)
 /// The flights from and to the mast are low on purpose.
 double &FlightStatistics::altitudeIn(std::int8_t phase)
 {
-    const bool isPumping = phase < static_cast<std::int8_t>(FlightPhase::Docked);
-    return m_launched && isPumping ? m_minimumAltitude : m_launchAltitude;
+    return m_launched && isPumping(phase) ? m_minimumAltitude : m_launchAltitude;
 }
 
 void FlightStatistics::followMast(const FlightSample &sample)
@@ -123,8 +128,7 @@ void FlightStatistics::followPhase(std::int8_t phase)
         ++m_pumpingCycles;
     if (!is(m_phase, FlightPhase::Recover) && is(phase, FlightPhase::Recover))
         ++m_recoveries;
-    const bool isPumping = phase < static_cast<std::int8_t>(FlightPhase::Docked);
-    m_launched = m_launched || (isPumping && !is(phase, FlightPhase::Launch));
+    m_launched = m_launched || (isPumping(phase) && !is(phase, FlightPhase::Launch));
     m_phase = phase;
 }
 
