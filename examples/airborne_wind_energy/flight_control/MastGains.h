@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "PlantParameters.h"
+
 namespace awe {
 
 class RangeCheck;
@@ -24,10 +26,10 @@ struct MastGains
     double leastFlightTime = 60.0;  // before a landing because of the mean wind [s]
 
     // The wing, as the controller knows it
-    double mass = 5.0;      // [kg]
-    double area = 10.0;     // [m^2]
-    double density = 1.2;   // of the air [kg/m^3]
-    double gravity = 9.81;  // [m/s^2]
+    double mass = PlantParameters().mass;           // [kg]
+    double area = PlantParameters().area;           // [m^2]
+    double density = PlantParameters().airDensity;  // of the air [kg/m^3]
+    double gravity = PlantParameters().gravity;     // [m/s^2]
 
     // Where the wing goes
     double positionGain = 0.7;           // speed towards the place / distance from it [1/s]
