@@ -37,11 +37,12 @@ struct GainScore
 /// flights.
 enum class TuningSeeds { Tuned, Fresh };
 
-/// Flies a set of gains with the plant, mean wind and dead time of \a parameters. \pre
-/// parameters.validate() is empty
+/// Flies a set of gains with the plant, mean wind and dead time of \a parameters.
+/// \pre parameters.validate() is empty
 GainScore scoreOf(const ClosedLoopParameters &parameters, TuningSeeds seeds = TuningSeeds::Tuned,
                   double duration = 1800.0);
-/// The same with the plant of the thesis. \pre gains.validate() is empty
+/// The same with the plant of the thesis.
+/// \pre gains.validate() is empty
 GainScore scoreOf(const AutopilotGains &gains, int deadTime, TuningSeeds seeds = TuningSeeds::Tuned,
                   double duration = 1800.0);
 

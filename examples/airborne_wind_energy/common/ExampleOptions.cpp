@@ -200,7 +200,8 @@ void addAutopilotOptions(QPlcCoreApplication &application)
         "CYCLES", "");
 }
 
-/// The set that --gains names, for a plant. \return false, with the message out, when there is none
+/// Reads the set of gains that --gains names for a plant.
+/// \return false, with the message out, when the plant has no such set
 static bool readGains(QPlcCoreApplication &application, const PlantConfiguration &plant, AutopilotGains *gains)
 {
     const QString set = application.value(QStringLiteral("gains"));

@@ -36,7 +36,8 @@ QString builtInSignals();
 QString builtInOptionSignals();
 
 /// Adds the signals that the options of a plant need to the table of the process, unless the table
-/// has them already. \return false, with the message out, when a table is wrong
+/// has them already.
+/// \return false, with the message out, when a table is wrong
 bool addOptionSignals(QPlcCoreApplication &application, const PlantOptions &options);
 
 /// Administratively scoped: no router passes it on.

@@ -41,7 +41,8 @@ struct KiteConfiguration
     /// Sets what \a key stands for to \a value. \return empty, or what is wrong and the remedy
     QString set(const QString &key, const QString &value);
 
-    /// "pumping", "drag". \return false when \a word is none of them
+    /// Sets the mode that \a word names: "pumping" or "drag".
+    /// \return false when \a word is neither of them
     bool setMode(const QString &word);
 
     /// The plant with its initial state. \param wind  decides where downwind is

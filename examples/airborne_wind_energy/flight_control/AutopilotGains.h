@@ -114,8 +114,9 @@ struct AutopilotGains
     /// The same with more power, for a wind that grows with the height: docs/figures.md says how
     /// they were found.
     static AutopilotGains steeredTuned();
-    /// The same, for a wing with another turn-rate law. \param turnRate  c_1 [rad/m]
-    /// \param weight  c_2 [m/s^2]
+    /// These gains, for a wing with another turn-rate law.
+    /// \param turnRate  c_1 [rad/m]
+    /// \param weight    c_2 [m/s^2]
     AutopilotGains invertedFor(double turnRate, double weight) const;
     /// For turbines on board: a tether of 150 m that stays as it is.
     static AutopilotGains drag();
