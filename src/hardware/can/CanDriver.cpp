@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "CanBus.h"
+#include "CanBusDriver.h"
 #include "CanConfiguration.h"
 #include "CanLogWriter.h"
 #include "CanReceiver.h"
@@ -10,15 +10,11 @@
 #include "realtime/TimeSource.h"
 
 #include <algorithm>
-#include <array>
-#include <cerrno>
 #include <vector>
 
 namespace qplc {
 
 namespace {
-
-constexpr qint64 canRestartTime = 1'000'000'000;  // [ns] that a controller has to come back by itself
 
 /// Messages of a CAN bus; kind `can`, part of each cycle.
 ///
@@ -51,26 +47,30 @@ constexpr qint64 canRestartTime = 1'000'000'000;  // [ns] that a controller has 
 ///
 /// When the controller is bus-off, the driver waits a second for its restart (restart-ms of the
 /// interface), and then opens the bus again and again.
-class CanDriver final : public QPlcDriver
+class CanDriver final : public CanBusDriver
 {
 public:
     CanDriver()
-        : QPlcDriver(EveryCycle)
+        : CanBusDriver(EveryCycle)
     {
+        addOwn("@state", [this] { return quint64(bus().state()); });
+        addOwn("@received", [this] { return bus().counters().received; });
+        addOwn("@sent", [this] { return bus().counters().sent; });
+        addOwn("@lost", [this] { return bus().counters().lost; });
+        addOwn("@unsent", [this] { return bus().counters().unsent; });
+        addOwn("@errors", [this] { return bus().counters().errorFrames; });
+        addOwn("@busOffs", [this] { return bus().counters().busOffs; });
+        addOwn("@saturated", [this] { return saturated(); });
+        addOwn("@tooShort", [this] { return tooShort(); });
+        addOwn("@logDropped", [this] { return m_log.dropped(); });
     }
 
 protected:
     void configure(QPlcDriverSettings &settings) override
     {
         m_configuration.read(settings);
-        QString error;
-        if (!m_configuration.device().isEmpty())
-            m_bus = CanBus::make(m_configuration.device(), &error);
-        if (!error.isEmpty())
-            settings.addError(QStringLiteral("device"), error);
+        makeBus(m_configuration.device(), settings);
         m_hasLog = !m_configuration.logFile().isEmpty();
-        m_receiveText = "receive from " + m_configuration.device().toLocal8Bit();
-        m_sendText = "send to " + m_configuration.device().toLocal8Bit();
     }
 
     QPlcChannel *channel(const QString &name, QPlcChannel::Direction direction, QString *error) override
@@ -109,18 +109,16 @@ protected:
             if (direction == QPlcChannel::Read)
                 names << prefix + QStringLiteral("@age") << prefix + QStringLiteral("@count");
         }
-        if (direction == QPlcChannel::Read) {
-            for (const OwnKind &kind : ownKinds())
-                names << QLatin1String(kind.name);
-        }
+        if (direction == QPlcChannel::Read)
+            names += ownNames();
         return names;
     }
 
     bool open() override
     {
         prepare();
-        if (!m_bus->open(busOptions()))
-            return fail(m_bus->errorString());
+        if (!openBus(busOptions()))
+            return false;
         QString error;
         if (m_hasLog && !m_log.open(m_configuration.logFile(), m_configuration.device(), &error))
             qCWarning(lcHardware).noquote() << name() << "goes on without a log:" << error;
@@ -129,22 +127,18 @@ protected:
 
     void close() override
     {
-        m_bus->close();
+        bus().close();
         m_log.close();
     }
 
     bool read() override
     {
-        for (int batch = 0; batch < MostBatches; ++batch) {
-            const int count = m_bus->receive(m_incoming.data(), BatchSize);
-            if (count < 0)
-                return fail(m_receiveText.constData(), m_bus->errorNumber());
-            log(m_incoming.data(), count);
-            for (int i = 0; i < count; ++i)
-                deliver(m_incoming[std::size_t(i)]);
-            if (count < BatchSize)
-                break;
-        }
+        const auto take = [this](const CanFrame &frame) {
+            log(&frame, 1);
+            deliver(frame);
+        };
+        if (!receive(take))
+            return false;
         refresh();
         return checkBusOff();
     }
@@ -157,9 +151,9 @@ protected:
             m_counts[i] = m_senders[i]->collect(now(), m_outgoing.data() + count);
             count += m_counts[i];
         }
-        const int sent = m_bus->send(m_outgoing.data(), count);
-        if (sent < 0)
-            return fail(m_sendText.constData(), m_bus->errorNumber());
+        int sent = 0;
+        if (!send(m_outgoing.data(), count, &sent))
+            return false;
         tellSent(sent);
         if (m_hasLog && sent > 0) {
             const qint64 time = monotonicNow();
@@ -170,54 +164,12 @@ protected:
         return true;
     }
 
-    QString remedy(int errorNumber) const override
-    {
-        switch (errorNumber) {
-        case ENETDOWN:
-            return QStringLiteral(
-                       "the interface is down or bus-off; check wires, terminators and bit rate, and bring it up as "
-                       "root (ip link set %1 up type can bitrate 500000 restart-ms 100)")
-                .arg(m_configuration.device());
-        case ENODEV:
-        case ENXIO:
-            return QStringLiteral("the adapter is gone; plug it in again");
-        case EIO:
-            return QStringLiteral(
-                "for a second the adapter reported only errors, and the log has the last one; check wires, "
-                "terminators and bit rate, and plug it in again");
-        default:
-            return QPlcDriver::remedy(errorNumber);
-        }
-    }
-
 private:
-    using Number = quint64 (CanDriver::*)() const;
-    struct OwnKind
-    {
-        const char *name;
-        Number number;
-    };
-    struct OwnChannel
-    {
-        Number number;
-        std::unique_ptr<QPlcReadChannel> channel;
-    };
     struct Entry
     {
         quint32 key;
         std::size_t index;
     };
-    static const std::vector<OwnKind> &ownKinds()
-    {
-        static const std::vector<OwnKind> kinds{
-            {"@state", &CanDriver::state},       {"@received", &CanDriver::received},
-            {"@sent", &CanDriver::sent},         {"@lost", &CanDriver::lost},
-            {"@unsent", &CanDriver::unsent},     {"@errors", &CanDriver::errorFrames},
-            {"@busOffs", &CanDriver::busOffs},   {"@saturated", &CanDriver::saturated},
-            {"@tooShort", &CanDriver::tooShort}, {"@logDropped", &CanDriver::logDropped},
-        };
-        return kinds;
-    }
 
     CanReceiver &receiverOf(const CanMessage &message)
     {
@@ -237,21 +189,6 @@ private:
         }
         m_senders.push_back(std::make_unique<CanSender>(this, message));
         return *m_senders.back();
-    }
-
-    QPlcChannel *ownChannel(const QString &name)
-    {
-        for (const OwnChannel &own : m_ownChannels) {
-            if (own.channel->name() == name)
-                return own.channel.get();
-        }
-        for (const OwnKind &kind : ownKinds()) {
-            if (name != QLatin1String(kind.name))
-                continue;
-            m_ownChannels.push_back({kind.number, std::make_unique<QPlcReadChannel>(this, name)});
-            return m_ownChannels.back().channel.get();
-        }
-        return nullptr;
     }
 
     CanBus::Options busOptions() const
@@ -293,7 +230,6 @@ private:
         std::sort(m_senderOfKey.begin(), m_senderOfKey.end(), isBefore);
         m_outgoing.assign(most, CanFrame());
         m_counts.assign(m_senders.size(), 0);
-        m_busOffSince = -1;
     }
 
     void deliver(const CanFrame &frame) noexcept
@@ -315,28 +251,16 @@ private:
     {
         for (const auto &receiver : m_receivers)
             receiver->refresh(now());
-        for (const OwnChannel &own : m_ownChannels)
-            own.channel->set(double((this->*own.number)()), now());
-    }
-
-    bool checkBusOff() noexcept
-    {
-        if (m_bus->state() != CanBus::BusOff) {
-            m_busOffSince = -1;
-            return true;
-        }
-        if (m_busOffSince < 0)
-            m_busOffSince = now();
-        return now() - m_busOffSince < canRestartTime || fail(m_receiveText.constData(), ENETDOWN);
+        showOwn();
     }
 
     // Frames that the bus had taken were not sent, and nobody knows which: changes are sent again,
     // the others are anyway.
     void repeatFailed() noexcept
     {
-        if (m_bus->counters().failed == m_failed)
+        if (bus().counters().failed == m_failed)
             return;
-        m_failed = m_bus->counters().failed;
+        m_failed = bus().counters().failed;
         for (const auto &sender : m_senders)
             sender->repeatChange();
     }
@@ -358,13 +282,6 @@ private:
             m_log.put(frames[i]);
     }
 
-    quint64 state() const { return m_bus->state(); }
-    quint64 received() const { return m_bus->counters().received; }
-    quint64 sent() const { return m_bus->counters().sent; }
-    quint64 lost() const { return m_bus->counters().lost; }
-    quint64 unsent() const { return m_bus->counters().unsent; }
-    quint64 errorFrames() const { return m_bus->counters().errorFrames; }
-    quint64 busOffs() const { return m_bus->counters().busOffs; }
     quint64 saturated() const
     {
         quint64 sum = 0;
@@ -381,27 +298,16 @@ private:
         return sum;
     }
 
-    quint64 logDropped() const { return m_log.dropped(); }
-
-    static constexpr int BatchSize = 64;
-    static constexpr int MostBatches = 64;  // of one cycle, so that it ends
-
     CanConfiguration m_configuration;
-    std::unique_ptr<CanBus> m_bus;
     CanLogWriter m_log;
     bool m_hasLog = false;
-    QByteArray m_receiveText;  // for errors
-    QByteArray m_sendText;
     std::vector<std::unique_ptr<CanReceiver>> m_receivers;
     std::vector<std::unique_ptr<CanSender>> m_senders;
-    std::vector<OwnChannel> m_ownChannels;
 
     std::vector<Entry> m_receiverOfKey;  // sorted
     std::vector<Entry> m_senderOfKey;    // sorted; of those that can be asked for
-    std::array<CanFrame, BatchSize> m_incoming;
     std::vector<CanFrame> m_outgoing;
     std::vector<int> m_counts;  // frames of each sender in m_outgoing
-    qint64 m_busOffSince = -1;  // [ns]; -1: it is not
     quint64 m_failed = 0;       // frames, as the bus has counted them
 };
 

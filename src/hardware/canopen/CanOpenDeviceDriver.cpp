@@ -4,7 +4,7 @@
 #include "QPlcReadChannel.h"
 #include "QPlcWriteChannel.h"
 #include "hardware/Drivers.h"
-#include "hardware/can/CanBus.h"
+#include "hardware/can/CanBusDriver.h"
 
 #include <algorithm>
 #include <memory>
@@ -28,27 +28,23 @@ namespace {
 /// Read channels: objects that the master writes (address or name), which have values while the
 /// device is Operational; @state (NMT), @masterLost. Write channels: all objects, but those of
 /// communication (1000h ... 1FFFh). The master maps the PDOs.
-class CanOpenDeviceDriver final : public QPlcDriver
+class CanOpenDeviceDriver final : public CanBusDriver
 {
 public:
     CanOpenDeviceDriver()
-        : QPlcDriver(OwnPace)
+        : CanBusDriver(OwnPace)
     {
     }
 
 protected:
     void configure(QPlcDriverSettings &settings) override
     {
-        m_device = settings.requiredText(QStringLiteral("device"), QStringLiteral("can0"));
-        if (CanBus::setsBitRate(m_device))
+        const QString device = settings.requiredText(QStringLiteral("device"), QStringLiteral("can0"));
+        if (CanBus::setsBitRate(device))
             m_bitRate = int(settings.integer(QStringLiteral("bitrate"), 0, 10000, 1'000'000));
         const int node = int(settings.integer(QStringLiteral("node"), 1, 1, CanOpenIds::MaximumNode));
         m_node = std::make_unique<CanOpenDevice>(node);
-        QString error;
-        if (!m_device.isEmpty())
-            m_bus = CanBus::make(m_device, &error);
-        if (!error.isEmpty())
-            settings.addError(QStringLiteral("device"), error);
+        makeBus(device, settings);
         settings.requiredText(QStringLiteral("eds"), QStringLiteral("drive.eds"));
         const QString fileName = settings.fileName(QStringLiteral("eds"));
         QVector<QPlcParseError> errors;
@@ -56,8 +52,6 @@ protected:
             m_file = EdsFile::fromFile(fileName, node, &errors);
         settings.addErrors(errors);
         addObjects();
-        m_receiveText = "receive from " + m_device.toLocal8Bit();
-        m_sendText = "send to " + m_device.toLocal8Bit();
     }
 
     QPlcChannel *channel(const QString &name, QPlcChannel::Direction direction, QString *) override
@@ -94,14 +88,14 @@ protected:
         CanBus::Options options;
         options.receivesAll = true;  // the master chooses the ids of PDOs
         options.bitRate = m_bitRate;
-        if (!m_bus->open(options))
-            return fail(m_bus->errorString());
+        if (!openBus(options))
+            return false;
         m_out.clear();
         m_node->boot(&m_out);
         return true;
     }
 
-    void close() override { m_bus->close(); }
+    void close() override { bus().close(); }
 
     bool write() override
     {
@@ -116,20 +110,13 @@ protected:
 
     bool read() override
     {
-        CanFrame frame;
-        for (int i = 0; i < MostFrames; ++i) {
-            const int count = m_bus->receive(&frame, 1);
-            if (count < 0)
-                return fail(m_receiveText.constData(), m_bus->errorNumber());
-            if (count == 0)
-                break;
-            m_node->take(frame, now(), &m_out);
-        }
+        if (!receive([this](const CanFrame &frame) { m_node->take(frame, now(), &m_out); }))
+            return false;
         m_node->tick(now(), &m_out);
-        const int sent = m_bus->send(m_out.data(), int(m_out.size()));
+        const bool isThere = send(m_out.data(), int(m_out.size()));
         m_out.clear();
-        if (sent < 0)
-            return fail(m_sendText.constData(), m_bus->errorNumber());
+        if (!isThere)
+            return false;
         show();
         return true;
     }
@@ -183,18 +170,13 @@ private:
             m_masterLost->set(m_node->isMasterLost() ? 1.0 : 0.0);
     }
 
-    static constexpr int MostFrames = 4096;  // of one reading, so that it ends
     static constexpr const char *stateName = "@state";
     static constexpr const char *lostName = "@masterLost";
 
-    QString m_device;
     int m_bitRate = 0;
-    std::unique_ptr<CanBus> m_bus;
     std::unique_ptr<CanOpenDevice> m_node;
     EdsFile m_file;
     CanOpenDevice::Frames m_out;
-    QByteArray m_receiveText;  // for errors
-    QByteArray m_sendText;
     std::vector<Part<QPlcReadChannel>> m_inputs;
     std::vector<Part<QPlcWriteChannel>> m_outputs;
     std::unique_ptr<QPlcReadChannel> m_state;

@@ -6,6 +6,7 @@
 #include "QPlcDriverSettings.h"
 #include "hardware/Drivers.h"
 #include "hardware/HardwareLogging.h"
+#include "hardware/can/CanBusDriver.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -14,7 +15,6 @@ namespace qplc {
 
 namespace {
 
-constexpr qint64 restartTime = 1'000'000'000;            // [ns] that a controller has to come back by itself
 constexpr std::chrono::milliseconds shortestStart{500};  // in which a device tells that it is Operational
 
 /// A device on a CANopen bus; kind `canopen`, part of each cycle.
@@ -43,30 +43,35 @@ constexpr std::chrono::milliseconds shortestStart{500};  // in which a device te
 /// It is open when the device has answered, is the right one, was configured, and tells in its
 /// heartbeat that it is Operational. It is lost when two heartbeats are missing, when it has
 /// restarted, or when it is not Operational any more; it is configured and started anew then.
-class CanOpenDriver final : public QPlcDriver
+class CanOpenDriver final : public CanBusDriver
 {
 public:
     CanOpenDriver()
-        : QPlcDriver(EveryCycle)
+        : CanBusDriver(EveryCycle)
         , m_pdos(this)
         , m_axis(this)
     {
+        addOwn("@state", [this] { return quint64(m_monitor.state()); });
+        addOwn("@emergency", [this] { return quint64(m_monitor.emergency()); });
+        addOwn("@errorRegister", [this] { return quint64(m_monitor.errorRegister()); });
+        addOwn("@emergencies", [this] { return m_monitor.emergencies(); });
+        addOwn("@heartbeatLost", [this] { return m_heartbeatLost; });
+        addOwn("@missed", [this] { return m_pdos.missed(); });
+        addOwn("@saturated", [this] { return m_pdos.saturated(); });
+        addOwn("@busState", [this] { return quint64(bus().state()); });
+        addOwn("@received", [this] { return bus().counters().received; });
+        addOwn("@sent", [this] { return bus().counters().sent; });
+        addOwn("@unsent", [this] { return bus().counters().unsent; });
     }
 
 protected:
     void configure(QPlcDriverSettings &settings) override
     {
         m_plan.read(settings);
-        QString error;
-        if (!m_plan.device.isEmpty())
-            m_bus = CanBus::make(m_plan.device, &error);
-        if (!error.isEmpty())
-            settings.addError(QStringLiteral("device"), error);
+        makeBus(m_plan.device, settings);
         m_pdos.setPlan(m_plan);
         m_axis.setPlan(m_plan);
         const QByteArray title = QStringLiteral("node %1 at %2").arg(m_plan.node).arg(m_plan.device).toLocal8Bit();
-        m_receiveText = "receive from " + m_plan.device.toLocal8Bit();
-        m_sendText = "send to " + m_plan.device.toLocal8Bit();
         m_lossText = "heartbeat of " + title;
         m_stateText = "state of " + title;
     }
@@ -87,23 +92,17 @@ protected:
     QStringList channelNames(QPlcChannel::Direction direction) const override
     {
         const bool isRead = direction == QPlcChannel::Read;
-        QStringList names = m_axis.names(isRead) + m_pdos.names(isRead);
-        for (const OwnKind &kind : ownKinds()) {
-            if (isRead)
-                names << QLatin1String(kind.name);
-        }
-        return names;
+        return m_axis.names(isRead) + m_pdos.names(isRead) + (isRead ? ownNames() : QStringList());
     }
 
     bool open() override
     {
-        if (!m_bus->open(busOptions()))
-            return fail(m_bus->errorString());
+        if (!openBus(busOptions()))
+            return false;
         if (m_plan.node > 0 && !startNode()) {
-            m_bus->close();
+            bus().close();
             return false;
         }
-        m_busOffSince = -1;
         m_nextHeartbeat = 0;
         m_pdos.begin();
         m_axis.begin();
@@ -114,15 +113,14 @@ protected:
     {
         if (m_plan.node > 0)
             stopNode();
-        m_bus->close();
+        bus().close();
     }
 
     bool read() override
     {
         if (!takeFrames())
             return false;
-        for (const OwnChannel &own : m_ownChannels)
-            own.channel->set(double((this->*own.number)()), now());
+        showOwn();
         m_axis.show(now());
         return checkNode() && checkBusOff();
     }
@@ -131,8 +129,7 @@ protected:
     {
         if (!takeFrames())  // what came since the last SYNC belongs to it
             return false;
-        const int sent = m_bus->send(m_outgoing.data(), collect());
-        return sent >= 0 || fail(m_sendText.constData(), m_bus->errorNumber());
+        return send(m_outgoing.data(), collect());
     }
 
     QString remedy(int errorNumber) const override
@@ -146,64 +143,12 @@ protected:
         case ECONNABORTED:
             return QStringLiteral("it has left Operational, by itself or for another master, and is configured anew%1")
                 .arg(lastEmergency());
-        case ENETDOWN:
-            return QStringLiteral(
-                       "the interface is down or bus-off; check wires, terminators and bit rate, and bring it up as "
-                       "root (ip link set %1 up type can bitrate 500000 restart-ms 100)")
-                .arg(m_plan.device);
-        case ENODEV:
-        case ENXIO:
-            return QStringLiteral("the adapter is gone; plug it in again");
         default:
-            return QPlcDriver::remedy(errorNumber);
+            return CanBusDriver::remedy(errorNumber);
         }
     }
 
 private:
-    using Number = quint64 (CanOpenDriver::*)() const;
-    struct OwnKind
-    {
-        const char *name;
-        Number number;
-    };
-    struct OwnChannel
-    {
-        Number number;
-        std::unique_ptr<QPlcReadChannel> channel;
-    };
-    static const std::vector<OwnKind> &ownKinds()
-    {
-        static const std::vector<OwnKind> kinds{
-            {"@state", &CanOpenDriver::state},
-            {"@emergency", &CanOpenDriver::emergency},
-            {"@errorRegister", &CanOpenDriver::errorRegister},
-            {"@emergencies", &CanOpenDriver::emergencies},
-            {"@heartbeatLost", &CanOpenDriver::heartbeatLost},
-            {"@missed", &CanOpenDriver::missed},
-            {"@saturated", &CanOpenDriver::saturated},
-            {"@busState", &CanOpenDriver::busState},
-            {"@received", &CanOpenDriver::received},
-            {"@sent", &CanOpenDriver::sent},
-            {"@unsent", &CanOpenDriver::unsent},
-        };
-        return kinds;
-    }
-
-    QPlcChannel *ownChannel(const QString &name)
-    {
-        for (const OwnChannel &own : m_ownChannels) {
-            if (own.channel->name() == name)
-                return own.channel.get();
-        }
-        for (const OwnKind &kind : ownKinds()) {
-            if (name != QLatin1String(kind.name))
-                continue;
-            m_ownChannels.push_back({kind.number, std::make_unique<QPlcReadChannel>(this, name)});
-            return m_ownChannels.back().channel.get();
-        }
-        return nullptr;
-    }
-
     CanBus::Options busOptions() const
     {
         CanBus::Options options;
@@ -225,7 +170,7 @@ private:
     bool startNode()
     {
         m_monitor.forget();
-        CanOpenClient client(*m_bus, m_plan.device, m_plan.node, m_plan.answerTime);
+        CanOpenClient client(bus(), m_plan.device, m_plan.node, m_plan.answerTime);
         client.setListener([this](const CanFrame &frame) { listen(frame); });
         if (!client.command(NmtCommand::EnterPreOperational) || !client.configure(m_plan)
             || !client.command(NmtCommand::Start))
@@ -265,7 +210,7 @@ private:
         frame.data[0] = quint8(NmtCommand::EnterPreOperational);
         frame.data[1] = quint8(m_plan.node);
         m_outgoing[std::size_t(count++)] = frame;
-        m_bus->send(m_outgoing.data(), count);
+        bus().send(m_outgoing.data(), count);
     }
 
     QString lastEmergency() const
@@ -280,16 +225,7 @@ private:
 
     bool takeFrames() noexcept
     {
-        for (int batch = 0; batch < MostBatches; ++batch) {
-            const int count = m_bus->receive(m_incoming.data(), BatchSize);
-            if (count < 0)
-                return fail(m_receiveText.constData(), m_bus->errorNumber());
-            for (int i = 0; i < count; ++i)
-                deliver(m_incoming[std::size_t(i)]);
-            if (count < BatchSize)
-                break;
-        }
-        return true;
+        return receive([this](const CanFrame &frame) { deliver(frame); });
     }
 
     void deliver(const CanFrame &frame) noexcept
@@ -356,45 +292,13 @@ private:
         return fail(m_stateText.constData(), ECONNABORTED);
     }
 
-    bool checkBusOff() noexcept
-    {
-        if (m_bus->state() != CanBus::BusOff) {
-            m_busOffSince = -1;
-            return true;
-        }
-        if (m_busOffSince < 0)
-            m_busOffSince = now();
-        return now() - m_busOffSince < restartTime || fail(m_receiveText.constData(), ENETDOWN);
-    }
-
-    quint64 state() const { return quint64(m_monitor.state()); }
-    quint64 emergency() const { return m_monitor.emergency(); }
-    quint64 errorRegister() const { return m_monitor.errorRegister(); }
-    quint64 emergencies() const { return m_monitor.emergencies(); }
-    quint64 heartbeatLost() const { return m_heartbeatLost; }
-    quint64 missed() const { return m_pdos.missed(); }
-    quint64 saturated() const { return m_pdos.saturated(); }
-    quint64 busState() const { return m_bus->state(); }
-    quint64 received() const { return m_bus->counters().received; }
-    quint64 sent() const { return m_bus->counters().sent; }
-    quint64 unsent() const { return m_bus->counters().unsent; }
-
-    static constexpr int BatchSize = 64;
-    static constexpr int MostBatches = 64;  // of one cycle, so that it ends
-
     CanOpenConfiguration m_plan;
-    std::unique_ptr<CanBus> m_bus;
     CanOpenMonitor m_monitor;
     CanOpenPdos m_pdos;
     CanOpenAxisChannels m_axis;
-    std::vector<OwnChannel> m_ownChannels;
-    QByteArray m_receiveText;  // for errors
-    QByteArray m_sendText;
-    QByteArray m_lossText;
+    QByteArray m_lossText;  // for errors
     QByteArray m_stateText;
-    std::array<CanFrame, BatchSize> m_incoming;
     std::array<CanFrame, 2 * Pdo::MaximumNumber + 3> m_outgoing;
-    qint64 m_busOffSince = -1;   // [ns]; -1: it is not
     qint64 m_nextHeartbeat = 0;  // of the master [ns]
     quint64 m_heartbeatLost = 0;
 };
