@@ -107,6 +107,9 @@ const Case cases[] = {
     {"no DBC file", Semantic, CAN "dbc = /nowhere/drive.dbc\n", "/nowhere/drive.dbc: cannot", "No such file"},
     {"bit rate of the kernel", Semantic, "[d]\ndriver = can\ndevice = can0\nbitrate = 500000\n",
      "4:11: root sets the bit rate of 'can0'", "remove the key bitrate"},
+    {"bit rate of the kernel for a drive", Semantic,
+     "[d]\ndriver = canopen\ndevice = can0\nbitrate = 500000\nnode = 5\ntpdo1 = 6041:00\n",
+     "4:11: root sets the bit rate of 'can0'", "remove the key bitrate"},
 
     // ---- meaning: one thing twice ----
     {"line twice", Semantic, GPIO "input.a = 17\noutput.b = 17\n",

@@ -80,8 +80,8 @@ void CanConfiguration::read(QPlcDriverSettings &settings)
 {
     m_device = settings.requiredText(QStringLiteral("device"), QStringLiteral("can0"));
     m_logFile = canLogFile(settings);
-    m_bitRate = readBitRate(QStringLiteral("bitrate"), 1'000'000, settings);
-    m_dataBitRate = readBitRate(QStringLiteral("data-bitrate"), 12'000'000, settings);
+    m_bitRate = readBitRate(m_device, QStringLiteral("bitrate"), 5000, 1'000'000, settings);
+    m_dataBitRate = readBitRate(m_device, QStringLiteral("data-bitrate"), 5000, 12'000'000, settings);
     readDbc(settings);
     readFrames(settings);
     readSignals(settings);
@@ -105,17 +105,18 @@ QStringList CanConfiguration::names() const
     return names;
 }
 
-int CanConfiguration::readBitRate(const QString &key, int maximum, QPlcDriverSettings &settings)
+int CanConfiguration::readBitRate(const QString &device, const QString &key, int minimum, int maximum,
+                                  QPlcDriverSettings &settings)
 {
-    if (CanBus::setsBitRate(m_device))
-        return int(settings.integer(key, 0, 5000, maximum));
+    if (CanBus::setsBitRate(device))
+        return int(settings.integer(key, 0, minimum, maximum));
     if (settings.has(key))
         settings.addError(key,
-                          m_device.startsWith(QLatin1String("fake:"))
-                              ? QStringLiteral("'%1' has no bit rate; remove the key %2").arg(m_device, key)
+                          device.startsWith(QLatin1String("fake:"))
+                              ? QStringLiteral("'%1' has no bit rate; remove the key %2").arg(device, key)
                               : QStringLiteral("root sets the bit rate of '%1' for all its programs (ip link set %2 up "
                                                "type can bitrate 500000 restart-ms 100); remove the key %3")
-                                    .arg(m_device, m_device.section(QLatin1Char(':'), -1), key));
+                                    .arg(device, device.section(QLatin1Char(':'), -1), key));
     return 0;
 }
 

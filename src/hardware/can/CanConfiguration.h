@@ -43,8 +43,11 @@ public:
     /// Null when there is none.
     const CanMessage *find(const QString &message) const;
 
+    /// Reads a bit rate, which is an error for a bus that does not set its own. \return 0: not said
+    static int readBitRate(const QString &device, const QString &key, int minimum, int maximum,
+                           QPlcDriverSettings &settings);
+
 private:
-    int readBitRate(const QString &key, int maximum, QPlcDriverSettings &settings);
     void readDbc(QPlcDriverSettings &settings);
     void readFrames(QPlcDriverSettings &settings);
     void readSignals(QPlcDriverSettings &settings);

@@ -3,7 +3,7 @@
 
 #include "CanOpenIds.h"
 #include "QPlcDriverSettings.h"
-#include "hardware/can/CanBus.h"
+#include "hardware/can/CanConfiguration.h"
 #include "signals/ConfigurationFile.h"
 #include "signals/DurationText.h"
 #include "signals/MessageText.h"
@@ -32,8 +32,7 @@ constexpr AxisMode axisModes[] = {AxisMode::SyncVelocity,    AxisMode::SyncTorqu
 void CanOpenConfiguration::read(QPlcDriverSettings &settings)
 {
     device = settings.requiredText(QStringLiteral("device"), QStringLiteral("can0"));
-    if (CanBus::setsBitRate(device))
-        bitRate = int(settings.integer(QStringLiteral("bitrate"), 0, 10000, 1'000'000));
+    bitRate = readBitRate(device, settings);
     sync = SyncSource(
         settings.choice(QStringLiteral("sync"),
                         {QStringLiteral("none"), QStringLiteral("every cycle"), QStringLiteral("from others")}));
@@ -44,6 +43,11 @@ void CanOpenConfiguration::read(QPlcDriverSettings &settings)
                           QStringLiteral("section '%1' names no node; add for example 'node = 5', or 'sync = every "
                                          "cycle' for a section that only sends the SYNC of the bus")
                               .arg(settings.name()));
+}
+
+int CanOpenConfiguration::readBitRate(const QString &device, QPlcDriverSettings &settings)
+{
+    return CanConfiguration::readBitRate(device, QStringLiteral("bitrate"), 10000, 1'000'000, settings);
 }
 
 void CanOpenConfiguration::readNode(QPlcDriverSettings &settings)

@@ -38,6 +38,8 @@ class CanOpenConfiguration
 public:
     /// What is wrong is told to \a settings.
     void read(QPlcDriverSettings &settings);
+    /// \return [bit/s]; 0: not said
+    static int readBitRate(const QString &device, QPlcDriverSettings &settings);
 
     QString device;
     int bitRate = 0;  // [bit/s]; 0: not said

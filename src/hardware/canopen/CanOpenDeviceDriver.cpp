@@ -40,8 +40,7 @@ protected:
     void configure(QPlcDriverSettings &settings) override
     {
         const QString device = settings.requiredText(QStringLiteral("device"), QStringLiteral("can0"));
-        if (CanBus::setsBitRate(device))
-            m_bitRate = int(settings.integer(QStringLiteral("bitrate"), 0, 10000, 1'000'000));
+        m_bitRate = CanOpenConfiguration::readBitRate(device, settings);
         const int node = int(settings.integer(QStringLiteral("node"), 1, 1, CanOpenIds::MaximumNode));
         m_node = std::make_unique<CanOpenDevice>(node);
         makeBus(device, settings);
