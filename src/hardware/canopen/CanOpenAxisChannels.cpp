@@ -56,8 +56,7 @@ void CanOpenAxisChannels::setPlan(const CanOpenConfiguration &plan)
         const Pdo &owner = plan.pdos.at(pdo);
         m_places[i].pdo = owner.number;
         m_places[i].number = owner.entries.at(entry).number;
-        for (int before = 0; before < entry; ++before)
-            m_places[i].first += owner.entries.at(before).number.bits;
+        m_places[i].first = owner.firstBit(entry);
     }
 }
 

@@ -11,7 +11,6 @@ namespace qplc {
 
 namespace {
 
-constexpr quint32 pdoOff = 1U << 31;                         // the PDO does not exist
 constexpr quint32 pdoNoRemote = 1U << 30;                    // it cannot be asked for by a remote frame
 constexpr std::chrono::nanoseconds longestPause{1'000'000};  // between two looks at a bus without a descriptor
 constexpr int mostFrames = 4096;                             // that are taken at once, so that it ends
@@ -219,9 +218,9 @@ bool CanOpenClient::configure(const CanOpenConfiguration &plan)
         if (!configurePdo(pdo))
             return false;
     }
-    const bool needsMode = plan.isAxis && std::none_of(plan.pdos.cbegin(), plan.pdos.cend(), [](const Pdo &pdo) {
-                               return !pdo.isTransmit && pdo.find(QStringLiteral("6060:00")) >= 0;
-                           });
+    int pdo = 0;
+    int entry = 0;
+    const bool needsMode = plan.isAxis && !plan.find(QStringLiteral("6060:00"), false, &pdo, &entry);
     if (needsMode && !writeNumber({0x6060, 0}, quint8(plan.mode), 1))
         return false;
     return configureHeartbeats(plan);
@@ -261,7 +260,7 @@ bool CanOpenClient::configurePdo(const Pdo &pdo)
     if (!readNumber(at(communication, 1), &before))
         return false;
     const quint32 id = pdo.id | (before & pdoNoRemote);
-    if (!writeNumber(at(communication, 1), id | pdoOff, 4)
+    if (!writeNumber(at(communication, 1), id | Pdo::IsOff, 4)
         || !writeNumber(at(communication, 2), quint64(pdo.transmission), 1))
         return false;
     if (pdo.isTransmit && !pdo.isSynchronous() && pdo.eventTime > 0

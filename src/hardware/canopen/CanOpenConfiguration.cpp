@@ -20,9 +20,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr int defaultPdos = 4;          // that have an id by default
-constexpr quint32 pdoIsOff = 1U << 31;  // in the id of a PDO, as the device keeps it
-constexpr int syncDriven = 240;         // largest transmission type that waits for SYNC
+constexpr int defaultPdos = 4;  // that have an id by default
 
 constexpr AxisMode axisModes[] = {AxisMode::SyncVelocity,    AxisMode::SyncTorque,    AxisMode::SyncPosition,
                                   AxisMode::ProfileVelocity, AxisMode::ProfileTorque, AxisMode::Homing};
@@ -250,8 +248,10 @@ bool CanOpenConfiguration::readPdoWord(const QString &word, Pdo *pdo, QString *e
         pdo->eventTime = 0;
     } else if (const QRegularExpressionMatch match = syncs.match(word); match.hasMatch()) {
         pdo->transmission = match.captured(1).toInt();
-        if (pdo->transmission < 1 || pdo->transmission > syncDriven)
-            *error = QStringLiteral("'%1' is not possible; write every 1 ... %2 syncs").arg(word).arg(syncDriven);
+        if (pdo->transmission < 1 || pdo->transmission > Pdo::LastSynchronous)
+            *error = QStringLiteral("'%1' is not possible; write every 1 ... %2 syncs")
+                         .arg(word)
+                         .arg(Pdo::LastSynchronous);
     } else if (ids.match(word).hasMatch()) {
         pdo->id = word.mid(3).toUInt(nullptr, 0);
         if (pdo->id < 0x181 || pdo->id > 0x57F)
@@ -317,9 +317,9 @@ void CanOpenConfiguration::addPdosOfFile(bool isTransmit)
         Pdo pdo;
         pdo.number = number;
         pdo.isTransmit = isTransmit;
-        const quint64 id = valueOf(pdo.communicationIndex(), 1).value_or(pdoIsOff);
+        const quint64 id = valueOf(pdo.communicationIndex(), 1).value_or(Pdo::IsOff);
         const int count = int(std::min<quint64>(valueOf(pdo.mappingIndex(), 0).value_or(0), 64));
-        if ((id & pdoIsOff) || count == 0)
+        if ((id & Pdo::IsOff) || count == 0)
             continue;
         pdo.id = quint32(id & 0x7FF);
         pdo.transmission = int(valueOf(pdo.communicationIndex(), 2).value_or(Pdo::OnEvent) & 0xFF);

@@ -7,9 +7,7 @@ namespace qplc {
 
 namespace {
 
-constexpr quint64 pdoIsOffBit = 1U << 31;
-constexpr quint64 lastSynchronous = 240;  // transmission type
-constexpr quint64 firstOnEvent = 254;
+constexpr quint64 firstOnEvent = 254;        // transmission type
 constexpr quint64 milliseconds = 1'000'000;  // [ns]
 constexpr int entriesOfPdo = 8;
 
@@ -32,9 +30,9 @@ CanOpenDevice::CanOpenDevice(int node)
     add(0x1016, 1, 0, 4);
     add(0x1017, 0, 0, 2);
     for (int number = 0; number < Pdos; ++number) {
-        add(0x1400 + number, 1, pdoIsOffBit | CanOpenIds::pdo(number + 1, false, node), 4);
+        add(0x1400 + number, 1, Pdo::IsOff | CanOpenIds::pdo(number + 1, false, node), 4);
         add(0x1400 + number, 2, Pdo::OnEvent, 1);
-        add(0x1800 + number, 1, pdoIsOffBit | CanOpenIds::pdo(number + 1, true, node), 4);
+        add(0x1800 + number, 1, Pdo::IsOff | CanOpenIds::pdo(number + 1, true, node), 4);
         add(0x1800 + number, 2, Pdo::OnEvent, 1);
         add(0x1800 + number, 5, 0, 2);
         for (const int mapping : {0x1600, 0x1A00}) {
@@ -130,7 +128,7 @@ void CanOpenDevice::takePdo(const CanFrame &frame)
             continue;
         m_waiting[std::size_t(number)] = frame;
         m_hasCome[std::size_t(number)] = true;
-        if (value(0x1400 + number, 2) > lastSynchronous)
+        if (value(0x1400 + number, 2) > Pdo::LastSynchronous)
             apply(number);
     }
 }
@@ -142,7 +140,7 @@ void CanOpenDevice::takeSync(Frames *out)
             apply(number);
         const quint64 transmission = value(0x1800 + number, 2);
         int &syncs = m_syncs[std::size_t(number)];
-        if (isOn(0x1800 + number) && transmission <= lastSynchronous
+        if (isOn(0x1800 + number) && transmission <= Pdo::LastSynchronous
             && ++syncs >= std::max<int>(1, int(transmission))) {
             syncs = 0;
             sendPdo(number, out);
@@ -195,7 +193,7 @@ void CanOpenDevice::tick(qint64 now, Frames *out)
 
 bool CanOpenDevice::isOn(int communication) const
 {
-    return (value(communication, 1) & pdoIsOffBit) == 0;
+    return (value(communication, 1) & Pdo::IsOff) == 0;
 }
 
 void CanOpenDevice::sendPdo(int number, Frames *out) const

@@ -22,18 +22,10 @@ void CanOpenPdos::setPlan(const CanOpenConfiguration &plan)
             bool isTarget = false;
             targetOf({}, entry.address.index, &isTarget);
             output.isOfAxis = output.isOfAxis || (m_isAxis && isTarget);
-            Pdo::setBits(output.frame.data.data(), firstBit(pdo, i), entry.number.bits, entry.initial);
+            Pdo::setBits(output.frame.data.data(), pdo.firstBit(i), entry.number.bits, entry.initial);
         }
         m_outputs.push_back(std::move(output));
     }
-}
-
-int CanOpenPdos::firstBit(const Pdo &pdo, int entry) noexcept
-{
-    int sum = 0;
-    for (int i = 0; i < entry; ++i)
-        sum += pdo.entries.at(i).number.bits;
-    return sum;
 }
 
 // ---- channels ----
@@ -48,7 +40,7 @@ QPlcReadChannel *CanOpenPdos::readChannel(const QString &object, const QString &
         const int entry = input.pdo.find(object);
         if (entry < 0)
             continue;
-        input.fields.push_back({firstBit(input.pdo, entry), input.pdo.entries.at(entry).number,
+        input.fields.push_back({input.pdo.firstBit(entry), input.pdo.entries.at(entry).number,
                                 std::make_unique<QPlcReadChannel>(m_driver, name)});
         return input.fields.back().channel.get();
     }
@@ -61,7 +53,7 @@ QPlcWriteChannel *CanOpenPdos::writeChannel(const QString &name)
         const int entry = output.pdo.find(name);
         if (entry < 0)
             continue;
-        const int first = firstBit(output.pdo, entry);
+        const int first = output.pdo.firstBit(entry);
         bool isTarget = false;
         targetOf({}, output.pdo.entries.at(entry).address.index, &isTarget);
         if (m_isAxis && isTarget)
@@ -152,7 +144,7 @@ void CanOpenPdos::encodeAxis(const Pdo &pdo, const AxisOutputs &axis, CanFrame *
         bool isTarget = false;
         const double value = targetOf(axis, entry.address.index, &isTarget);
         if (isTarget)
-            encode(entry.number, firstBit(pdo, i), value, frame);
+            encode(entry.number, pdo.firstBit(i), value, frame);
     }
 }
 

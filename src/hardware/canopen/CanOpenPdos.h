@@ -73,7 +73,6 @@ private:
     static double targetOf(const AxisOutputs &axis, quint16 index, bool *isTarget) noexcept;
     void encode(const RawNumber &number, int first, double value, CanFrame *frame) noexcept;
     void encodeAxis(const Pdo &pdo, const AxisOutputs &axis, CanFrame *frame) noexcept;
-    static int firstBit(const Pdo &pdo, int entry) noexcept;
 
     QPlcDriver *m_driver;
     bool m_isAxis = false;

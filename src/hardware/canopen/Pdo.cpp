@@ -9,11 +9,11 @@ bool PdoEntry::isNamed(const QString &text) const
     return asAddress ? *asAddress == address : !name.isEmpty() && name == text;
 }
 
-int Pdo::bits() const
+int Pdo::firstBit(int entry) const noexcept
 {
     int sum = 0;
-    for (const PdoEntry &entry : entries)
-        sum += entry.number.bits;
+    for (int i = 0; i < entry; ++i)
+        sum += entries.at(i).number.bits;
     return sum;
 }
 

@@ -27,7 +27,9 @@ struct Pdo
     static constexpr int MaximumNumber = 64;  // of a PDO; CiA 301 has more
     static constexpr int MaximumBits = 64;
     static constexpr int EverySync = 1;  // transmission types
+    static constexpr int LastSynchronous = 240;
     static constexpr int OnEvent = 255;
+    static constexpr quint32 IsOff = 1U << 31;  // in the id, as the device keeps it
 
     int number = 1;
     bool isTransmit = true;  // the device sends it (TPDO), else it receives it (RPDO)
@@ -37,8 +39,10 @@ struct Pdo
     bool isFixed = false;          // the device does not let its mapping be changed
     QVector<PdoEntry> entries;
 
-    bool isSynchronous() const { return transmission <= 240; }
-    int bits() const;
+    bool isSynchronous() const { return transmission <= LastSynchronous; }
+    /// Where an entry begins in the frame.
+    int firstBit(int entry) const noexcept;
+    int bits() const noexcept { return firstBit(entries.size()); }
     int size() const { return (bits() + 7) / 8; }  // [byte]
     /// "TPDO 1"
     QString title() const;
