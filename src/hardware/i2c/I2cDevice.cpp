@@ -7,8 +7,11 @@
 
 namespace qplc {
 
-void I2cDevice::configure(QPlcDriverSettings &settings)
+void I2cDevice::configure(const QString &device, int address, QPlcDriverSettings &settings)
 {
+    settings.claim(QStringLiteral("address"),
+                   QStringLiteral("address %1 of %2")
+                       .arg(i2cAddressText(address), QString(device).remove(QStringLiteral("/dev/"))));
     m_retries
         = int(settings.integer(QStringLiteral("retries"), DeviceHealth::DefaultRetries, 0, DeviceHealth::MostRetries));
 }

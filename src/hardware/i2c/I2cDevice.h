@@ -22,7 +22,8 @@ public:
     {
     }
 
-    void configure(QPlcDriverSettings &settings);
+    /// Claims the address (key `address`) of the bus \a device.
+    void configure(const QString &device, int address, QPlcDriverSettings &settings);
     bool open(const QString &device, int address, QString *error);
     void close() { m_bus.reset(); }
 

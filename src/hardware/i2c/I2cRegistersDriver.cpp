@@ -31,10 +31,7 @@ protected:
         settings.requiredText(QStringLiteral("address"), QStringLiteral("0x68"));
         m_address = int(settings.integer(QStringLiteral("address"), I2cBus::FirstAddress, I2cBus::FirstAddress,
                                          I2cBus::LastAddress));
-        settings.claim(QStringLiteral("address"),
-                       QStringLiteral("address %1 of %2")
-                           .arg(i2cAddressText(m_address), QString(m_device).remove(QStringLiteral("/dev/"))));
-        m_bus.configure(settings);
+        m_bus.configure(m_device, m_address, settings);
         configureBytes(settings, QStringLiteral("identity"), &m_identity);
         configureBytes(settings, QStringLiteral("setup"), &m_setUp);
         const QString prefix = QStringLiteral("register.");

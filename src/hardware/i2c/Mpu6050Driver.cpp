@@ -74,10 +74,7 @@ protected:
                                               QStringLiteral("1000 deg/s"), QStringLiteral("2000 deg/s")},
                                              1));
         setUpRates(settings);
-        settings.claim(QStringLiteral("address"),
-                       QStringLiteral("address %1 of %2")
-                           .arg(i2cAddressText(m_address), QString(m_device).remove(QStringLiteral("/dev/"))));
-        m_bus.configure(settings);
+        m_bus.configure(m_device, m_address, settings);
     }
 
     bool open() override
