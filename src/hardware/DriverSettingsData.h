@@ -23,6 +23,12 @@ struct QPlcDriverSettings::Private
 
     /// The value of \a key, which is used now; null: it is missing.
     const qplc::ConfigurationEntry *find(const QString &key);
+    /// Where to tell something of \a key: at its entry, else at the section.
+    const qplc::ConfigurationEntry &placeOf(const QString &key)
+    {
+        const qplc::ConfigurationEntry *entry = key.isEmpty() ? nullptr : find(key);
+        return entry ? *entry : section;
+    }
     void addError(const qplc::ConfigurationEntry &entry, const QString &message)
     {
         errors->append({fileName, entry.line, entry.column, message});

@@ -171,27 +171,23 @@ QStringList QPlcDriverSettings::namesBehind(const QString &prefix) const
 
 void QPlcDriverSettings::addError(const QString &key, const QString &message)
 {
-    const ConfigurationEntry *entry = key.isEmpty() ? nullptr : d->find(key);
-    d->addError(entry ? *entry : d->section, message);
+    d->addError(d->placeOf(key), message);
 }
 
 void QPlcDriverSettings::addWarning(const QString &key, const QString &message)
 {
-    const ConfigurationEntry *entry = key.isEmpty() ? nullptr : d->find(key);
-    const ConfigurationEntry &place = entry ? *entry : d->section;
+    const ConfigurationEntry &place = d->placeOf(key);
     d->warnings->append({d->fileName, place.line, place.column, message});
 }
 
 void QPlcDriverSettings::claim(const QString &key, const QString &what)
 {
-    const ConfigurationEntry *entry = d->find(key);
-    const int line = entry ? entry->line : d->section.line;
+    const ConfigurationEntry &place = d->placeOf(key);
     const auto former = d->claims->constFind(what);
     if (former == d->claims->constEnd())
-        d->claims->insert(what, line);
+        d->claims->insert(what, place.line);
     else
-        d->addError(entry ? *entry : d->section,
-                    QStringLiteral("%1 is used twice, first in line %2; use it once").arg(what).arg(*former));
+        d->addError(place, QStringLiteral("%1 is used twice, first in line %2; use it once").arg(what).arg(*former));
 }
 
 void QPlcDriverSettings::addErrors(const QVector<QPlcParseError> &errors)
