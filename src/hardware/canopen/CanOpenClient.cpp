@@ -79,12 +79,10 @@ bool CanOpenClient::receive(SdoTransfer *transfer)
                             .arg(m_device, qt_error_string(m_bus.errorNumber())));
         if (count == 0)
             return true;
-        const bool isAnswer = frame.key() == CanOpenIds::SdoResponse + quint32(m_node) && frame.size == 8
+        const bool isAnswer = frame.key() == CanOpenIds::SdoResponse + quint32(m_node) && frame.size == SdoFrame::Size
             && !frame.has(CanFrame::Error) && !frame.has(CanFrame::Remote);
         if (isAnswer && transfer) {
-            SdoTransfer::Data data;
-            std::copy_n(frame.data.begin(), data.size(), data.begin());
-            if (transfer->take(data))
+            if (transfer->take(SdoFrame::fromFrame(frame)))
                 return true;
         } else if (m_listener && !isAnswer) {
             m_listener(frame);
@@ -109,12 +107,7 @@ bool CanOpenClient::waitUntil(const std::function<bool()> &isDone, std::chrono::
 
 bool CanOpenClient::command(NmtCommand command)
 {
-    CanFrame frame;
-    frame.id = CanOpenIds::Nmt;
-    frame.size = 2;
-    frame.data[0] = quint8(command);
-    frame.data[1] = quint8(m_node);
-    return send(frame);
+    return send(nmtFrame(command, m_node));
 }
 
 // ---- SDO ----
@@ -126,11 +119,7 @@ bool CanOpenClient::exchange(SdoTransfer *transfer)
     qint64 end = nextEnd();
     while (transfer->state() == SdoTransfer::Running || transfer->hasRequest()) {
         if (transfer->hasRequest()) {
-            CanFrame frame;
-            frame.id = CanOpenIds::SdoRequest + quint32(m_node);
-            frame.size = 8;
-            std::copy(transfer->request().begin(), transfer->request().end(), frame.data.begin());
-            if (!send(frame))
+            if (!send(SdoFrame::toFrame(CanOpenIds::SdoRequest + quint32(m_node), transfer->request())))
                 return false;
             transfer->sent();
             end = nextEnd();
@@ -138,7 +127,7 @@ bool CanOpenClient::exchange(SdoTransfer *transfer)
         }
         const qint64 left = end - monotonicNow();
         if (left <= 0) {
-            transfer->abort(SdoTransfer::TimedOut);
+            transfer->abort(SdoAbort::TimedOut);
             continue;
         }
         waitForFrames(std::chrono::nanoseconds(left));
@@ -159,11 +148,11 @@ bool CanOpenClient::run(SdoTransfer *transfer)
         if (transfer->state() == SdoTransfer::Done)
             return true;
         m_abortCode = transfer->abortCode();
-        if (m_abortCode != SdoTransfer::TimedOut)
+        if (m_abortCode != SdoAbort::TimedOut)
             break;
     }
     const QString what = transfer->isWrite() ? QStringLiteral("write") : QStringLiteral("read");
-    if (m_abortCode == SdoTransfer::TimedOut)
+    if (m_abortCode == SdoAbort::TimedOut)
         return fail(
             QStringLiteral("%1 does not answer (SDO, object %2); is it switched on, and are its node id and the "
                            "bit rate right?")
@@ -285,7 +274,7 @@ bool CanOpenClient::configureHeartbeats(const CanOpenConfiguration &plan)
         return true;
     if (writeNumber({0x1016, 1}, quint64(plan.master) << 16 | 2 * period, 4))
         return true;
-    const bool hasNone = m_abortCode == SdoTransfer::NoObject || m_abortCode == SdoTransfer::NoSubindex;
+    const bool hasNone = m_abortCode == SdoAbort::NoObject || m_abortCode == SdoAbort::NoSubindex;
     return hasNone
         ? fail(QStringLiteral("%1 cannot hear the heartbeat of the master (it has no object 1016:01), and so "
                               "would not stop when the master is lost; give it another watchdog, and write "

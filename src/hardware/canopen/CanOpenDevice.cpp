@@ -112,13 +112,10 @@ void CanOpenDevice::takeCommand(const CanFrame &frame, Frames *out)
 
 void CanOpenDevice::takeSdo(const CanFrame &frame, Frames *out)
 {
-    if (frame.size != 8 || m_state == NmtState::Stopped)
+    if (frame.size != SdoFrame::Size || m_state == NmtState::Stopped)
         return;
-    SdoServer::Data request;
-    std::copy_n(frame.data.begin(), request.size(), request.begin());
-    if (const auto answer = m_sdo.answer(request))
-        out->push_back(frameOf(CanOpenIds::SdoResponse + m_node,
-                               QByteArray(reinterpret_cast<const char *>(answer->data()), int(answer->size()))));
+    if (const auto answer = m_sdo.answer(SdoFrame::fromFrame(frame)))
+        out->push_back(SdoFrame::toFrame(CanOpenIds::SdoResponse + m_node, *answer));
 }
 
 void CanOpenDevice::takePdo(const CanFrame &frame)
@@ -221,29 +218,29 @@ quint32 CanOpenDevice::checkWrite(ObjectAddress address, const QByteArray &bytes
     if (!isMapping(address.index))
         return 0;
     if (m_state == NmtState::Operational || isOn(address.index - 0x200))
-        return SdoServer::NotInThisState;
+        return SdoAbort::NotInThisState;
     if (address.sub > 0)
         return checkEntry(address.index, quint32(fromLittleEndian(bytes)));
     const quint64 count = fromLittleEndian(bytes);
     if (count > quint64(entriesOfPdo))
-        return SdoServer::TooLongForPdo;
+        return SdoAbort::TooLongForPdo;
     int bits = 0;
     for (int sub = 1; sub <= int(count); ++sub)
         bits += int(value(address.index, sub) & 0xFF);
-    return bits > Pdo::MaximumBits ? SdoServer::TooLongForPdo : 0;
+    return bits > Pdo::MaximumBits ? SdoAbort::TooLongForPdo : 0;
 }
 
 quint32 CanOpenDevice::checkEntry(int index, quint32 mapping) const
 {
     if (value(index, 0) != 0)
-        return SdoServer::UnsupportedAccess;
+        return SdoAbort::UnsupportedAccess;
     const ObjectAddress address{quint16(mapping >> 16), quint8(mapping >> 8)};
     const CanOpenObjects::Object *object = m_objects.find(address);
     if (!object)
-        return SdoServer::NoObject;
+        return SdoAbort::NoObject;
     const bool isReceived = index < 0x1A00;
     const bool isAllowed = !isReceived || object->access == CanOpenObjects::ReadWrite;
-    return isAllowed && object->value.size() * 8 == int(mapping & 0xFF) ? 0 : SdoServer::NotMappable;
+    return isAllowed && object->value.size() * 8 == int(mapping & 0xFF) ? 0 : SdoAbort::NotMappable;
 }
 
 }  // namespace qplc

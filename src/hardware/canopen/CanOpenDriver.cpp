@@ -204,12 +204,7 @@ private:
             if (m_plan.sync == SyncSource::EveryCycle)
                 m_outgoing[std::size_t(count++)] = syncFrame();
         }
-        CanFrame frame;
-        frame.id = CanOpenIds::Nmt;
-        frame.size = 2;
-        frame.data[0] = quint8(NmtCommand::EnterPreOperational);
-        frame.data[1] = quint8(m_plan.node);
-        m_outgoing[std::size_t(count++)] = frame;
+        m_outgoing[std::size_t(count++)] = nmtFrame(NmtCommand::EnterPreOperational, m_plan.node);
         bus().send(m_outgoing.data(), count);
     }
 

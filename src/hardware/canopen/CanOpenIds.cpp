@@ -51,6 +51,16 @@ constexpr EmergencyClass emergencyClasses[] = {
 
 }  // namespace
 
+CanFrame nmtFrame(NmtCommand command, int node) noexcept
+{
+    CanFrame frame;
+    frame.id = CanOpenIds::Nmt;
+    frame.size = 2;
+    frame.data[0] = quint8(command);
+    frame.data[1] = quint8(node);
+    return frame;
+}
+
 QString nmtStateText(NmtState state)
 {
     switch (state) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "hardware/can/CanFrame.h"
+
 #include <QtCore/QString>
 
 namespace qplc {
@@ -31,6 +33,9 @@ enum class NmtCommand : quint8 {
     ResetNode = 129,
     ResetCommunication = 130
 };
+
+/// The frame of a command. \param node  0: all devices
+CanFrame nmtFrame(NmtCommand command, int node) noexcept;
 
 /// What a device tells of itself in its heartbeats.
 enum class NmtState : quint8 { BootUp = 0, Stopped = 4, Operational = 5, PreOperational = 127, Unknown = 255 };

@@ -25,7 +25,7 @@ struct Heard
         const quint32 node = frame.id & 0x7F;
         if (frame.flags != 0 || node == 0)
             return;
-        if (frame.id == CanOpenIds::SdoResponse + node && frame.size == 8)
+        if (frame.id == CanOpenIds::SdoResponse + node && frame.size == SdoFrame::Size)
             answers[node] = true;
         else if (frame.id == CanOpenIds::Heartbeat + node && frame.size >= 1)
             states[node] = NmtState(frame.data[0] & 0x7F);
@@ -34,12 +34,7 @@ struct Heard
 
 CanFrame questionFor(int node)
 {
-    CanFrame frame;
-    const SdoTransfer transfer = SdoTransfer::read({0x1000, 0});
-    frame.id = CanOpenIds::SdoRequest + quint32(node);
-    frame.size = 8;
-    std::copy(transfer.request().begin(), transfer.request().end(), frame.data.begin());
-    return frame;
+    return SdoFrame::toFrame(CanOpenIds::SdoRequest + quint32(node), SdoTransfer::read({0x1000, 0}).request());
 }
 
 // What it does not have stays 0 and empty.

@@ -18,7 +18,7 @@ std::optional<SdoServer::Data> SdoServer::answer(const Data &request)
     const int command = request[0] >> 5;
     const bool isSegment = command == 0 || command == 3;
     if (!isSegment)
-        m_address = {quint16(request[1] | request[2] << 8), request[3]};
+        m_address = SdoFrame::addressOf(request);
     switch (command) {
     case 0:
         return writeSegment(request);
@@ -32,14 +32,8 @@ std::optional<SdoServer::Data> SdoServer::answer(const Data &request)
         m_transfer = None;
         return std::nullopt;
     default:
-        return abort(UnknownCommand);
+        return abort(SdoAbort::UnknownCommand);
     }
-}
-
-SdoServer::Data SdoServer::frame(quint8 command, quint32 rest) const
-{
-    return {command,      quint8(m_address.index), quint8(m_address.index >> 8), m_address.sub,
-            quint8(rest), quint8(rest >> 8),       quint8(rest >> 16),           quint8(rest >> 24)};
 }
 
 SdoServer::Data SdoServer::abort(quint32 code)
@@ -52,7 +46,7 @@ SdoServer::Data SdoServer::beginRead()
 {
     const CanOpenObjects::Object *object = m_objects->find(m_address);
     if (!object)
-        return abort(m_objects->hasIndex(m_address.index) ? NoSubindex : NoObject);
+        return abort(m_objects->hasIndex(m_address.index) ? SdoAbort::NoSubindex : SdoAbort::NoObject);
     const int size = object->value.size();
     if (size >= 1 && size <= 4)
         return frame(quint8(0x43 | (4 - size) << 2), quint32(fromLittleEndian(object->value)));
@@ -67,9 +61,9 @@ SdoServer::Data SdoServer::beginWrite(const Data &request)
 {
     const CanOpenObjects::Object *object = m_objects->find(m_address);
     if (!object)
-        return abort(m_objects->hasIndex(m_address.index) ? NoSubindex : NoObject);
+        return abort(m_objects->hasIndex(m_address.index) ? SdoAbort::NoSubindex : SdoAbort::NoObject);
     if (object->access == CanOpenObjects::ReadOnly)
-        return abort(CannotBeWritten);
+        return abort(SdoAbort::CannotBeWritten);
     m_transfer = Writing;
     m_value.clear();
     m_toggle = 0;
@@ -84,9 +78,9 @@ SdoServer::Data SdoServer::beginWrite(const Data &request)
 SdoServer::Data SdoServer::readSegment(const Data &request)
 {
     if (m_transfer != Reading)
-        return abort(UnknownCommand);
+        return abort(SdoAbort::UnknownCommand);
     if ((request[0] & toggleOfRequest) != m_toggle)
-        return abort(WrongToggle);
+        return abort(SdoAbort::WrongToggle);
     const QByteArray part = m_value.mid(m_position, bytesOfSegment);
     m_position += part.size();
     const bool isEnd = m_position >= m_value.size();
@@ -102,12 +96,12 @@ SdoServer::Data SdoServer::readSegment(const Data &request)
 SdoServer::Data SdoServer::writeSegment(const Data &request)
 {
     if (m_transfer != Writing)
-        return abort(UnknownCommand);
+        return abort(SdoAbort::UnknownCommand);
     if ((request[0] & toggleOfRequest) != m_toggle)
-        return abort(WrongToggle);
+        return abort(SdoAbort::WrongToggle);
     m_value.append(reinterpret_cast<const char *>(request.data()) + 1, bytesOfSegment - ((request[0] >> 1) & 7));
     if (m_value.size() > mostBytes)
-        return abort(TooManyBytes);
+        return abort(SdoAbort::TooManyBytes);
     if (request[0] & 1) {
         m_transfer = None;
         if (const quint32 code = store(m_value))
@@ -123,9 +117,9 @@ quint32 SdoServer::store(const QByteArray &value)
 {
     const CanOpenObjects::Object *object = m_objects->find(m_address);
     if (value.size() > object->value.size())
-        return TooManyBytes;
+        return SdoAbort::TooManyBytes;
     if (value.size() < object->value.size())
-        return TooFewBytes;
+        return SdoAbort::TooFewBytes;
     const quint32 code = m_check ? m_check(m_address, value) : 0;
     if (code == 0)
         m_objects->set(m_address, value);

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "CanOpenObject.h"
+#include "SdoFrame.h"
 
-#include <array>
 #include <functional>
 #include <map>
 
@@ -58,23 +57,9 @@ private:
 class SdoServer
 {
 public:
-    using Data = std::array<quint8, 8>;
+    using Data = SdoFrame::Data;
     /// What the device says to a write: an abort code; 0: it is allowed.
     using Check = std::function<quint32(ObjectAddress, const QByteArray &)>;
-
-    // Abort codes
-    static constexpr quint32 WrongToggle = 0x05030000;
-    static constexpr quint32 UnknownCommand = 0x05040001;
-    static constexpr quint32 UnsupportedAccess = 0x06010000;
-    static constexpr quint32 CannotBeWritten = 0x06010002;
-    static constexpr quint32 NoObject = 0x06020000;
-    static constexpr quint32 NotMappable = 0x06040041;
-    static constexpr quint32 TooLongForPdo = 0x06040042;
-    static constexpr quint32 WrongLength = 0x06070010;
-    static constexpr quint32 TooManyBytes = 0x06070012;
-    static constexpr quint32 TooFewBytes = 0x06070013;
-    static constexpr quint32 NoSubindex = 0x06090011;
-    static constexpr quint32 NotInThisState = 0x08000022;
 
     SdoServer(CanOpenObjects *objects, Check check)
         : m_objects(objects)
@@ -93,7 +78,7 @@ private:
     Data readSegment(const Data &request);
     Data writeSegment(const Data &request);
     quint32 store(const QByteArray &value);
-    Data frame(quint8 command, quint32 rest = 0) const;
+    Data frame(quint8 command, quint32 rest = 0) const { return SdoFrame::make(command, m_address, rest); }
     Data abort(quint32 code);
 
     CanOpenObjects *m_objects;

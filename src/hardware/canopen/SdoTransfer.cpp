@@ -105,8 +105,7 @@ SdoTransfer::SdoTransfer(ObjectAddress address, bool isWrite, const QByteArray &
 
 void SdoTransfer::ask(quint8 command, quint32 rest)
 {
-    m_request = {command,      quint8(m_address.index), quint8(m_address.index >> 8), m_address.sub,
-                 quint8(rest), quint8(rest >> 8),       quint8(rest >> 16),           quint8(rest >> 24)};
+    m_request = SdoFrame::make(command, m_address, rest);
     m_hasRequest = true;
 }
 
@@ -115,12 +114,6 @@ void SdoTransfer::abort(quint32 code)
     m_state = Aborted;
     m_abortCode = code;
     ask(abortCommand, code);
-}
-
-bool SdoTransfer::isAddressed(const Data &response) const
-{
-    return response[1] == quint8(m_address.index) && response[2] == quint8(m_address.index >> 8)
-        && response[3] == m_address.sub;
 }
 
 bool SdoTransfer::take(const Data &response)
@@ -132,8 +125,7 @@ bool SdoTransfer::take(const Data &response)
         if (!isAddressed(response))
             return false;
         m_state = Aborted;
-        m_abortCode = quint32(response[4]) | quint32(response[5]) << 8 | quint32(response[6]) << 16
-            | quint32(response[7]) << 24;
+        m_abortCode = SdoFrame::restOf(response);
         m_hasRequest = false;
         return true;
     }
@@ -152,7 +144,7 @@ bool SdoTransfer::take(const Data &response)
 void SdoTransfer::takeFirstOfRead(const Data &response)
 {
     if ((response[0] & commandMask) != readBegun)
-        return abort(UnknownCommand);
+        return abort(SdoAbort::UnknownCommand);
     if (response[0] & isExpedited) {
         const int unused = (response[0] & hasSize) ? (response[0] >> 2) & 3 : 0;
         m_value = QByteArray(reinterpret_cast<const char *>(response.data()) + 4, 4 - unused);
@@ -161,10 +153,9 @@ void SdoTransfer::takeFirstOfRead(const Data &response)
         return;
     }
     if (response[0] & hasSize) {
-        const quint32 size = quint32(response[4]) | quint32(response[5]) << 8 | quint32(response[6]) << 16
-            | quint32(response[7]) << 24;
+        const quint32 size = SdoFrame::restOf(response);
         if (size > quint32(MaximumSize))
-            return abort(OutOfMemory);
+            return abort(SdoAbort::OutOfMemory);
         m_size = int(size);
     }
     m_isInSegments = true;
@@ -181,22 +172,22 @@ void SdoTransfer::askForSegment()
 void SdoTransfer::takeSegmentOfRead(const Data &response)
 {
     if ((response[0] & commandMask) != segmentRead)
-        return abort(UnknownCommand);
+        return abort(SdoAbort::UnknownCommand);
     if ((response[0] & toggleBit) != m_toggle)
-        return abort(ToggleBit);
+        return abort(SdoAbort::WrongToggle);
     const int count = segmentSize - ((response[0] >> 1) & 7);
     const bool isEnd = response[0] & isLast;
     const int limit = m_size >= 0 ? m_size : MaximumSize;
     if (count == 0 && !isEnd)
-        return abort(WrongLength);  // it would never end
+        return abort(SdoAbort::WrongLength);  // it would never end
     if (m_value.size() + count > limit)
-        return abort(m_size >= 0 ? WrongLength : OutOfMemory);
+        return abort(m_size >= 0 ? SdoAbort::WrongLength : SdoAbort::OutOfMemory);
     m_value.append(reinterpret_cast<const char *>(response.data()) + 1, count);
     m_toggle ^= toggleBit;
     if (!isEnd)
         return askForSegment();
     if (m_size >= 0 && m_value.size() != m_size)
-        return abort(WrongLength);
+        return abort(SdoAbort::WrongLength);
     m_state = Done;
     m_hasRequest = false;
 }
@@ -206,12 +197,12 @@ void SdoTransfer::takeAnswerToWrite(const Data &response)
     const quint8 command = response[0] & commandMask;
     const bool isFirst = m_request[0] & beginWrite;
     if (command != (isFirst ? writeBegun : segmentWritten))
-        return abort(UnknownCommand);
+        return abort(SdoAbort::UnknownCommand);
     if (isFirst && m_isInSegments)
         return sendSegment();
     if (!isFirst) {
         if ((response[0] & toggleBit) != m_toggle)
-            return abort(ToggleBit);
+            return abort(SdoAbort::WrongToggle);
         m_toggle ^= toggleBit;
         if (m_position < m_value.size())
             return sendSegment();

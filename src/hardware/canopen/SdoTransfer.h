@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "CanOpenObject.h"
-
-#include <array>
+#include "SdoFrame.h"
 
 namespace qplc {
 
@@ -21,7 +19,7 @@ namespace qplc {
 class SdoTransfer
 {
 public:
-    using Data = std::array<quint8, 8>;
+    using Data = SdoFrame::Data;
     static constexpr int MaximumSize = 64 << 10;  // [byte] of a value
 
     enum State : quint8 {
@@ -30,16 +28,6 @@ public:
         Aborted  ///< by the device, or by us because its answer makes no sense: abortCode()
     };
 
-    /// Abort codes of CiA 301 that the client itself sends.
-    enum AbortCode : quint32 {
-        ToggleBit = 0x05030000,
-        TimedOut = 0x05040000,
-        UnknownCommand = 0x05040001,
-        OutOfMemory = 0x05040005,
-        WrongLength = 0x06070010,
-        NoObject = 0x06020000,
-        NoSubindex = 0x06090011
-    };
     /// What an abort code means; "unknown reason" for one that CiA 301 does not have.
     static QString abortText(quint32 code);
 
@@ -75,7 +63,7 @@ private:
     void takeAnswerToWrite(const Data &response);
     void sendSegment();
     void askForSegment();
-    bool isAddressed(const Data &response) const;
+    bool isAddressed(const Data &response) const { return SdoFrame::addressOf(response) == m_address; }
 
     ObjectAddress m_address;
     bool m_isWrite;
