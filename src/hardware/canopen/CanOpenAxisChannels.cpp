@@ -195,9 +195,10 @@ void CanOpenAxisChannels::step(qint64 now) noexcept
         return;
     if (now - m_statusTime > m_driver->timeout().count())
         m_feedback.isKnown = false;  // what the drive told is old
+    const AxisCommand wanted = command();
     if (m_places[ModeDisplay].pdo < 0)
-        m_feedback.mode = command().mode;  // the drive does not tell it
-    m_outputs = m_axis.step(command(), m_feedback);
+        m_feedback.mode = wanted.mode;  // the drive does not tell it
+    m_outputs = m_axis.step(wanted, m_feedback);
 }
 
 void CanOpenAxisChannels::stop() noexcept
@@ -205,9 +206,11 @@ void CanOpenAxisChannels::stop() noexcept
     m_outputs = m_axis.step(AxisCommand(), m_feedback);
 }
 
-double CanOpenAxisChannels::shown(int kind) const noexcept
+void CanOpenAxisChannels::show(qint64 now) noexcept
 {
-    const AxisState state = m_feedback.isKnown ? Cia402Axis::stateOf(m_feedback.statusword) : AxisState::Unknown;
+    if (!m_feedback.isKnown)
+        return;
+    const AxisState state = Cia402Axis::stateOf(m_feedback.statusword);
     const std::array<double, std::size(shownNames)> values{
         double(quint8(state)),
         state == AxisState::OperationEnabled ? 1.0 : 0.0,
@@ -216,15 +219,8 @@ double CanOpenAxisChannels::shown(int kind) const noexcept
         m_axis.isBlocked() ? 1.0 : 0.0,
         m_axis.isHomed() ? 1.0 : 0.0,
     };
-    return values[std::size_t(kind)];
-}
-
-void CanOpenAxisChannels::show(qint64 now) noexcept
-{
-    for (const Shown &one : m_shown) {
-        if (m_feedback.isKnown)
-            one.channel->set(shown(one.kind), now);
-    }
+    for (const Shown &one : m_shown)
+        one.channel->set(values[std::size_t(one.kind)], now);
 }
 
 }  // namespace qplc

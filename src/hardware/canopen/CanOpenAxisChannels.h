@@ -68,7 +68,6 @@ private:
     };
 
     AxisCommand command() const noexcept;
-    double shown(int kind) const noexcept;
     bool isOn(Order order) const noexcept;
     double valueOf(Order order, double otherwise) const noexcept;
 

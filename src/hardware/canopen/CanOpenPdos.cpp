@@ -19,9 +19,7 @@ void CanOpenPdos::setPlan(const CanOpenConfiguration &plan)
         output.frame.size = quint8(pdo.size());
         for (int i = 0; i < pdo.entries.size(); ++i) {
             const PdoEntry &entry = pdo.entries.at(i);
-            bool isTarget = false;
-            targetOf({}, entry.address.index, &isTarget);
-            output.isOfAxis = output.isOfAxis || (m_isAxis && isTarget);
+            output.isOfAxis = output.isOfAxis || isOfAxis(entry);
             Pdo::setBits(output.frame.data.data(), pdo.firstBit(i), entry.number.bits, entry.initial);
         }
         m_outputs.push_back(std::move(output));
@@ -54,9 +52,7 @@ QPlcWriteChannel *CanOpenPdos::writeChannel(const QString &name)
         if (entry < 0)
             continue;
         const int first = output.pdo.firstBit(entry);
-        bool isTarget = false;
-        targetOf({}, output.pdo.entries.at(entry).address.index, &isTarget);
-        if (m_isAxis && isTarget)
+        if (isOfAxis(output.pdo.entries.at(entry)))
             return nullptr;
         for (const auto &field : output.fields) {
             if (field.first == first)
@@ -141,16 +137,13 @@ void CanOpenPdos::encodeAxis(const Pdo &pdo, const AxisOutputs &axis, CanFrame *
 {
     for (int i = 0; i < pdo.entries.size(); ++i) {
         const PdoEntry &entry = pdo.entries.at(i);
-        bool isTarget = false;
-        const double value = targetOf(axis, entry.address.index, &isTarget);
-        if (isTarget)
-            encode(entry.number, pdo.firstBit(i), value, frame);
+        if (const auto target = targetOf(axis, entry.address.index))
+            encode(entry.number, pdo.firstBit(i), *target, frame);
     }
 }
 
-double CanOpenPdos::targetOf(const AxisOutputs &axis, quint16 index, bool *isTarget) noexcept
+std::optional<double> CanOpenPdos::targetOf(const AxisOutputs &axis, quint16 index) noexcept
 {
-    *isTarget = true;
     switch (index) {
     case 0x6040:
         return double(axis.controlword);
@@ -163,8 +156,7 @@ double CanOpenPdos::targetOf(const AxisOutputs &axis, quint16 index, bool *isTar
     case 0x607A:
         return axis.position;
     default:
-        *isTarget = false;
-        return 0.0;
+        return std::nullopt;
     }
 }
 

@@ -7,6 +7,7 @@
 #include "hardware/can/CanFrame.h"
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 class QPlcDriver;
@@ -70,7 +71,9 @@ private:
         bool isOfAxis = false;
         CanFrame frame;  // with the values of objects that nobody writes
     };
-    static double targetOf(const AxisOutputs &axis, quint16 index, bool *isTarget) noexcept;
+    /// What goes to the object \a index; nothing: it is not one of the axis.
+    static std::optional<double> targetOf(const AxisOutputs &axis, quint16 index) noexcept;
+    bool isOfAxis(const PdoEntry &entry) const noexcept { return m_isAxis && targetOf({}, entry.address.index); }
     void encode(const RawNumber &number, int first, double value, CanFrame *frame) noexcept;
     void encodeAxis(const Pdo &pdo, const AxisOutputs &axis, CanFrame *frame) noexcept;
 
