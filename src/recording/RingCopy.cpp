@@ -36,22 +36,6 @@ QString prefix()
     return QStringLiteral("qtplc-copy-%1-").arg(::getuid());
 }
 
-messages::RecorderState stateOf(RecorderReport::State state)
-{
-    switch (state) {
-    case RecorderReport::DiskFull:
-        return messages::RecorderState::DiskFull;
-    case RecorderReport::Failing:
-        return messages::RecorderState::Failing;
-    case RecorderReport::Stopped:
-        return messages::RecorderState::Stopped;
-    case RecorderReport::None:
-    case RecorderReport::Recording:
-        break;
-    }
-    return messages::RecorderState::Recording;
-}
-
 }  // namespace
 
 /// A recorder that has not attached itself yet has saved nothing.
@@ -172,13 +156,9 @@ void RingCopy::addReport(messages::GetRecords *question, std::int64_t now)
     m_reported = now;
     if (!report)
         return;
-    messages::RecorderEntry entry;
-    entry.state = stateOf(report->state);
-    entry.file = report->file.isEmpty() ? QString() : m_computer + QLatin1Char(':') + report->file;
-    entry.bytesPerSecond = double(report->bytesPerSecond);
-    entry.freeBytes = report->freeBytes;
-    entry.error = report->error;
-    question->recorder = entry;
+    question->recorder = toEntry(*report);
+    if (!report->file.isEmpty())
+        question->recorder->file.prepend(m_computer + QLatin1Char(':'));
 }
 
 // ---- answers ----

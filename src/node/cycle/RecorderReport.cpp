@@ -1,14 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "RecorderReport.h"
 
+#include "protocol/messages/State.h"
+
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 namespace qplc {
 
 namespace {
 
+using messages::RecorderState;
+
 constexpr int MostReads = 16;
+
+/// A state that is not here is that of a recorder that records.
+constexpr std::pair<RecorderReport::State, RecorderState> states[]
+    = {{RecorderReport::DiskFull, RecorderState::DiskFull},
+       {RecorderReport::Failing, RecorderState::Failing},
+       {RecorderReport::Stopped, RecorderState::Stopped}};
 
 template<std::size_t Size>
 void putText(const QByteArray &text, char (&place)[Size]) noexcept
@@ -24,6 +35,36 @@ QString textIn(const char (&place)[Size])
 }
 
 }  // namespace
+
+messages::RecorderEntry toEntry(const RecorderReport &report)
+{
+    messages::RecorderEntry entry;
+    entry.state = RecorderState::Recording;
+    for (const auto &[own, told] : states) {
+        if (own == report.state)
+            entry.state = told;
+    }
+    entry.file = report.file;
+    entry.bytesPerSecond = double(report.bytesPerSecond);
+    entry.freeBytes = report.freeBytes;
+    entry.error = report.error;
+    return entry;
+}
+
+RecorderReport toReport(const messages::RecorderEntry &entry)
+{
+    RecorderReport report;
+    report.state = RecorderReport::Recording;
+    for (const auto &[own, told] : states) {
+        if (told == entry.state)
+            report.state = own;
+    }
+    report.bytesPerSecond = std::uint64_t(std::clamp(entry.bytesPerSecond, 0.0, 1e12));
+    report.freeBytes = entry.freeBytes;
+    report.file = entry.file;
+    report.error = entry.error;
+    return report;
+}
 
 void RecorderReportPlace::write(const RecorderReport &report) noexcept
 {

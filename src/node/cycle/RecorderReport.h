@@ -10,6 +10,10 @@
 
 namespace qplc {
 
+namespace messages {
+struct RecorderEntry;
+}
+
 /// What the recorder of a ring says of itself.
 struct RecorderReport
 {
@@ -27,6 +31,10 @@ struct RecorderReport
     QString file;                      ///< the newest one; of a long path, its end
     QString error;                     ///< the newest one; empty: there was none. Of a long one, its begin
 };
+
+/// A report as a master tells it, and back: missing cycles are not in it.
+messages::RecorderEntry toEntry(const RecorderReport &report);
+RecorderReport toReport(const messages::RecorderEntry &entry);
 
 /// The place of a RecorderReport in the header of a ring: of a fixed size, for one writer and
 /// readers in other processes. Neither waits for the other, also if one is killed meanwhile.

@@ -59,12 +59,8 @@ void RecorderWatch::look(std::int64_t now)
     messages::RecorderEntry entry = m_status.value_or(messages::RecorderEntry());
     const RecorderState before = entry.state;
     const std::uint64_t missing = entry.missing;
-    if (report) {
-        entry.file = report->file;
-        entry.bytesPerSecond = double(report->bytesPerSecond);
-        entry.freeBytes = report->freeBytes;
-        entry.error = report->error;
-    }
+    if (report)
+        entry = toEntry(*report);
     entry.state = stateOf(*ring, report.value_or(RecorderReport()), now);
     if (entry.state != RecorderState::Recording)
         entry.bytesPerSecond = 0;
@@ -91,17 +87,8 @@ RecorderState RecorderWatch::stateOf(const RecordRing &ring, const RecorderRepor
     }
     if (now - m_changed > Patience)
         return RecorderState::Stalled;
-    switch (report.state) {
-    case RecorderReport::DiskFull:
-        return RecorderState::DiskFull;
-    case RecorderReport::Failing:
-        return RecorderState::Failing;
-    case RecorderReport::None:
-    case RecorderReport::Recording:
-    case RecorderReport::Stopped:
-        break;
-    }
-    return RecorderState::Recording;
+    const RecorderState said = toEntry(report).state;
+    return said == RecorderState::Stopped ? RecorderState::Recording : said;  // it reads the ring, so that word is old
 }
 
 void RecorderWatch::tellState(RecorderState before)

@@ -41,17 +41,12 @@ bool copy(const RingRegion &region, std::uint64_t from, std::uint64_t size, QByt
     return from >= region.marks->oldest.load(std::memory_order_relaxed);
 }
 
+/// As far as it may be shown.
 RecorderReport reportOf(const messages::RecorderEntry &entry)
 {
-    RecorderReport report;
-    report.state = entry.state == messages::RecorderState::DiskFull ? RecorderReport::DiskFull
-        : entry.state == messages::RecorderState::Failing           ? RecorderReport::Failing
-        : entry.state == messages::RecorderState::Stopped           ? RecorderReport::Stopped
-                                                                    : RecorderReport::Recording;
-    report.bytesPerSecond = std::uint64_t(std::clamp(entry.bytesPerSecond, 0.0, 1e12));
-    report.freeBytes = entry.freeBytes;
-    report.file = printable(entry.file);
-    report.error = printable(entry.error);
+    RecorderReport report = toReport(entry);
+    report.file = printable(report.file);
+    report.error = printable(report.error);
     return report;
 }
 
