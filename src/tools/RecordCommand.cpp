@@ -9,6 +9,7 @@
 #include <QtPlcRecording>
 
 #include <cstdio>
+#include <functional>
 
 namespace tools {
 
@@ -101,39 +102,42 @@ void quitAtTheEndOfThePhase(QPlcRecorder *recorder)
     });
 }
 
-int failWith(const QString &text)
+/// Records until the end.
+/// \param isOnePhase  which is this end then; else people want it
+/// \param begin  gives the recorder what it records. \return false: the recorder refuses it
+/// \param end  what is to do when the recorder has stopped. \return what went wrong; empty: nothing
+int record(const CommandCall &call, QPlcRecorder *recorder, bool isOnePhase, const std::function<bool()> &begin,
+           const std::function<QString()> &end)
 {
-    QPlcCoreApplication::printError(text);
-    return QPlcCoreApplication::Failure;
-}
-
-void tellFolder(const QPlcRecorder &recorder)
-{
-    if (!recorder.isFolder())
-        return;
-    printLine(QStringLiteral("recording into %1").arg(printable(recorder.target())));
-    std::fflush(stdout);
+    bool isAbandoned = false;
+    QObject::connect(recorder, &QPlcRecorder::masterLost, recorder, [&isAbandoned] { isAbandoned = true; });
+    if (isOnePhase)
+        quitAtTheEndOfThePhase(recorder);
+    const std::shared_ptr<const bool> isStopped = call.quitOnSignals();
+    if (!recorder->start() || !begin())
+        return call.application.usageError(recorder->errorString());
+    if (!isOnePhase) {
+        printLine(QStringLiteral("recording into %1").arg(printable(recorder->target())));
+        std::fflush(stdout);
+    }
+    if (!*isStopped)
+        call.application.exec();
+    const bool isWritten = recorder->stop();
+    const QString trouble = end();
+    if (!trouble.isEmpty() || !isWritten) {
+        QPlcCoreApplication::printError(trouble.isEmpty() ? recorder->errorString() : trouble);
+        return QPlcCoreApplication::Failure;
+    }
+    return isOnePhase && isAbandoned ? QPlcCoreApplication::Failure : QPlcCoreApplication::Success;
 }
 
 /// Records rings of this computer. \param ring  the only one; empty: all
 int recordRings(const CommandCall &call, QPlcRecorder *recorder, const QString &ring)
 {
-    bool isAbandoned = false;
-    QObject::connect(recorder, &QPlcRecorder::masterLost, recorder, [&isAbandoned] { isAbandoned = true; });
     if (ring.isEmpty())
         recorder->setPlant(call.application.value(QStringLiteral("plant")));
-    else
-        quitAtTheEndOfThePhase(recorder);
-    const std::shared_ptr<const bool> isStopped = call.quitOnSignals();
-    if (!recorder->start() || (!ring.isEmpty() && !recorder->addRing(ring)))
-        return call.application.usageError(recorder->errorString());
-    if (ring.isEmpty())
-        tellFolder(*recorder);
-    if (!*isStopped)
-        call.application.exec();
-    if (!recorder->stop())
-        return failWith(recorder->errorString());
-    return !ring.isEmpty() && isAbandoned ? QPlcCoreApplication::Failure : QPlcCoreApplication::Success;
+    const auto begin = [&] { return ring.isEmpty() || recorder->addRing(ring); };
+    return record(call, recorder, !ring.isEmpty(), begin, [] { return QString(); });
 }
 
 /// Records the phases of a master on another computer.
@@ -145,27 +149,18 @@ int recordRemotely(const CommandCall &call, QPlcRecorder *recorder)
                 QStringLiteral("--%1 is for masters of this computer; leave it out with --master")
                     .arg(QLatin1String(option)));
     }
-    bool isAbandoned = false;
-    QObject::connect(recorder, &QPlcRecorder::masterLost, recorder, [&isAbandoned] { isAbandoned = true; });
-    if (!recorder->isFolder())
-        quitAtTheEndOfThePhase(recorder);
     RemoteRings remote(recorder, call.master);
     QObject::connect(&remote, &RemoteRings::failed, &remote, [] { QCoreApplication::quit(); });
     QObject::connect(&remote, &RemoteRings::troubled, &remote, &QPlcCoreApplication::printError);
-    const std::shared_ptr<const bool> isStopped = call.quitOnSignals();
-    if (!recorder->start())
-        return call.application.usageError(recorder->errorString());
-    tellFolder(*recorder);
-    remote.start();
-    if (!*isStopped)
-        call.application.exec();
-    const bool isWritten = recorder->stop();
-    remote.finish();
-    if (!remote.errorString().isEmpty())
-        return failWith(remote.errorString());
-    if (!isWritten)
-        return failWith(recorder->errorString());
-    return !recorder->isFolder() && isAbandoned ? QPlcCoreApplication::Failure : QPlcCoreApplication::Success;
+    const auto begin = [&remote] {
+        remote.start();
+        return true;
+    };
+    const auto end = [&remote] {
+        remote.finish();
+        return remote.errorString();
+    };
+    return record(call, recorder, !recorder->isFolder(), begin, end);
 }
 
 }  // namespace

@@ -25,15 +25,13 @@ public:
     void start();
     /// Tells the master that nobody records any more. Waits for it, not longer than 2 s.
     void finish();
+    QString errorString() const { return m_error; }
 
 Q_SIGNALS:
     /// There will be no recording: errorString() says why.
     void failed();
     /// Something that passes, for people.
     void troubled(const QString &text);
-
-public:
-    QString errorString() const { return m_error; }
 
 private:
     using Reply = qplc::ControlClient::Reply<qplc::messages::GetRecords>;

@@ -19,35 +19,16 @@ constexpr qint64 LargestSection = 1 << 20;   // [byte]
 constexpr qint64 LargestPicture = 16 << 20;  // [byte]
 constexpr qint64 LargestLayout = 4 << 20;    // [byte]
 
-/// The files of --section, with commas between them; -: the standard input. \return false, with the
-/// message out
-bool readSections(const CommandCall &call, QStringList *sections)
-{
-    const QStringList names
-        = call.application.value(QStringLiteral("section")).split(QLatin1Char(','), Qt::SkipEmptyParts);
-    for (const QString &name : names) {
-        const bool isInput = name == QLatin1String("-");
-        QFile file(name);
-        if (!(isInput ? file.open(stdin, QIODevice::ReadOnly) : file.open(QIODevice::ReadOnly))) {
-            call.application.usageError(
-                QStringLiteral("--section: cannot open '%1': %2").arg(name, file.errorString()));
-            return false;
-        }
-        const QByteArray text = file.read(LargestSection + 1);
-        if (text.size() > LargestSection) {
-            call.application.usageError(QStringLiteral("--section: '%1' is longer than 1 MiB").arg(name));
-            return false;
-        }
-        *sections << QString::fromUtf8(text);
-    }
-    return true;
-}
+enum class Input { Files, FilesAndStandardInput };
 
+/// \param from  where - is the standard input
 /// \return false, with the message out
-bool readFile(const CommandCall &call, const char *option, const QString &name, qint64 largest, QByteArray *bytes)
+bool readFile(const CommandCall &call, const char *option, const QString &name, qint64 largest, QByteArray *bytes,
+              Input from = Input::Files)
 {
+    const bool isInput = from == Input::FilesAndStandardInput && name == QLatin1String("-");
     QFile file(name);
-    if (!file.open(QIODevice::ReadOnly)) {
+    if (!(isInput ? file.open(stdin, QIODevice::ReadOnly) : file.open(QIODevice::ReadOnly))) {
         call.application.usageError(
             QStringLiteral("--%1: cannot open '%2': %3").arg(QLatin1String(option), name, file.errorString()));
         return false;
@@ -60,11 +41,29 @@ bool readFile(const CommandCall &call, const char *option, const QString &name, 
     return false;
 }
 
-/// The files of --picture, with commas between them.
+/// The files of an option, with commas between them.
+QStringList filesOf(const CommandCall &call, const char *option)
+{
+    return call.application.value(QLatin1String(option)).split(QLatin1Char(','), Qt::SkipEmptyParts);
+}
+
+/// The files of --section; -: the standard input.
+bool readSections(const CommandCall &call, QStringList *sections)
+{
+    const QStringList names = filesOf(call, "section");
+    for (const QString &name : names) {
+        QByteArray text;
+        if (!readFile(call, "section", name, LargestSection, &text, Input::FilesAndStandardInput))
+            return false;
+        *sections << QString::fromUtf8(text);
+    }
+    return true;
+}
+
+/// The files of --picture.
 bool readPictures(const CommandCall &call, std::vector<qplc::ReportSelection::Picture> *pictures)
 {
-    const QStringList names
-        = call.application.value(QStringLiteral("picture")).split(QLatin1Char(','), Qt::SkipEmptyParts);
+    const QStringList names = filesOf(call, "picture");
     for (const QString &name : names) {
         QByteArray bytes;
         if (!readFile(call, "picture", name, LargestPicture, &bytes))
