@@ -239,11 +239,15 @@ void SpectrumCanvas::scaleValues()
         setAxisScale(yLeft, 0.0, room * highest);
 }
 
-QString SpectrumCanvas::commonUnit() const
+/// Not set: the curves have several.
+std::optional<QString> SpectrumCanvas::commonUnit() const
 {
-    const bool isCommon = std::all_of(m_curves.begin(), m_curves.end(),
-                                      [this](const Curve &curve) { return curve.unit == m_curves.first().unit; });
-    return m_curves.isEmpty() || !isCommon ? QString() : m_curves.first().unit;
+    if (m_curves.isEmpty())
+        return QString();
+    const QString &first = m_curves.first().unit;
+    const bool isCommon
+        = std::all_of(m_curves.begin(), m_curves.end(), [&first](const Curve &curve) { return curve.unit == first; });
+    return isCommon ? std::optional(first) : std::nullopt;
 }
 
 void SpectrumCanvas::showTitles()
@@ -256,18 +260,15 @@ void SpectrumCanvas::showTitles()
         return;
     }
     setAxisText(this, xBottom, frequency, m_theme);
-    const bool isDensity = !m_curves.isEmpty() && m_curves.first().isDensity;
-    const bool haveOneUnit = std::all_of(m_curves.begin(), m_curves.end(),
-                                         [this](const Curve &curve) { return curve.unit == m_curves.first().unit; });
-    if (isDensity) {
-        setAxisText(this, yLeft,
-                    haveOneUnit ? tr("power density [%1]").arg(densityUnit(commonUnit())) : tr("power density"),
+    const std::optional<QString> unit = commonUnit();
+    if (!m_curves.isEmpty() && m_curves.first().isDensity) {
+        setAxisText(this, yLeft, unit ? tr("power density [%1]").arg(densityUnit(*unit)) : tr("power density"),
                     m_theme);
         return;
     }
-    QPlcPanelContext::Prefix prefix{1.0, commonUnit()};
+    QPlcPanelContext::Prefix prefix{1.0, unit.value_or(QString())};
     if (!m_looks.isLogValue)
-        prefix = QPlcPanelContext::prefix(commonUnit(), axisInterval(yLeft).maxValue());
+        prefix = QPlcPanelContext::prefix(prefix.unit, axisInterval(yLeft).maxValue());
     static_cast<SpectrumScale *>(axisScaleDraw(yLeft))->setFactor(prefix.factor);
     setAxisText(this, yLeft, withUnit(tr("amplitude"), prefix.unit), m_theme);
 }

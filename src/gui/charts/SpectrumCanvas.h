@@ -87,7 +87,7 @@ private:
     void scaleValues();
     void showColors();
     void showTitles();
-    QString commonUnit() const;
+    std::optional<QString> commonUnit() const;
     int frequencyAxis() const { return isSpectrogram() ? yLeft : xBottom; }
     void hold(QPointF topLeft, QPointF bottomRight);
 

@@ -6,7 +6,6 @@
 #include <QtCore/QJsonObject>
 #include <QtCore/QStringList>
 
-class QComboBox;
 class QFormLayout;
 class QVBoxLayout;
 

@@ -41,7 +41,7 @@ void SpectrumCurve::setLook(const QColor &color, double width)
 }
 
 /// The lowest and the highest line of each pixel, in their order.
-QPolygonF SpectrumCurve::shape(const QwtScaleMap &xMap, const QwtScaleMap &yMap, const QRectF &canvas) const
+QPolygonF SpectrumCurve::shape(const QwtScaleMap &xMap, const QwtScaleMap &yMap) const
 {
     QPolygonF points;
     const std::vector<double> &values = m_lines.values;
@@ -76,16 +76,15 @@ QPolygonF SpectrumCurve::shape(const QwtScaleMap &xMap, const QwtScaleMap &yMap,
     }
     if (first < behind)
         flush();
-    Q_UNUSED(canvas)
     return points;
 }
 
 void SpectrumCurve::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &yMap,
-                         const QRectF &canvas) const
+                         const QRectF & /*canvas*/) const
 {
     painter->setRenderHint(QPainter::Antialiasing);
     painter->setPen(QPen(m_color, m_width, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
-    painter->drawPolyline(shape(xMap, yMap, canvas));
+    painter->drawPolyline(shape(xMap, yMap));
 }
 
 // ---- spectrogram ----

@@ -22,7 +22,7 @@ public:
     void draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &yMap, const QRectF &canvas) const override;
 
 private:
-    QPolygonF shape(const QwtScaleMap &xMap, const QwtScaleMap &yMap, const QRectF &canvas) const;
+    QPolygonF shape(const QwtScaleMap &xMap, const QwtScaleMap &yMap) const;
 
     Spectrum::Lines m_lines;
     QColor m_color;
