@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PlotNotes.h"
 
-#include <QtCore/QAbstractItemModel>
+#include "gui/models/EventLogModel.h"
 
 #include <algorithm>
 
@@ -9,8 +9,6 @@ namespace qplc {
 
 namespace {
 
-constexpr int noteSourceColumn = 3;  // of QPlcPanelContext::eventModel()
-constexpr int noteTextColumn = 4;
 constexpr PlotNotes::Time nanosecondsOfTime = 1'000'000;
 constexpr std::size_t mostKeptNotes = 2000;
 
@@ -31,9 +29,10 @@ bool PlotNotes::update(const QPlcPanelContext &context)
         const QModelIndex index = events->index(row, 0);
         if (!index.data(QPlcPanelContext::NoteRole).toBool() || m_entries.size() >= mostKeptNotes)
             continue;
+        const QString source = index.siblingAtColumn(EventLogModel::Source).data().toString();
         m_entries.push_back({{index.data(QPlcPanelContext::EventTimeRole).toLongLong() * nanosecondsOfTime,
-                              events->index(row, noteTextColumn).data().toString()},
-                             events->index(row, noteSourceColumn).data().toString()});
+                              index.siblingAtColumn(EventLogModel::Text).data().toString()},
+                             source.section(QLatin1Char('/'), 0, 0)});
     }
     m_newest = events->index(events->rowCount() - 1, 0);
     return m_entries.size() != before;
@@ -43,8 +42,7 @@ std::vector<PlotNotes::Note> PlotNotes::between(Time begin, Time end, const QStr
 {
     std::vector<Note> found;
     for (const Entry &entry : m_entries) {
-        const QString plant = entry.source.section(QLatin1Char('/'), 0, 0);
-        if (entry.note.time >= begin && entry.note.time <= end && plants.contains(plant))
+        if (entry.note.time >= begin && entry.note.time <= end && plants.contains(entry.plant))
             found.push_back(entry.note);
     }
     std::stable_sort(found.begin(), found.end(), [](const Note &a, const Note &b) { return a.time < b.time; });

@@ -29,7 +29,7 @@ private:
     struct Entry
     {
         Note note;
-        QString source;  // "kite", "kite/model"
+        QString plant;
     };
     std::vector<Entry> m_entries;
     QPersistentModelIndex m_newest;  // event that was looked at

@@ -5,10 +5,9 @@
 #include "QPlcPanelContext.h"
 #include "QPlcTimePlot.h"
 #include "TimeTicks.h"
+#include "gui/models/EventLogModel.h"
 #include "gui/models/ValueFormat.h"
 #include "gui/plot/PastRows.h"
-
-#include <QtCore/QAbstractItemModel>
 
 #include <algorithm>
 #include <cmath>
@@ -20,8 +19,6 @@ namespace {
 constexpr PlotRuns::Time aSecond = 1'000'000'000;  // [ns]
 constexpr PlotRuns::Time leastPause = aSecond;
 constexpr int mostEventTexts = 50;  // of events, to choose from
-constexpr int sourceColumn = 3;     // of QPlcPanelContext::eventModel()
-constexpr int textColumn = 4;
 constexpr PlotRuns::Time aMillisecond = 1'000'000;
 
 /// The plant whose times the plot has: that of the first curve that is there.
@@ -36,12 +33,12 @@ QString referenceOf(const PlotSettings &settings, const QPlcPanelContext &contex
 
 QString textOfEvent(const QAbstractItemModel &events, int row)
 {
-    return events.index(row, textColumn).data().toString();
+    return events.index(row, EventLogModel::Text).data().toString();
 }
 
 bool isEventOf(const QAbstractItemModel &events, int row, const QString &plant)
 {
-    const QString source = events.index(row, sourceColumn).data().toString();
+    const QString source = events.index(row, EventLogModel::Source).data().toString();
     return source == plant || source.startsWith(plant + QLatin1Char('/'));
 }
 
