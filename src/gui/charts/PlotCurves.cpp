@@ -100,11 +100,13 @@ void PlotCurves::bind(const PlotSettings &settings, const QPlcPanelContext &cont
             curve.axis = m_axes.add(wanted.axis, curve.source.unit);
         if (!runs.empty())
             curve.run = runs.front();
-        if (runs.size() > 1 && settings.runs.hidden.contains(curve.run.name))
-            curve.settings.isVisible = false;
         m_curves.push_back(std::move(curve));
     }
-    addFurther(settings, context, runs);
+    addFurther(context, runs);
+    for (PlotCurve &curve : m_curves) {
+        if (runs.size() > 1 && settings.runs.hidden.contains(curve.run.name))
+            curve.settings.isVisible = false;
+    }
     if (settings.runs.hasDifferences() && runs.size() > 1)
         makeDifferences(std::size_t(settings.curves.size()));
     m_plot->setAxes(m_axes);
@@ -122,8 +124,7 @@ void PlotCurves::bind(const PlotSettings &settings, const QPlcPanelContext &cont
 
 /// Each curve once more for each run, on the axis of the curve. A single curve has a colour for
 /// each run; of several ones each keeps its colour, and runs are dashed, dotted, and paler.
-void PlotCurves::addFurther(const PlotSettings &settings, const QPlcPanelContext &context,
-                            const std::vector<PlotRun> &runs)
+void PlotCurves::addFurther(const QPlcPanelContext &context, const std::vector<PlotRun> &runs)
 {
     const QPlcTheme theme = context.theme();
     const std::size_t count = m_curves.size();
@@ -136,8 +137,6 @@ void PlotCurves::addFurther(const PlotSettings &settings, const QPlcPanelContext
             curve.isFurther = true;
             curve.run = runs[place];
             curve.settings = base.settings;
-            curve.settings.isVisible
-                = settings.curves[int(i)].isVisible && !settings.runs.hidden.contains(runs[place].name);
             curve.axis = base.axis;
             curve.source = runs[place].plant.isEmpty()
                 ? base.source

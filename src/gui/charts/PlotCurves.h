@@ -122,7 +122,7 @@ public:
     bool timeRange(QPlcPast::Time *begin, QPlcPast::Time *end) const;
 
 private:
-    void addFurther(const PlotSettings &settings, const QPlcPanelContext &context, const std::vector<PlotRun> &runs);
+    void addFurther(const QPlcPanelContext &context, const std::vector<PlotRun> &runs);
     void makeDifferences(std::size_t bases);
     void show(PlotCurve *curve, bool showsLimits, const QPlcTheme &theme);
     void showBands(PlotCurve *curve, const QPlcTheme &theme);
