@@ -150,7 +150,8 @@ QVector<QPlcPanelContext::Duration> durationsOf(const messages::Statistics &stat
 static_assert(int(QPlcPanelContext::ReferenceRole) == int(SignalTreeModel::ReferenceRole)
               && int(QPlcPanelContext::SortRole) == int(NodeTableModel::SortRole)
               && int(QPlcPanelContext::HealthRole) == int(NodeTableModel::HealthRole)
-              && int(QPlcPanelContext::EventTimeRole) == int(EventLogModel::TimeRole));
+              && int(QPlcPanelContext::EventTimeRole) == int(EventLogModel::TimeRole)
+              && int(QPlcPanelContext::NoteRole) == int(EventLogModel::NoteRole));
 
 struct QPlcPanelContext::Private : public QObject
 {
