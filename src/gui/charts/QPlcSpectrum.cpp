@@ -25,12 +25,10 @@ using namespace qplc;
 
 namespace {
 
-constexpr int mostSpectra = 8;      // of a panel
-constexpr int livePause = 1000;     // [ms] between spectra of new values
-constexpr int costOfPause = 4;      // computing takes at most so small a share of the time
-constexpr int tickPause = 500;      // [ms]
-constexpr double zoomOfKeys = 0.7;  // what a key leaves
-constexpr double panOfKeys = 0.15;  // of the canvas
+constexpr int mostSpectra = 8;   // of a panel
+constexpr int livePause = 1000;  // [ms] between spectra of new values
+constexpr int costOfPause = 4;   // computing takes at most so small a share of the time
+constexpr int tickPause = 500;   // [ms]
 
 constexpr const char *spectrumSignalsKey = "signals";
 constexpr const char *spectrumViewKey = "show";
@@ -420,18 +418,6 @@ void QPlcSpectrum::Private::showSettings()
 void QPlcSpectrum::Private::makeActions()
 {
     const auto showing = [this](View view) { return [this, view] { edit(spectrumViewKey, views().at(view)); }; };
-    const auto pan = [this](double x, double y) {
-        return [this, x, y] {
-            const QSizeF size = canvas->canvas()->size();
-            canvas->pan({x * panOfKeys * size.width(), y * panOfKeys * size.height()});
-        };
-    };
-    const auto zoom = [this](double factor) {
-        return [this, factor] {
-            const QPointF middle = QRectF(canvas->canvas()->rect()).center();
-            canvas->zoom(factor, factor, interaction->mouse() ? QPointF(*interaction->mouse()) : middle);
-        };
-    };
     addAction(tr("Amplitudes"), {Qt::Key_1}, "amplitude", showing(Amplitude));
     addAction(tr("Power density"), {Qt::Key_2}, "density", showing(Density));
     addAction(tr("Spectrogram"), {Qt::Key_3}, "spectrogram", showing(Spectrogram));
@@ -446,13 +432,7 @@ void QPlcSpectrum::Private::makeActions()
         edit(spectrumViewKey, views().at(Spectrogram));
         bind();
     });
-    addAction(tr("Show all"), {Qt::Key_A}, "all", [this] { canvas->release(); });
-    addAction(tr("Zoom in"), {Qt::Key_Plus, Qt::Key_Equal}, "zoomIn", zoom(zoomOfKeys));
-    addAction(tr("Zoom out"), {Qt::Key_Minus}, "zoomOut", zoom(1.0 / zoomOfKeys));
-    addAction(tr("Move left"), {Qt::Key_Left}, "left", pan(1.0, 0.0));
-    addAction(tr("Move right"), {Qt::Key_Right}, "right", pan(-1.0, 0.0));
-    addAction(tr("Move up"), {Qt::Key_Up}, "up", pan(0.0, 1.0));
-    addAction(tr("Move down"), {Qt::Key_Down}, "down", pan(0.0, -1.0));
+    interaction->addActions(q);
     addAction(tr("Cursor to the highest line"), {Qt::Key_P}, "highest", [this] { placeAtHighest(); });
     addAction(tr("Cursor one line down"), {int(Qt::CTRL) | Qt::Key_Left}, "lineDown", [this] { moveCursor(-1); });
     addAction(tr("Cursor one line up"), {int(Qt::CTRL) | Qt::Key_Right}, "lineUp", [this] { moveCursor(1); });
@@ -476,7 +456,6 @@ void QPlcSpectrum::Private::connectInteraction()
 {
     connect(interaction, &XyInteraction::pressed, q, [this] { q->setFocus(Qt::MouseFocusReason); });
     connect(interaction, &XyInteraction::mouseMoved, q, [this] { showReadout(); });
-    connect(interaction, &XyInteraction::allWanted, q, [this] { canvas->release(); });
     connect(interaction, &XyInteraction::clicked, q, [this](const QPoint &place) {
         double frequency = canvas->frequencyAt(place);
         if (!canvas->curves().isEmpty()) {

@@ -35,8 +35,6 @@ const QString yKey = QStringLiteral("y");
 const QString xyColorKey = QStringLiteral("color");
 constexpr const char *aspectKey = "equalAspect";
 
-constexpr double zoomOfKey = 0.7;  // what a key leaves
-constexpr double panOfKey = 0.15;  // of the canvas
 constexpr int xyDigits = 5;
 
 QString textOf(const QPlcPast &source, double value)
@@ -220,24 +218,12 @@ public:
 
     void makeActions()
     {
-        const auto pan = [this](double x, double y) {
-            return [this, x, y] {
-                const QSizeF size = canvas->canvas()->size();
-                canvas->pan({x * panOfKey * size.width(), y * panOfKey * size.height()});
-            };
-        };
         equal = addAction(tr("Equal aspect"), {Qt::Key_E}, "equal", [this] {
             q->setAspectEqual(equal->isChecked());
             Q_EMIT q->settingsEdited();
         });
         equal->setCheckable(true);
-        addAction(tr("Show all"), {Qt::Key_A}, "all", [this] { canvas->release(); });
-        addAction(tr("Zoom in"), {Qt::Key_Plus, Qt::Key_Equal}, "zoomIn", [this] { zoom(zoomOfKey); });
-        addAction(tr("Zoom out"), {Qt::Key_Minus}, "zoomOut", [this] { zoom(1.0 / zoomOfKey); });
-        addAction(tr("Move left"), {Qt::Key_Left}, "left", pan(1.0, 0.0));
-        addAction(tr("Move right"), {Qt::Key_Right}, "right", pan(-1.0, 0.0));
-        addAction(tr("Move up"), {Qt::Key_Up}, "up", pan(0.0, 1.0));
-        addAction(tr("Move down"), {Qt::Key_Down}, "down", pan(0.0, -1.0));
+        interaction->addActions(q);
         exporter()->addTableActions([this] { return table(); });
         exporter()->addPictureActions();
     }
@@ -246,7 +232,6 @@ public:
     {
         connect(interaction, &XyInteraction::pressed, q, [this] { q->setFocus(Qt::MouseFocusReason); });
         connect(interaction, &XyInteraction::mouseMoved, q, [this] { showMoment(); });
-        connect(interaction, &XyInteraction::allWanted, q, [this] { canvas->release(); });
         connect(interaction, &XyInteraction::menuWanted, q,
                 [this](const QPoint &, const QPoint &global) { createMenu()->popup(global); });
     }
@@ -256,13 +241,6 @@ public:
         return makeMenu({{"all", "zoomIn", "zoomOut", "equal"},
                          {"saveTable", "copyTable", "savePicture", "copyPicture"},
                          {"panelMenu"}});  // of the frame around
-    }
-
-    /// About the mouse, or the middle.
-    void zoom(double factor)
-    {
-        const QPointF middle = QRectF(canvas->canvas()->rect()).center();
-        canvas->zoom(factor, factor, interaction->mouse() ? QPointF(*interaction->mouse()) : middle);
     }
 
     /// x and y below the mouse.

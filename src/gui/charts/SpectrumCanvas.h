@@ -59,8 +59,7 @@ public:
     void zoom(double xFactor, double yFactor, QPointF about) override;
     void pan(QPointF by) override;
     void zoomTo(const QRectF &box) override;
-    /// The axes show all again.
-    void release();
+    void release() override;
     bool isHeld() const { return m_isHeld; }
 
     /// Not set: there is none [Hz].

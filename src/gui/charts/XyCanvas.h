@@ -46,7 +46,7 @@ public:
     /// Axes that a person has zoomed stay so.
     bool isHeld() const { return m_isHeld; }
     /// Axes follow the curves again.
-    void release();
+    void release() override;
     /// What is at a place of the canvas [px].
     QPointF valueAt(QPointF place) const;
     /// Draws what was at a moment, if the picture is another one than before. \return whether it

@@ -14,6 +14,8 @@ public:
     virtual void zoom(double xFactor, double yFactor, QPointF about) = 0;
     virtual void pan(QPointF by) = 0;
     virtual void zoomTo(const QRectF &box) = 0;
+    /// The axes show all again.
+    virtual void release() = 0;
 
 protected:
     ~ZoomedAxes() = default;
