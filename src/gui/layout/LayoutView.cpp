@@ -235,6 +235,11 @@ QSize LayoutView::wantedSize(const QString &type)
     return m_wantedSizes.value(type);
 }
 
+PageView *LayoutView::currentPage() const
+{
+    return m_pages.value(m_editor->layout().currentTab().id);
+}
+
 QString LayoutView::addPanel(const QString &type, const QJsonObject &settings)
 {
     const LayoutTab &tab = m_editor->layout().currentTab();

@@ -43,6 +43,8 @@ public:
     PanelFrame *frame(const QString &panelId) const { return m_frames.value(panelId); }
     QPlcWidget *widget(const QString &panelId) const;
     LayoutTabBar *tabBar() const { return m_tabBar; }
+    /// That of the tab in front.
+    PageView *currentPage() const;
     QList<FloatingWindow *> floatingWindows() const { return m_windows.values(); }
     /// Adds a panel to the current tab, where it fits (fittingPlace()). \return its id; empty when
     /// the layout is full

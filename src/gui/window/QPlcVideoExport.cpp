@@ -40,6 +40,7 @@ struct QPlcVideoExport::Private : public QObject
     explicit Private(QPlcVideoExport *video, QPlcControlCenter *controlCenter)
         : q(video)
         , window(controlCenter)
+        , view(controlCenter->findChild<LayoutView *>())
         , playback(controlCenter->findChild<RecordingTimeline *>()->playback())
     {
         timer.setInterval(Pause);
@@ -67,6 +68,7 @@ struct QPlcVideoExport::Private : public QObject
 
     QPlcVideoExport *q;
     QPlcControlCenter *window;
+    LayoutView *view;
     Playback *playback;
     Options options;
     std::unique_ptr<VideoSink> sink;  // null: not running
@@ -119,11 +121,11 @@ bool QPlcVideoExport::Private::checkRange()
     return true;
 }
 
+/// Null: it is not seen.
 PageView *QPlcVideoExport::Private::page() const
 {
-    const QList<PageView *> pages = window->findChild<LayoutView *>()->findChildren<PageView *>();
-    const auto shown = std::find_if(pages.begin(), pages.end(), [](const PageView *page) { return page->isVisible(); });
-    return shown == pages.end() ? nullptr : *shown;
+    PageView *page = view->currentPage();
+    return page && page->isVisible() ? page : nullptr;
 }
 
 /// Makes the window as large as its panels need it.
