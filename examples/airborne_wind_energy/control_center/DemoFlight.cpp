@@ -27,15 +27,11 @@ DemoFlight::DemoFlight(QPlcControlCenter *window)
     m_restartAction.setEnabled(false);
     m_partsAction.setToolTip(tr("The programs of the demo, and how to start them by hand"));
     m_partsAction.setEnabled(false);
-    const auto begun = [this](void (DemoPlant::*how)()) {
+    connect(&m_flyAction, &QAction::triggered, this, [this] { fly({}); });
+    connect(&m_restartAction, &QAction::triggered, this, [this] {
         m_clock.start();
-        (m_plant.*how)();
-    };
-    connect(&m_flyAction, &QAction::triggered, this, [this, begun] {
-        m_plant.setPlant({});
-        begun(&DemoPlant::start);
+        m_plant.restart();
     });
-    connect(&m_restartAction, &QAction::triggered, this, [begun] { begun(&DemoPlant::restart); });
     connect(&m_partsAction, &QAction::triggered, this, &DemoFlight::showParts);
     connect(&m_copyAction, &QAction::triggered, this, &DemoFlight::copyCommands);
     connect(&m_plant, &DemoPlant::listening, this, &DemoFlight::connectWindow);
@@ -56,14 +52,17 @@ void DemoFlight::addPlants()
             continue;
         auto action = std::make_unique<QAction>(tr("Fly the plant '%1'").arg(name));
         action->setToolTip(PlantConfiguration::description(name));
-        connect(action.get(), &QAction::triggered, this, [this, name] {
-            m_clock.start();
-            m_plant.setPlant(name);
-            m_plant.start();
-        });
+        connect(action.get(), &QAction::triggered, this, [this, name] { fly(name); });
         m_window.addStartAction(action.get());
         m_plantActions.push_back(std::move(action));
     }
+}
+
+void DemoFlight::fly(const QString &plant)
+{
+    m_clock.start();
+    m_plant.setPlant(plant);
+    m_plant.start();
 }
 
 void DemoFlight::begin(const QElapsedTimer &clock)

@@ -35,6 +35,7 @@ protected:
 
 private:
     void addPlants();
+    void fly(const QString &plant);
     void connectWindow(const QString &address);
     void disconnectWindow();
     void watch();
