@@ -60,6 +60,18 @@ public:
         now += 10 * millisecond;
         plant->feed()->add({values}, now);
     }
+    /// An event at the time of a row.
+    void tell(int row, const QString &text, const QString &source = QStringLiteral("kite"), bool isNote = false)
+    {
+        const qplc::SignalStore *store = plant->store();
+        qplc::PlantEvent event;
+        event.time = QDateTime::fromMSecsSinceEpoch(store->time(store->firstRow() + qplc::SignalStore::Row(row))
+                                                    / millisecond);
+        event.source = source;
+        event.text = text;
+        event.isNote = isNote;
+        context.events()->append(event);
+    }
     void apply(const QByteArray &settings) { plot->applySettings(QJsonDocument::fromJson(settings).object()); }
     QByteArray settings() const { return QJsonDocument(plot->settings()).toJson(QJsonDocument::Compact); }
     bool show()

@@ -15,14 +15,7 @@ struct NotesWindow : FedPlotWindow
     }
     void tell(int row, const QString &text, const QString &source = QStringLiteral("kite"), bool isNote = true)
     {
-        const SignalStore *store = plant->store();
-        PlantEvent event;
-        event.time
-            = QDateTime::fromMSecsSinceEpoch(store->time(store->firstRow() + SignalStore::Row(row)) / millisecond);
-        event.source = source;
-        event.text = text;
-        event.isNote = isNote;
-        context.events()->append(event);
+        FedPlotWindow::tell(row, text, source, isNote);
     }
     const QVector<PlotOverlay::Note> &marks() const { return plot->findChild<PlotOverlay *>()->picture().notes; }
 };

@@ -74,17 +74,6 @@ public:
             take(values);
         }
     }
-    /// An event at the time of a row.
-    void tell(int row, const QString &text, const QString &source = QStringLiteral("kite"))
-    {
-        const SignalStore *store = plant->store();
-        PlantEvent event;
-        event.time
-            = QDateTime::fromMSecsSinceEpoch(store->time(store->firstRow() + SignalStore::Row(row)) / millisecond);
-        event.source = source;
-        event.text = text;
-        context.events()->append(event);
-    }
     /// Curves of the canvas, in the order of the legend.
     QVector<const StoreCurve *> drawn() const
     {
