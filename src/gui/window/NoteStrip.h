@@ -1,23 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "EntryStrip.h"
 #include "PlantSelection.h"
-#include "gui/panel/WindowContext.h"
 
 #include <QtCore/QPointer>
-#include <QtWidgets/QWidget>
-
-class QLabel;
-class QLineEdit;
 
 namespace qplc {
 
-/// Asks for a note, over the panels and without stopping anything: Enter sends it to the master of
-/// the plant that was selected when the strip opened, Escape forgets it. The text stays until the
-/// master has it.
+/// Asks for a note: Enter sends it to the master of the plant that was selected when the strip
+/// opened, Escape forgets it. The text stays until the master has it.
 ///
 /// A plant that a program feeds has no master: then the note stays in the event log of the window.
-class NoteStrip : public QWidget
+class NoteStrip : public EntryStrip
 {
     Q_OBJECT
 public:
@@ -26,28 +21,19 @@ public:
 
     /// Shows the strip, with the keys in its field; or emits refused().
     void open();
-    QLineEdit *line() const { return m_line; }
-    QString error() const;
     /// Why a note cannot be sent to a plant, for people; empty: it can.
     static QString obstacleOf(const Plant *plant);
 
 Q_SIGNALS:
     void refused(const QString &sentence);
 
-protected:
-    void keyPressEvent(QKeyEvent *event) override;
-    void paintEvent(QPaintEvent *event) override;
-
 private:
-    void accept();
-    void close();
-    void showError(const QString &sentence);
+    void accept() override;
+    void leave() override;
+    /// The text can be sent again.
+    void fail(const QString &sentence);
 
     PlantSelection *m_selection;
-    WindowContext *m_context;
-    QLabel *m_label;
-    QLineEdit *m_line;
-    QLabel *m_error;
     QPointer<Plant> m_plant;  // that the note is for
     QString m_plantName;      // empty: for the log of the window
     int m_command = 0;        // that was sent; 0: none

@@ -93,7 +93,7 @@ struct WindowFixture
     void connectTo(const QString &address)
     {
         press(Qt::Key_O, Qt::ControlModifier);
-        part<qplc::ConnectStrip>()->addressLine()->clear();
+        part<qplc::ConnectStrip>()->line()->clear();
         type(address);
         press(Qt::Key_Return);
     }

@@ -213,15 +213,14 @@ void FlyingWindow::makeThings()
     });
     addMenu(QStringLiteral("settings of a panel"),
             [this] { actionOf(part<LayoutView>()->frame(ids.at(4)), "Settings")->trigger(); });
-    things.append(
-        {QStringLiteral("strip"),
-         [this] {
-             if (isPopupOpen())
-                 return false;
-             action("Connect...")->trigger();
-             return part<ConnectStrip>()->isVisible();
-         },
-         [this] { return part<ConnectStrip>()->isVisible() && part<ConnectStrip>()->addressLine()->hasFocus(); }});
+    things.append({QStringLiteral("strip"),
+                   [this] {
+                       if (isPopupOpen())
+                           return false;
+                       action("Connect...")->trigger();
+                       return part<ConnectStrip>()->isVisible();
+                   },
+                   [this] { return part<ConnectStrip>()->isVisible() && part<ConnectStrip>()->line()->hasFocus(); }});
     for (const char *text : {"Keys", "Open..."})
         things.append({QLatin1String(text),
                        [this, text] {

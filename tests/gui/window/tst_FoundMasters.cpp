@@ -161,7 +161,7 @@ void tst_FoundMasters::focusMovesOnWhenItsMasterDisappears()
     tell(fixture, {master(50000)});
     buttons<ConnectStrip>(fixture).constFirst()->setFocus();
     tell(fixture, {});
-    QVERIFY(fixture.part<ConnectStrip>()->addressLine()->hasFocus());
+    QVERIFY(fixture.part<ConnectStrip>()->line()->hasFocus());
 }
 
 void tst_FoundMasters::foundNamesGetNoShortcutAndLimitedWidth()

@@ -136,9 +136,9 @@ void tst_WindowEvents::nIsALetterWhileAPersonTypes()
     fixture.window.connectToMaster(master.address(), QStringLiteral("kite"));
     QTRY_VERIFY_WITH_TIMEOUT(fixture.plant()->isConnected(), patience);
     fixture.press(Qt::Key_O, Qt::ControlModifier);
-    fixture.part<ConnectStrip>()->addressLine()->clear();
+    fixture.part<ConnectStrip>()->line()->clear();
     fixture.type(QStringLiteral("north"));
-    QCOMPARE(fixture.part<ConnectStrip>()->addressLine()->text(), QStringLiteral("north"));
+    QCOMPARE(fixture.part<ConnectStrip>()->line()->text(), QStringLiteral("north"));
     QVERIFY(fixture.part<NoteStrip>()->isHidden());
 }
 
