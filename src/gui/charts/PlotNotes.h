@@ -3,9 +3,9 @@
 
 #include "QPlcPanelContext.h"
 
-#include <vector>
+#include <QtCore/QPersistentModelIndex>
 
-class QAbstractItemModel;
+#include <vector>
 
 namespace qplc {
 
