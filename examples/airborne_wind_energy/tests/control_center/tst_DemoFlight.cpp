@@ -73,7 +73,7 @@ void tst_DemoFlight::oneClickOnTheStartPageFliesTheKite()
     QVERIFY(window.isConnected(QStringLiteral("demo")));
 }
 
-/// All three programs get the plant, and the window sees its signals.
+/// All three programs get the plant.
 void tst_DemoFlight::startPageOffersThePlants()
 {
     QPlcControlCenter window;
