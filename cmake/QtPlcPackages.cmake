@@ -41,10 +41,11 @@ if(CMAKE_CROSSCOMPILING)
 endif()
 
 # qtplc_package(NAME SECTION section SUMMARY line DESCRIPTION text [LIBRARIES] [ALL_ARCHITECTURES]
-# [DEPENDS package ...] [RECOMMENDS package ...]): a Debian package. SUMMARY does not repeat the
-# name.
+# [DEPENDS package ...] [RECOMMENDS package ...] [SUGGESTS package ...]): a Debian package. SUMMARY
+# does not repeat the name.
 macro(qtplc_package name)
-    cmake_parse_arguments(arg "LIBRARIES;ALL_ARCHITECTURES" "SECTION;SUMMARY;DESCRIPTION" "DEPENDS;RECOMMENDS" ${ARGN})
+    cmake_parse_arguments(arg "LIBRARIES;ALL_ARCHITECTURES" "SECTION;SUMMARY;DESCRIPTION"
+        "DEPENDS;RECOMMENDS;SUGGESTS" ${ARGN})
     string(TOUPPER ${name} key)
     set(CPACK_COMPONENT_${key}_DESCRIPTION "${arg_SUMMARY}\n${arg_DESCRIPTION}")
     set(CPACK_DEBIAN_${key}_PACKAGE_NAME ${name})
@@ -63,6 +64,7 @@ macro(qtplc_package name)
     endforeach()
     list(JOIN depends ", " CPACK_DEBIAN_${key}_PACKAGE_DEPENDS)
     list(JOIN arg_RECOMMENDS ", " CPACK_DEBIAN_${key}_PACKAGE_RECOMMENDS)
+    list(JOIN arg_SUGGESTS ", " CPACK_DEBIAN_${key}_PACKAGE_SUGGESTS)
     file(GLOB control CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/packaging/debian/${name}/*)
     if(arg_LIBRARIES)
         list(APPEND control ${PROJECT_SOURCE_DIR}/packaging/debian/triggers)
@@ -99,7 +101,7 @@ qtplc_package(qtplc-tools SECTION utils
     DESCRIPTION "The command qtplc looks into a running QtPLC plant and steers it, and tells
 whether a computer is fit for real time. The service qtplc-hardware@ ties
 signals to devices, and qtplc_fmu makes nodes of FMUs (FMI 2.0 and 3.0)."
-    DEPENDS libqtplc adduser RECOMMENDS qtplc-doc)
+    DEPENDS libqtplc adduser RECOMMENDS qtplc-doc SUGGESTS rt-tests stress-ng)
 qtplc_package(qtplc-doc SECTION doc ALL_ARCHITECTURES
     SUMMARY "distributed real-time controllers, documents"
     DESCRIPTION "Tutorial, how-tos and reference of QtPLC in /usr/share/doc/QtPlc. The menu Help

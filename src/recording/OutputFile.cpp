@@ -26,6 +26,14 @@ mode_t usualMode()
     return mode_t(0666) & ~mask;
 }
 
+/// Why \a file did not take all bytes. Qt knows it only where the kernel took none; another byte
+/// tells it where it took some, as a disk does that becomes full.
+QString writeError(const QFile &file)
+{
+    const char byte = 0;
+    return ::write(file.handle(), &byte, 1) < 0 ? qt_error_string(errno) : file.errorString();
+}
+
 }  // namespace
 
 OutputFile::OutputFile(const QString &name, Existing existing)
@@ -54,13 +62,13 @@ bool OutputFile::open(QString *error)
 
 bool OutputFile::write(const QByteArray &bytes, QString *error)
 {
-    return m_file.write(bytes) == bytes.size() || fail(m_file.errorString(), error);
+    return m_file.write(bytes) == bytes.size() || fail(writeError(m_file), error);
 }
 
 bool OutputFile::commit(QString *error)
 {
     if (!m_file.flush())
-        return fail(m_file.errorString(), error);
+        return fail(writeError(m_file), error);
     if (::fdatasync(m_file.handle()) != 0 || ::fchmod(m_file.handle(), usualMode()) != 0)
         return fail(qt_error_string(errno), error);
     const QByteArray from = QFile::encodeName(m_file.fileName());

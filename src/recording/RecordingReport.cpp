@@ -284,31 +284,31 @@ public:
 
     QByteArray html() const
     {
-        QByteArray page = head() + tiles();
+        QByteArray page = tiles();
         for (const QString &section : m_selection.sections)
             page += "<section>" + htmlOfMarkdown(section) + "</section>\n";
-        return page + pictures() + plots() + happenings() + jitter() + nodes() + signalTable() + footer();
+        page += pictures() + plots() + happenings() + jitter() + nodes() + signalTable();
+        return pageOf(name(), subtitle(), page);
     }
     int damages() const { return m_survey.damages; }
 
 private:
     double secondsOf(RecordedTime time) const { return double(time - m_recording.begin()) / 1e9; }
-    QByteArray head() const
+    QString name() const
+    {
+        const QString plant = m_recording.description().plant;
+        return plant.isEmpty() ? QStringLiteral("Plant") : plant;
+    }
+    /// When, from which files, by which version.
+    QString subtitle() const
     {
         const RingDescription &plant = m_recording.description();
-        const QString name = plant.plant.isEmpty() ? QStringLiteral("Plant") : plant.plant;
         const QString when = m_recording.isTimed() ? momentText(m_selection.begin)
                                                    : QStringLiteral("simulation (%1)").arg(plant.clock);
-        return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
-               "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">"
-               "<meta name=\"color-scheme\" content=\"light dark\"><title>"
-            + escaped(name) + " – report</title><style>" + style + "</style></head>\n<body><h1>" + escaped(name)
-            + "</h1><p class=\"sub\">" + escaped(when) + " · "
-            + escaped(QFileInfo(m_recording.files().front().name).fileName())
-            + (m_recording.files().size() > 1
-                   ? " and " + QByteArray::number(int(m_recording.files().size()) - 1) + " more"
-                   : QByteArray())
-            + " · QtPLC " + escaped(plant.version) + "</p>\n";
+        QString files = QFileInfo(m_recording.files().front().name).fileName();
+        if (m_recording.files().size() > 1)
+            files += QStringLiteral(" and %1 more").arg(m_recording.files().size() - 1);
+        return QStringLiteral("%1 · %2 · QtPLC %3").arg(when, files, plant.version);
     }
     QByteArray tiles() const
     {
@@ -517,7 +517,6 @@ private:
             kinds << (flags & overview::HasValue ? QStringLiteral("invalid at times") : QStringLiteral("invalid"));
         return kinds.isEmpty() ? QStringLiteral("good") : kinds.join(QStringLiteral(", "));
     }
-    static QByteArray footer() { return "</body></html>\n"; }
 
     const Recording &m_recording;
     const ReportSelection &m_selection;
@@ -540,6 +539,15 @@ bool isRule(const QString &line)
 }
 
 }  // namespace
+
+QByteArray pageOf(const QString &name, const QString &subtitle, const QByteArray &body)
+{
+    return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
+           "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">"
+           "<meta name=\"color-scheme\" content=\"light dark\"><title>"
+        + escaped(name) + " – report</title><style>" + style + "</style></head>\n<body><h1>" + escaped(name)
+        + "</h1><p class=\"sub\">" + escaped(subtitle) + "</p>\n" + body + "</body></html>\n";
+}
 
 QByteArray htmlOfMarkdown(const QString &text)
 {

@@ -36,6 +36,10 @@ QByteArray mediaTypeOf(const QByteArray &picture);
 /// \param damages  of the recording: chunks that were left out
 QByteArray reportOf(Recording &recording, const ReportSelection &selection, int *damages);
 
+/// A page of HTML in the style of a report. \param name  of what it is about \param body  what
+/// follows its title, as HTML
+QByteArray pageOf(const QString &name, const QString &subtitle, const QByteArray &body);
+
 /// A part of Markdown as HTML: see ReportSelection::sections.
 QByteArray htmlOfMarkdown(const QString &text);
 

@@ -14,7 +14,8 @@ constexpr double Left = 76.0;
 constexpr double Right = 10.0;
 constexpr double Top = 8.0;
 constexpr double Bottom = 26.0;
-constexpr int Curves = 6;  // colours
+constexpr double CountHeight = 12.0;  // of the count above a bar
+constexpr int Curves = 6;             // colours
 
 /// A round distance of some \a count ticks.
 double tickStep(double span, int count)
@@ -158,11 +159,11 @@ double LatenessHistogram::border(int range)
     return 100.0 * std::pow(10.0, double(range) / RangesOfADecade);
 }
 
-void LatenessHistogram::add(std::int64_t lateness)
+void LatenessHistogram::add(std::int64_t lateness, std::uint64_t cycles)
 {
     const double decades = lateness > 100 ? std::log10(double(lateness) / 100.0) : 0.0;
-    ++counts[std::min(int(decades * RangesOfADecade), Ranges - 1)];
-    ++count;
+    counts[std::min(int(decades * RangesOfADecade), Ranges - 1)] += cycles;
+    count += cycles;
     most = std::max(most, lateness);
 }
 
@@ -186,6 +187,7 @@ QByteArray drawingOf(const LatenessHistogram &histogram)
     while (last > first && histogram.counts[last] == 0)
         --last;
     const double width = (Width - Left - Right) / (last - first + 1);
+    constexpr double highest = Height - Top - CountHeight - Bottom;
     const auto high
         = std::log10(double(*std::max_element(histogram.counts, histogram.counts + LatenessHistogram::Ranges))) + 0.3;
     QByteArray bars = "<g class=\"c0 bar\">";
@@ -196,8 +198,7 @@ QByteArray drawingOf(const LatenessHistogram &histogram)
             labels += text(x, Height - Bottom + 19, "start", shortDuration(1e-9 * LatenessHistogram::border(range)));
         if (histogram.counts[range] == 0)
             continue;
-        const double y
-            = std::max(1.0, (std::log10(double(histogram.counts[range])) + 0.3) / high * (Height - Top - Bottom));
+        const double y = std::max(1.0, (std::log10(double(histogram.counts[range])) + 0.3) / high * highest);
         bars += "<rect x=\"" + coordinate(x + 0.5) + "\" y=\"" + coordinate(Height - Bottom - y) + "\" width=\""
             + coordinate(std::max(width - 1.0, 1.0)) + "\" height=\"" + coordinate(y) + "\"/>";
         if (width > 24.0)

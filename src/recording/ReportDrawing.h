@@ -24,7 +24,7 @@ struct LatenessHistogram
     static constexpr int RangesOfADecade = 5;
     static constexpr int Ranges = 8 * RangesOfADecade;  // 100 ns to 10 s
 
-    void add(std::int64_t lateness);
+    void add(std::int64_t lateness, std::uint64_t cycles = 1);
     /// \param part  0 to 1. \return the lateness [ns] that so many cycles do not exceed
     std::int64_t quantile(double part) const;
     static double border(int range);  // [ns], the lower one

@@ -457,6 +457,33 @@ const QVector<Command> &commands()
          0,
          0,
          &examineComputer},
+        {"campaign",
+         "",
+         "Measures the jitter of this computer in many cases.",
+         "All combinations of scheduling, periods, transports and loads. In each case, a\n"
+         "master and its nodes run over the sockets of this computer, beside the load\n"
+         "(stress-ng) and cyclictest (rt-tests), if it is installed. The folder gets a\n"
+         "report (campaign.html) and its numbers (campaign.csv, histograms.csv,\n"
+         "computer.csv) after each case: Ctrl-C keeps the cases that are complete. The\n"
+         "report has neither the name of the computer nor that of its user. The exit\n"
+         "code is 1 if a case is missing, or has notes.",
+         {{"output", "FOLDER", "Gets the report; or -o FOLDER.", "o"},
+          {"for", "SECONDS", "Length of each case, default 60."},
+          {"periods", "TIMES", "Of the cycle, 100us to 1s, default 10ms,1ms."},
+          {"transports", "NAMES", "Some of udp, tcp, local; default udp."},
+          {"policies", "NAMES", "Some of other, fifo; default both."},
+          {"loads", "NAMES", "Some of idle, cpu, memory, disk, network."},
+          {"command", "COMMAND", "A load of your own, for the shell."},
+          {"nodes", "N", "Nodes of the plant, 1 to 32, default 3."},
+          {"priority", "P", "Of the policy fifo, 2 to 98, default 49."},
+          {"cpu", "CPU", "The processor for the cycle of the master."},
+          force},
+         {QStringLiteral("sudo qtplc campaign -o jitter"),
+          QStringLiteral("qtplc campaign -o quick --for 5 --loads idle --policies other")},
+         Command::NoArguments,
+         0,
+         0,
+         &runCampaign},
         {"help",
          "[COMMAND]",
          "Explains a command.",

@@ -108,6 +108,7 @@ int showEvents(const CommandCall &call);
 int findMasters(const CommandCall &call);
 int manageKeys(const CommandCall &call);
 int examineComputer(const CommandCall &call);
+int runCampaign(const CommandCall &call);
 int writeManifest(const CommandCall &call);
 int checkManifest(const CommandCall &call);
 int recordPlant(const CommandCall &call);

@@ -270,6 +270,7 @@ OF_MACHINE = (
     ("runs the program that makes a video", "a process", "gui/window/VideoSink.cpp"),
     ("runs the program of a node that is replayed", "a process", "replay/NodeProgram.cpp replay/NodeProgram.h"),
     ("measures the machine", "a socket", "transport/LoopbackProbe.cpp"),
+    ("runs loads and cyclictest beside a measurement", "a process", "tools/CampaignPrograms.cpp"),
     (
         "is the network of the machine, to which hosts have others",
         "a socket",

@@ -4,7 +4,9 @@
 
 #include <QtTest/QtTest>
 
-/// What qtplc does by itself: help, completion, doctor, find.
+#include <csignal>
+
+/// What qtplc does by itself: help, completion, doctor, campaign, find.
 class tst_qtplc_alone : public QObject
 {
     Q_OBJECT
@@ -22,6 +24,10 @@ private Q_SLOTS:
     void bashCompletes();
     void doctorExaminesThisComputer();
     void doctorEndsWithAVerdictInOneLine();
+    void campaignMeasuresEachCase();
+    void campaignKeepsCompleteCasesWhenItIsInterrupted();
+    void campaignRefusesWhatItCannotMeasure_data();
+    void campaignRefusesWhatItCannotMeasure();
     void findListsMastersWithoutAnAddress();
     void findReportsThatThereIsNoMaster();
 
@@ -202,6 +208,111 @@ void tst_qtplc_alone::doctorExaminesThisComputer()
     QCOMPARE(document.value("ok").toBool(), isHealthy);
     QCOMPARE(outcome.exitCode, isHealthy ? 0 : 1);
     QCOMPARE(outcome.errors, QString());
+}
+
+// ---- campaign ----
+
+/// The rows of a file of a campaign; the first one has the titles.
+static QStringList rowsOf(const QString &file)
+{
+    QFile opened(file);
+    return opened.open(QIODevice::ReadOnly) ? QString::fromUtf8(opened.readAll()).split('\n', Qt::SkipEmptyParts)
+                                            : QStringList();
+}
+
+void tst_qtplc_alone::campaignMeasuresEachCase()
+{
+    QTemporaryDir folder;
+    const QString output = folder.filePath("new/jitter");
+    const Outcome outcome = qtplc({"campaign", "-o", output, "--for", "1", "--periods", "20ms", "--policies", "other",
+                                   "--command", "exec sleep 1000", "--json"});
+    const QJsonObject document = jsonOf(outcome.output).object();
+    QCOMPARE(outcome.errors, QString());
+    QCOMPARE(document["cases"].toInt(), 2);
+    QCOMPARE(document["planned"].toInt(), 2);
+    const QStringList rows = rowsOf(output + "/campaign.csv");
+    QCOMPARE(rows.size(), 3);
+    QVERIFY2(rows[1].startsWith("udp,20000.0,other,SCHED_OTHER 0,idle,3,"), qPrintable(rows[1]));
+    QVERIFY2(rows[2].startsWith("udp,20000.0,other,SCHED_OTHER 0,command,3,"), qPrintable(rows[2]));
+    for (const QString &row : rows.mid(1))
+        QVERIFY2(row.section(',', 6, 6).toInt() > 0, qPrintable(row));  // cycles
+    const bool hasNotes = !rows[1].endsWith(",\"\"") || !rows[2].endsWith(",\"\"");
+    QCOMPARE(document["ok"].toBool(), !hasNotes);
+    QCOMPARE(outcome.exitCode, hasNotes ? 1 : 0);
+    QVERIFY(rowsOf(output + "/histograms.csv").filter("udp,20000.0,other,command,lateness,").size() > 0);
+    QVERIFY(rowsOf(output + "/computer.csv").filter("\"kernel\",").size() == 1);
+    QVERIFY(rowsOf(output + "/campaign.html").join('\n').contains("udp, 20 ms, other, command"));
+    QCOMPARE(QDir(output).entryList(QDir::AllEntries | QDir::Hidden | QDir::NoDotAndDotDot).size(), 4);
+    const Outcome again = qtplc({"campaign", "-o", output, "--loads", "idle", "--policies", "other"});
+    QCOMPARE(again.exitCode, 2);
+    QVERIFY2(again.errors.contains("there is a campaign in"), qPrintable(again.errors));
+}
+
+void tst_qtplc_alone::campaignKeepsCompleteCasesWhenItIsInterrupted()
+{
+    QTemporaryDir folder;
+    Program program(programPath("qtplc"),
+                    {"campaign", "-o", folder.path(), "--for", "3", "--periods", "20ms", "--policies", "other",
+                     "--command", QString("echo $$ > '%1'; sleep 1000 & wait").arg(folder.filePath("pid"))});
+    QTRY_VERIFY_WITH_TIMEOUT(rowsOf(folder.filePath("pid")).size() == 1, 3 * Program::patience);
+    QList<qint64> load = childrenOf(rowsOf(folder.filePath("pid")).first().toLongLong());
+    load << rowsOf(folder.filePath("pid")).first().toLongLong();
+    program.sendSignal(SIGINT);
+    QCOMPARE(program.waitForEnd(), 1);
+    QVERIFY2(program.output().contains("1 of 2 cases are in"), qPrintable(program.output()));
+    QCOMPARE(stillRunning(load), QList<qint64>());
+    const QStringList rows = rowsOf(folder.filePath("campaign.csv"));
+    QCOMPARE(rows.size(), 2);
+    QVERIFY2(rows[1].contains(",idle,"), qPrintable(rows[1]));
+}
+
+void tst_qtplc_alone::campaignRefusesWhatItCannotMeasure_data()
+{
+    QTest::addColumn<QString>("options");
+    QTest::addColumn<QString>("error");
+    QTest::newRow("no folder") << ""
+                               << "use --output FOLDER";
+    QTest::newRow("a folder that cannot be made") << "-o /proc/jitter"
+                                                  << "cannot make the folder '/proc/jitter'";
+    QTest::newRow("a file") << "-o /dev/null"
+                            << "cannot make the folder '/dev/null'";
+    QTest::newRow("no time") << "-o NEW --for 0"
+                             << "for";
+    QTest::newRow("years") << "-o NEW --for 1e13"
+                           << "for";
+    QTest::newRow("another load") << "-o NEW --loads idle,gpu"
+                                  << "--loads: there is no 'gpu'";
+    QTest::newRow("no load") << "-o NEW --loads ,"
+                             << "--loads names nothing";
+    QTest::newRow("an empty load") << "-o NEW --command="
+                                   << "--command is empty";
+    QTest::newRow("another policy") << "-o NEW --policies rr"
+                                    << "--policies: there is no 'rr'";
+    QTest::newRow("another transport") << "-o NEW --transports can"
+                                       << "--transports: there is no 'can'";
+    QTest::newRow("a period without a unit") << "-o NEW --periods 10"
+                                             << "'10' is not a period";
+    QTest::newRow("a short period") << "-o NEW --periods 99us"
+                                    << "'99us' is not a period";
+    QTest::newRow("no processor") << "-o NEW --cpu 1023 --loads idle"
+                                  << "cpu: wanted 1023";
+    QStringList many;
+    for (int i = 0; i < 101; ++i)
+        many << QString("%1ms").arg(i + 1);
+    QTest::newRow("many cases") << "-o NEW --loads idle --periods " + many.join(',') << "202 cases are too many";
+}
+
+void tst_qtplc_alone::campaignRefusesWhatItCannotMeasure()
+{
+    QFETCH(QString, options);
+    QFETCH(QString, error);
+    QTemporaryDir folder;
+    const QString output = folder.filePath("jitter");
+    const Outcome outcome = qtplc(("campaign " + options.replace("NEW", output)).split(' ', Qt::SkipEmptyParts));
+    QCOMPARE(outcome.exitCode, 2);
+    QVERIFY2(outcome.errors.contains(error), qPrintable(outcome.errors));
+    QCOMPARE(outcome.output, QString());
+    QVERIFY(!QFileInfo::exists(output));
 }
 
 // ---- find ----
