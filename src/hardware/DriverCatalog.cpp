@@ -31,6 +31,9 @@ DriverCatalog::DriverCatalog()
     add(QStringLiteral("mpu6050"), {QStringLiteral("inertial sensor MPU-6050 on I2C"), createMpu6050Driver});
     add(QStringLiteral("nmea-wind"),
         {QStringLiteral("wind sensor on a serial line that speaks NMEA 0183"), createNmeaWindDriver});
+    add(QStringLiteral("sysfs"),
+        {QStringLiteral("what the kernel has a driver for: IIO, hwmon, counters, 1-wire thermometers, PWM"),
+         createSysfsDriver});
 }
 
 }  // namespace qplc

@@ -18,5 +18,6 @@ std::unique_ptr<QPlcDriver> createMcp3208Driver();
 std::unique_ptr<QPlcDriver> createModbusDriver();
 std::unique_ptr<QPlcDriver> createMpu6050Driver();
 std::unique_ptr<QPlcDriver> createNmeaWindDriver();
+std::unique_ptr<QPlcDriver> createSysfsDriver();
 
 }  // namespace qplc

@@ -189,7 +189,8 @@ void HardwareConfiguration::readSafeValue(Driver *driver, const ConfigurationEnt
 bool HardwareConfiguration::hasRealDevices() const
 {
     const auto isFake = [](const ConfigurationEntry &entry) {
-        return entry.key == QLatin1String("device") && FakeMemory::isFake(entry.value);
+        return (entry.key == QLatin1String("device") || entry.key == QLatin1String("root"))
+            && FakeMemory::isFake(entry.value);
     };
     return std::any_of(m_drivers.begin(), m_drivers.end(), [&](const Driver &driver) {
         return std::none_of(driver.keys.begin(), driver.keys.end(), isFake);

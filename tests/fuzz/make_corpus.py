@@ -541,6 +541,31 @@ def nmea():
     return files
 
 
+# ---- files of sysfs: bits of a count, and the text -----------------------------------------------
+
+
+def sysfs():
+    good = b"a3 01 4b 46 7f ff 0d 10 ce"
+    line = good + b" : crc=ce YES\n" + good + b" t=26187\n"
+    texts = {
+        "a number": b"0.000598550\n",
+        "a negative one": b"-16384\n",
+        "a count": b"18446744073709551615\n",
+        "nothing": b"",
+        "not finite": b"1e999\n",
+        "two numbers": b"0.1 0.2\n",
+        "a channel": b"voltage0-voltage1",
+        "a channel of an axis": b"accel_x",
+        "a thermometer": line,
+        "wrong checksum": line.replace(b"YES", b"NO"),
+        "no conversion": line.replace(good, b"50 05 4b 46 7f ff 0c 10 1c").replace(b"26187", b"85000"),
+        "held low": line.replace(good, b"00 " * 8 + b"00").replace(b"26187", b"0"),
+        "cut off": line[:50],
+        "too hot": line.replace(b"26187", b"125063"),
+    }
+    return {name: bytes([8]) + text for name, text in texts.items()}
+
+
 # ---- DBC files: the text as it is ----------------------------------------------------------------
 
 DBC_HEAD = 'VERSION ""\nNS_ :\n\tCM_\n\tBA_\nBS_:\nBU_: A B\n'
@@ -757,6 +782,7 @@ def main():
         ("eds_file", eds_files()),
         ("sdo", sdo()),
         ("nmea", nmea()),
+        ("sysfs", sysfs()),
         ("key_file", {name: text.encode() for name, text in KEY_FILES.items()}),
         ("beacon", beacons()),
         ("shared_memory", shared_memory()),

@@ -9,6 +9,7 @@
 #include "conformance/ModbusTestDevices.h"
 #include "conformance/SerialTestDevices.h"
 #include "conformance/SpiTestDevices.h"
+#include "conformance/SysfsTestDevices.h"
 
 #include <mutex>
 
@@ -173,6 +174,7 @@ void tst_DriverConformance::initTestCase()
     addModbusDevices(&m_devices);
     addSerialDevices(&m_devices);
     addSpiDevices(&m_devices);
+    addSysfsDevices(&m_devices);
 }
 
 void tst_DriverConformance::everyDriverKindIsTested()

@@ -86,8 +86,16 @@ const Case cases[] = {
      "write signal.F.a = start|length@order"},
     {"rule to send", Malformed, FRAME "signal.F.a = 0|8@1+\nsend.F = sometimes\n",
      "6:10: 'sometimes' does not say when to send", "write every cycle"},
+    {"device of no class", Malformed, "[d]\ndriver = sysfs\ndevice = ads1115\n[d.read]\nx = voltage0\n",
+     "3:10: 'ads1115' is not a device of the kernel", "write for example iio:ads1115"},
 
     // ---- meaning: units and places ----
+    {"number of a device", Semantic, "[d]\ndriver = sysfs\ndevice = hwmon:hwmon0\n",
+     "3:10: 'hwmon0' is a number that can be another one", "write the name, label or place"},
+    {"thermometer that is read too often", Semantic, "[d]\ndriver = sysfs\ndevice = w1:28-1\ninterval = 100 ms\n",
+     "4:12: a thermometer on a 1-wire bus measures for 0.75 s", "write an interval of 1 s or more"},
+    {"duty in percent", Semantic, "[d]\ndriver = sysfs\ndevice = pwm:a\nperiod = 1 ms\n[d.safe]\npwm0 = 50\n",
+     "6:8: 50 is not in the range 0 to 1 of 'pwm0'", "write a value of this range"},
     {"unit 0 of a serial line", Semantic, RTU "register.a = coil 1, unit 0\n", "4:14: a serial line has no unit 0",
      "use a unit of 1 ... 247"},
     {"unit 255 of a serial line", Semantic, RTU "register.a = coil 1, unit 255\n",

@@ -319,6 +319,7 @@ OF_MACHINE = (
     ),
     ("wakes the thread of a device", "a wake-up", "hardware/can/QtCanBus.cpp"),
     ("waits for answers of a device, before the cycles", "a sleep", "hardware/canopen/CanOpenClient.cpp"),
+    ("waits for udev, which gives new files to us", "a sleep", "hardware/sysfs/SysfsPwm.cpp"),
     ("waits for the threads of devices", "a sleep", "hardware/QPlcHardwareNode.cpp"),
     ("lets a line become quiet after a damaged answer", "a sleep", "hardware/modbus/LibModbusLink.cpp"),
     ("ends a program whose device hangs", "a timer", "hardware/program/main.cpp"),

@@ -1,0 +1,465 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "QPlcDriverSettings.h"
+#include "QPlcReadChannel.h"
+#include "QPlcWriteChannel.h"
+#include "SysfsClass.h"
+#include "SysfsFolder.h"
+#include "SysfsPwm.h"
+#include "SysfsText.h"
+#include "hardware/DeviceFiles.h"
+#include "hardware/DeviceHealth.h"
+#include "hardware/Drivers.h"
+#include "hardware/fake/FakeMemory.h"
+#include "signals/MessageText.h"
+
+#include <QtCore/QMap>
+#include <QtCore/QRegularExpression>
+
+#include <cerrno>
+#include <chrono>
+#include <functional>
+#include <vector>
+
+namespace qplc {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::chrono::nanoseconds ShortestThermometerInterval = 1s;  // it measures for 0.75 s
+
+/// Kind `sysfs`: what the kernel has a driver for: converters, inertial sensors, encoders,
+/// counters, thermometers, PWM. See docs/hardware/sysfs.md.
+class SysfsDriver final : public QPlcDriver
+{
+public:
+    SysfsDriver()
+        : QPlcDriver(OwnPace)
+    {
+    }
+
+protected:
+    void configure(QPlcDriverSettings &settings) override
+    {
+        const QString root = settings.text(QStringLiteral("root"), QStringLiteral("/sys"));
+        m_root = FakeMemory::isFake(root) ? FakeMemory::path(root) : root;
+        m_device = settings.requiredText(QStringLiteral("device"), QStringLiteral("iio:ads1115"));
+        m_retries = int(
+            settings.integer(QStringLiteral("retries"), DeviceHealth::DefaultRetries, 0, DeviceHealth::MostRetries));
+        m_class = SysfsClass::of(m_device.section(QLatin1Char(':'), 0, 0));
+        const QString name = m_device.section(QLatin1Char(':'), 1);
+        if (!m_class || name.isEmpty()) {
+            if (!m_device.isEmpty())
+                settings.addError(QStringLiteral("device"),
+                                  QStringLiteral("%1 is not a device of the kernel; write for example %2")
+                                      .arg(quoted(m_device), SysfsClass::examples()));
+            m_class = nullptr;
+            return;
+        }
+        if (m_class->isNumbered(name))
+            settings.addError(QStringLiteral("device"),
+                              QStringLiteral("'%1' is a number that can be another one after the next start; write the "
+                                             "name, label or place of the device ('qtplc_hardware FILE --monitor' "
+                                             "lists the names when one is wrong)")
+                                  .arg(name));
+        if (m_class->kind == SysfsClass::Counter)
+            configureCounter(settings);
+        else if (m_class->kind == SysfsClass::Pwm)
+            configurePwm(settings);
+        else if (m_class->kind == SysfsClass::Thermometer && interval() < ShortestThermometerInterval)
+            settings.addError(QStringLiteral("interval"),
+                              QStringLiteral("a thermometer on a 1-wire bus measures for 0.75 s; write an interval of "
+                                             "1 s or more, for example 'interval = 2 s'"));
+    }
+
+    QPlcChannel *channel(const QString &name, QPlcChannel::Direction direction, QString *error) override
+    {
+        if (QPlcChannel *known = QPlcDriver::channel(name, direction, error))
+            return known;
+        if (m_class && direction == QPlcChannel::Write && m_class->kind != SysfsClass::Pwm)
+            *error = QStringLiteral("%1 of %2 can only be read; of these devices, only PWM takes values")
+                         .arg(quoted(name), m_device);
+        else if (m_class)  // else the key 'device' has an error already
+            *error = problemOfName(name);
+        if (!error->isEmpty())
+            return nullptr;
+        if (direction == QPlcChannel::Write) {
+            m_outputs.push_back(std::make_unique<Output>(this, name, settingsOf(name)));
+            return &m_outputs.back()->channel;
+        }
+        m_inputs.push_back(std::make_unique<Input>(this, name, settingsOf(name)));
+        return &m_inputs.back()->channel;
+    }
+
+    QStringList channelNames(QPlcChannel::Direction direction) const override
+    {
+        if (m_class && m_class->kind == SysfsClass::Thermometer && direction == QPlcChannel::Read)
+            return {QStringLiteral("temperature")};
+        return QPlcDriver::channelNames(direction);
+    }
+
+    bool open() override
+    {
+        QString error;
+        const QString path = m_class->find(m_root, m_device.section(QLatin1Char(':'), 1), &error);
+        m_health.reset();
+        m_hasFailed = false;
+        if (path.isEmpty())
+            return fail(error);
+        if (!m_folder.open(path))
+            return failAt("open", {});
+        for (const auto &input : m_inputs) {
+            if (!openInput(input.get()))
+                return false;
+        }
+        for (const auto &output : m_outputs) {
+            if (!output->pwm.open(&m_folder))
+                return failAt("open", output->pwm.file());
+        }
+        return true;
+    }
+
+    void close() override { m_folder.close(); }
+
+    bool read() override
+    {
+        if (m_hasFailed)
+            return true;  // as write() has told
+        for (const auto &input : m_inputs) {
+            double value = 0.0;
+            if (!repeat([&] { return readInput(input.get(), &value); }))
+                return keepAfter("read", input->file);
+            input->channel.set(value);
+        }
+        m_health.succeed(now());
+        m_errors.set(double(m_health.errors()), now());
+        return true;
+    }
+
+    // In each interval: what somebody else has changed gets its value back.
+    bool write() override
+    {
+        m_hasFailed = false;
+        for (const auto &output : m_outputs) {
+            if (output->channel.hasValue() && !repeat([&] { return output->pwm.setDuty(output->channel.value()); }))
+                return keepAfter("write", output->pwm.file());
+        }
+        return true;
+    }
+
+    QString remedy(int errorNumber) const override
+    {
+        switch (errorNumber) {
+        case ENOENT:
+        case ENODEV:
+        case ENXIO:
+            return QStringLiteral("the device or the driver of the kernel is gone: plug it in again");
+        case EACCES:
+        case EPERM:
+        case EROFS:
+            return QStringLiteral("the file belongs to root, or the service sees /sys read-only: see the section on "
+                                  "rights of docs/hardware/sysfs.md");
+        case EBUSY:
+            return QStringLiteral("another program uses it: it has switched on the buffer of an IIO device, or has the "
+                                  "channel");
+        case EBADMSG:
+            return QStringLiteral("look at the device, or name another channel");
+        case EFBIG:
+        case ENOTSUP:
+            return QStringLiteral("this is no file of the kernel: look at 'root'");
+        case EINVAL:
+            return QStringLiteral("the chip cannot do this: look at 'period' and 'polarity', or 'function'");
+        default:
+            return QPlcDriver::remedy(errorNumber);
+        }
+    }
+
+private:
+    struct Input
+    {
+        Input(QPlcDriver *driver, const QString &name, const SysfsPwm::Settings &settings)
+            : channel(driver, name)
+            , pwm(name.toUtf8(), settings)
+        {
+        }
+        QPlcReadChannel channel;
+        SysfsPwm pwm;         // of PWM
+        QByteArray file;      // of the others
+        double offset = 0.0;  // value = (number + offset) * factor
+        double factor = 1.0;
+    };
+    struct Output
+    {
+        Output(QPlcDriver *driver, const QString &name, const SysfsPwm::Settings &settings)
+            : channel(driver, name)
+            , pwm(name.toUtf8(), settings)
+        {
+            channel.setRange(0.0, 1.0);
+            channel.setRestValue(0.0);
+        }
+        QPlcWriteChannel channel;  // 0 ... 1
+        SysfsPwm pwm;
+    };
+
+    // ---- keys ----
+
+    void configureCounter(QPlcDriverSettings &settings)
+    {
+        m_function = settings.text(QStringLiteral("function")).toUtf8();
+        m_isSigned = settings.has(QStringLiteral("bits"));
+        m_bits = int(settings.integer(QStringLiteral("bits"), 64, 8, 64));
+    }
+
+    void configurePwm(QPlcDriverSettings &settings)
+    {
+        settings.claim(QStringLiteral("device"), QStringLiteral("chip ") + m_device);
+        settings.requiredText(QStringLiteral("period"), QStringLiteral("20 ms"));
+        m_common = pwmSettings(settings, QString(), {std::chrono::nanoseconds(20ms).count(), false});
+        for (const QString &key : {QStringLiteral("period."), QStringLiteral("polarity.")}) {
+            for (const QString &name : settings.namesBehind(key))
+                m_special[name] = pwmSettings(settings, QLatin1Char('.') + name, m_common);
+        }
+    }
+
+    static SysfsPwm::Settings pwmSettings(QPlcDriverSettings &settings, const QString &suffix,
+                                          const SysfsPwm::Settings &common)
+    {
+        SysfsPwm::Settings result;
+        result.period
+            = settings.duration(QStringLiteral("period") + suffix, std::chrono::nanoseconds(common.period), 100ns, 10s)
+                  .count();
+        result.isInversed
+            = settings.choice(QStringLiteral("polarity") + suffix,
+                              {QStringLiteral("normal"), QStringLiteral("inversed")}, common.isInversed ? 1 : 0)
+            == 1;
+        return result;
+    }
+
+    SysfsPwm::Settings settingsOf(const QString &name) const { return m_special.value(name, m_common); }
+
+    /// Of a channel; empty: it may be there.
+    QString problemOfName(const QString &name) const
+    {
+        static const QRegularExpression usual(QStringLiteral("^[A-Za-z0-9][A-Za-z0-9_.:#-]*$"));
+        static const QRegularExpression pwm(QStringLiteral("^pwm\\d{1,3}$"));
+        if (m_class->kind == SysfsClass::Thermometer && name != QLatin1String("temperature"))
+            return QStringLiteral("a thermometer on a 1-wire bus has no channel %1; its channel is 'temperature'")
+                .arg(quoted(name));
+        if (m_class->kind == SysfsClass::Pwm && !pwm.match(name).hasMatch())
+            return QStringLiteral("%1 is not a channel of a PWM chip; they are pwm0, pwm1, ...").arg(quoted(name));
+        if (!usual.match(name).hasMatch())
+            return QStringLiteral("%1 is not the name of a channel; write it as the kernel does, for example voltage0, "
+                                  "accel_x, temp1 or count0")
+                .arg(quoted(name));
+        return {};
+    }
+
+    // ---- the device ----
+
+    bool openInput(Input *input)
+    {
+        const QByteArray name = input->channel.name().toUtf8();
+        bool isFound = true;
+        switch (m_class->kind) {
+        case SysfsClass::Iio:
+            isFound = findIio(input, name);
+            break;
+        case SysfsClass::Hwmon:
+            isFound = findHwmon(input, name);
+            break;
+        case SysfsClass::Counter:
+            isFound = findCounter(input, name);
+            return isFound ? startCounter(input->file.left(input->file.indexOf('/'))) : failUnknown(name);
+        case SysfsClass::Thermometer:
+            input->file = "w1_slave";
+            break;
+        case SysfsClass::Pwm:
+            return input->pwm.open(&m_folder) || failAt("open", input->pwm.file());
+        }
+        return isFound || failUnknown(name);
+    }
+
+    bool findIio(Input *input, const QByteArray &channel)
+    {
+        const QByteArray name = labelled(channel, QByteArrayLiteral("in_"), QByteArrayLiteral("_label"));
+        const bool isRaw = !m_folder.has("in_" + name + "_input");  // else the driver has converted it already
+        input->file = "in_" + name + (isRaw ? "_raw" : "_input");
+        input->factor = SysfsText::iioUnit(name);
+        input->offset = 0.0;
+        if (isRaw) {
+            input->factor *= firstNumber(SysfsText::iioFiles(name, "scale"), 1.0);
+            input->offset = firstNumber(SysfsText::iioFiles(name, "offset"), 0.0);
+        }
+        return m_folder.has(input->file);
+    }
+
+    bool findHwmon(Input *input, const QByteArray &channel)
+    {
+        const QByteArray name = labelled(channel, QByteArray(), QByteArrayLiteral("_label"));
+        input->file = name + "_input";
+        if (!m_folder.has(input->file))
+            input->file = name + "_average";
+        input->factor = SysfsText::hwmonUnit(name);
+        return m_folder.has(input->file);
+    }
+
+    bool findCounter(Input *input, const QByteArray &channel)
+    {
+        input->file = labelled(channel, QByteArray(), QByteArrayLiteral("/name")) + "/count";
+        return m_folder.has(input->file);
+    }
+
+    bool startCounter(const QByteArray &count)
+    {
+        QByteArray text;
+        const QByteArray function = count + "/function";
+        const QByteArray enable = count + "/enable";
+        if (!m_function.isEmpty()
+            && (!m_folder.read(function, &text)
+                || (text.trimmed() != m_function && !m_folder.write(function, m_function))))
+            return failAt("set", function);
+        if (m_folder.read(enable, &text) && text.trimmed() == "0" && !m_folder.write(enable, "1"))
+            return failAt("set", enable);
+        return true;
+    }
+
+    /// The channel whose label is \a channel; \a channel itself, if none has it.
+    QByteArray labelled(const QByteArray &channel, const QByteArray &prefix, const QByteArray &file) const
+    {
+        const bool isFolder = file.startsWith('/');
+        for (const QByteArray &entry : m_folder.files(QString::fromLatin1(prefix + '*' + (isFolder ? "" : file)))) {
+            QByteArray text;
+            if (m_folder.read(isFolder ? entry + file : entry, &text) && text.trimmed() == channel)
+                return entry.mid(prefix.size(), isFolder ? -1 : entry.size() - prefix.size() - file.size());
+        }
+        return channel;
+    }
+
+    double firstNumber(const QByteArrayList &files, double fallback) const
+    {
+        for (const QByteArray &file : files) {
+            QByteArray text;
+            const std::optional<double> number = m_folder.read(file, &text) ? SysfsText::number(text) : std::nullopt;
+            if (number)
+                return *number;
+        }
+        return fallback;
+    }
+
+    QStringList knownChannels() const
+    {
+        const bool isCounter = m_class->kind == SysfsClass::Counter;
+        const bool isIio = m_class->kind == SysfsClass::Iio;
+        QStringList names;
+        for (const char *pattern : {isCounter ? "count*" : isIio ? "in_*_raw" : "*_input", isIio ? "in_*_input" : ""}) {
+            for (const QByteArray &file : m_folder.files(QString::fromLatin1(pattern))) {
+                const QByteArray name = isIio ? file.mid(3) : file;
+                names << QString::fromUtf8(isCounter ? name : name.left(name.lastIndexOf('_')));
+            }
+        }
+        names.removeDuplicates();
+        return names;
+    }
+
+    bool failUnknown(const QByteArray &channel)
+    {
+        return fail(QStringLiteral("%1 has no channel %2%3")
+                        .arg(m_device, quoted(QString::fromUtf8(channel)), knownAre(knownChannels())));
+    }
+
+    bool readInput(Input *input, double *value)
+    {
+        m_problem = nullptr;
+        if (m_class->kind == SysfsClass::Pwm) {
+            input->file = input->pwm.file();
+            return input->pwm.readDuty(value);
+        }
+        QByteArray text;
+        if (!m_folder.read(input->file, &text))
+            return false;
+        if (m_class->kind == SysfsClass::Thermometer) {
+            const SysfsText::Thermometer reading = SysfsText::thermometer(text);
+            m_problem = reading.problem;
+            *value = reading.temperature;
+            errno = EBADMSG;
+            return !m_problem;
+        }
+        const std::optional<double> number = m_class->kind == SysfsClass::Counter
+            ? SysfsText::count(text, m_bits, m_isSigned)
+            : SysfsText::number(text);
+        errno = EBADMSG;
+        if (number)
+            *value = (*number + input->offset) * input->factor;
+        else
+            m_problem = "what it says is no number; look at the device, or name another channel";
+        return number.has_value();
+    }
+
+    template<typename Access>
+    bool repeat(Access access)
+    {
+        for (int left = m_health.attempts(m_retries); left > 0; --left) {
+            if (access())
+                return true;
+            m_errorNumber = errno;
+            m_health.countError();
+            if (isGone())
+                break;
+        }
+        m_hasFailed = true;
+        errno = m_errorNumber;
+        return false;
+    }
+
+    bool isGone() const { return m_errorNumber == ENODEV || m_errorNumber == ENOENT; }
+
+    /// \return false when the device is lost
+    bool keepAfter(const char *operation, const QByteArray &file)
+    {
+        const int errorNumber = m_errorNumber;
+        m_health.fail(now(), timeout().count());
+        m_errors.set(double(m_health.errors()), now());
+        errno = errorNumber;
+        failAt(operation, file);
+        return !isGone() && !m_health.isLost(now(), timeout().count());
+    }
+
+    bool failAt(const char *operation, const QByteArray &file)
+    {
+        const int errorNumber = errno;
+        const QString place = file.isEmpty() ? QString() : QStringLiteral("'%1' of ").arg(QString::fromUtf8(file));
+        const QString what
+            = QStringLiteral("cannot %1 %2%3 (%4)").arg(QLatin1String(operation), place, m_device, m_folder.path());
+        if (m_problem && errorNumber == EBADMSG)
+            return fail(what + QStringLiteral(": ") + QLatin1String(m_problem));
+        return fail(QStringLiteral("%1: %2; %3").arg(what, qt_error_string(errorNumber), remedy(errorNumber)));
+    }
+
+    QString m_root;
+    QString m_device;  // "iio:ads1115"
+    const SysfsClass *m_class = nullptr;
+    int m_retries = DeviceHealth::DefaultRetries;
+    QByteArray m_function;  // of a counter
+    bool m_isSigned = false;
+    int m_bits = 64;
+    SysfsPwm::Settings m_common;
+    QMap<QString, SysfsPwm::Settings> m_special;  // of channels with keys of their own
+
+    SysfsFolder m_folder;
+    DeviceHealth m_health;
+    bool m_hasFailed = false;         // in this turn
+    int m_errorNumber = 0;            // of the last access
+    const char *m_problem = nullptr;  // with what the last one said
+    QPlcReadChannel m_errors{this, QStringLiteral("@errors")};
+    std::vector<std::unique_ptr<Input>> m_inputs;
+    std::vector<std::unique_ptr<Output>> m_outputs;
+};
+
+}  // namespace
+
+std::unique_ptr<QPlcDriver> createSysfsDriver()
+{
+    return std::make_unique<SysfsDriver>();
+}
+
+}  // namespace qplc

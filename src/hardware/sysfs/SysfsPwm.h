@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "SysfsFolder.h"
+
+namespace qplc {
+
+/// A channel of a PWM chip in sysfs. Nothing is changed at the device before setDuty().
+class SysfsPwm
+{
+public:
+    struct Settings
+    {
+        qint64 period = 0;  // [ns]
+        bool isInversed = false;
+    };
+
+    /// \param name  "pwm0"
+    SysfsPwm(const QByteArray &name, const Settings &settings)
+        : m_name(name)
+        , m_settings(settings)
+    {
+    }
+
+    /// Asks the kernel for the channel. \param chip  stays open as long as the channel is used
+    /// \return false, with errno and file()
+    bool open(const SysfsFolder *chip);
+    /// Sets what differs, and switches the channel on. \param duty  0 ... 1; what is less or no
+    /// number counts as 0, what is more as 1
+    bool setDuty(double duty);
+    /// What the kernel puts out: 0 while the channel is switched off.
+    bool readDuty(double *duty) const;
+
+    /// That was used last, in the folder of the chip.
+    QByteArray file() const { return m_file; }
+
+private:
+    bool waitForAccess() const;
+    bool setUp();
+    bool read(const char *file, qint64 *number) const;
+    bool write(const char *file, qint64 number);
+    bool setNumber(const char *file, qint64 number);
+    bool setPolarity();
+
+    const QByteArray m_name;
+    const Settings m_settings;
+    const SysfsFolder *m_chip = nullptr;
+    bool m_isSetUp = false;
+    mutable QByteArray m_file;
+};
+
+}  // namespace qplc
