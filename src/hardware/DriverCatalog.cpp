@@ -29,6 +29,9 @@ DriverCatalog::DriverCatalog()
         {QStringLiteral("registers and coils of a Modbus device, over TCP or a serial line (RTU)"),
          createModbusDriver});
     add(QStringLiteral("mpu6050"), {QStringLiteral("inertial sensor MPU-6050 on I2C"), createMpu6050Driver});
+    add(QStringLiteral("nmea-gnss"),
+        {QStringLiteral("receiver for satellite navigation on a serial line that speaks NMEA 0183"),
+         createNmeaGnssDriver});
     add(QStringLiteral("nmea-wind"),
         {QStringLiteral("wind sensor on a serial line that speaks NMEA 0183"), createNmeaWindDriver});
     add(QStringLiteral("sysfs"),

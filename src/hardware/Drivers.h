@@ -17,6 +17,7 @@ std::unique_ptr<QPlcDriver> createI2cRegistersDriver();
 std::unique_ptr<QPlcDriver> createMcp3208Driver();
 std::unique_ptr<QPlcDriver> createModbusDriver();
 std::unique_ptr<QPlcDriver> createMpu6050Driver();
+std::unique_ptr<QPlcDriver> createNmeaGnssDriver();
 std::unique_ptr<QPlcDriver> createNmeaWindDriver();
 std::unique_ptr<QPlcDriver> createSysfsDriver();
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "FuzzInput.h"
+#include "hardware/serial/NmeaFix.h"
 #include "hardware/serial/NmeaStream.h"
 #include "hardware/serial/NmeaWind.h"
 
@@ -19,9 +20,24 @@ void checkWind(const qplc::NmeaWind::Wind &wind)
     checkNumber(wind.angle, 0.0, 6.2831853072, "an angle is one of a turn");
 }
 
+void checkFix(const qplc::NmeaFix &fix)
+{
+    constexpr double halfTurn = 3.1415926536;
+    checkNumber(fix.latitude, -halfTurn / 2, halfTurn / 2, "a latitude is on the globe");
+    checkNumber(fix.longitude, -halfTurn, halfTurn, "a longitude is on the globe");
+    checkNumber(fix.altitude, -1e4, 1e6, "an altitude is one of a vehicle");
+    checkNumber(fix.speed, 0.0, 1e6, "a speed over ground is not negative");
+    checkNumber(fix.course, 0.0, 2 * halfTurn, "a course is one of a turn");
+    checkNumber(fix.time, 315532800.0, 3471292801.0, "a time is one of the years 1980 to 2079");
+    checkNumber(fix.quality, 0.0, 8.0, "a quality is one of those that there are");
+    fuzz::check(!fix.latitude || fix.hasPosition.value_or(false), "a position was measured");
+    fuzz::check(!fix.course || fix.hasMotion.value_or(false), "a course was measured");
+}
+
 }  // namespace
 
-// Input: what comes from a serial line. What is found in it are sentences, and their wind is wind.
+// Input: what comes from a serial line. What is found in it are sentences, their wind is wind, and
+// their position is one.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size)
 {
     qplc::NmeaStream stream;
@@ -31,6 +47,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
             continue;
         const qplc::NmeaSentence &sentence = stream.sentence();
         fuzz::check(!sentence.talker().isEmpty() && !sentence.type().isEmpty(), "a sentence has a talker and a type");
+        checkFix(qplc::NmeaFix::read(sentence));
         const qplc::NmeaWind wind = qplc::NmeaWind::read(sentence);
         checkWind(wind.relative);
         checkWind(wind.theoretical);

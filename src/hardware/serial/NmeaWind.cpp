@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "NmeaWind.h"
 
+#include "NmeaUnits.h"
+
 #include <cmath>
 
 namespace qplc {
 
 namespace {
 
-constexpr double MetresPerSecondOfKnot = 1852.0 / 3600.0;
-constexpr double MetresPerSecondOfKmh = 1.0 / 3.6;
 constexpr double MetresPerSecondOfMph = 0.44704;
 constexpr double PascalOfBar = 1e5;
 constexpr double TwoPi = 2 * 3.14159265358979323846;

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "TestDevice.h"
-#include "hardware/serial/NmeaSentence.h"
 #include "hardware/serial/SerialLine.h"
+#include "serial/NmeaLines.h"
 #include "serial/PseudoTerminal.h"
 
 /// A wind sensor that talks as often as it may. At a pseudo-terminal, or at the other end of a real
@@ -48,9 +48,7 @@ public:
     {
         if (!m_isTalking)
             return;
-        const QByteArray body = "WIMWV,45,R," + QByteArray::number(m_speed) + ",M,A";
-        const quint8 sum = qplc::NmeaSentence::checksum(body.constData(), body.size());
-        const QByteArray line = '$' + body + '*' + QByteArray::number(sum, 16).rightJustified(2, '0') + "\r\n";
+        const QByteArray line = nmeaLine("WIMWV,45,R," + QByteArray::number(m_speed) + ",M,A");
         if (m_parts.isEmpty())
             m_pseudo.send(line);
         else
@@ -66,10 +64,51 @@ private:
     double m_speed = 0.0;
 };
 
+/// A receiver for satellite navigation that rises.
+class GnssReceiverDevice : public TestDevice
+{
+public:
+    QString kind() const override { return QStringLiteral("nmea-gnss"); }
+    QByteArray keys() const override { return "device = fake:gnss\n"; }
+    QString name() const override { return QStringLiteral("fake:gnss"); }
+    QStringList inputs() const override { return {QStringLiteral("altitude")}; }
+    QVector<double> values() const override { return {-3.5, 545.25}; }
+
+    bool plugIn() override
+    {
+        m_isTalking = m_pseudo.plugIn(name());
+        return m_isTalking;
+    }
+    bool unplug() override
+    {
+        m_isTalking = false;
+        m_pseudo.unplug();
+        return true;
+    }
+    bool fallSilent() override
+    {
+        m_isTalking = false;
+        return true;
+    }
+    void live() override
+    {
+        if (m_isTalking)
+            m_pseudo.send(nmeaLine("GPGGA,120000,4807.038,N,01131.000,E,1,08,0.9," + QByteArray::number(m_altitude)
+                                   + ",M,46.9,M,,"));
+    }
+    void give(const QString &, double value) override { m_altitude = value; }
+
+private:
+    PseudoTerminal m_pseudo;
+    bool m_isTalking = false;
+    double m_altitude = 0.0;
+};
+
 inline void addSerialDevices(TestDevices *devices)
 {
     devices->insert(QStringLiteral("nmea-wind, fake"),
                     [] { return std::make_unique<WindSensorDevice>(QStringList()); });
+    devices->insert(QStringLiteral("nmea-gnss, fake"), [] { return std::make_unique<GnssReceiverDevice>(); });
     const QStringList parts = testDeviceParts("QTPLC_TEST_SERIAL");
     if (parts.size() == 2)
         devices->insert(QStringLiteral("nmea-wind, real line"),

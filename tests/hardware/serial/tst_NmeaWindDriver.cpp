@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "../DriverBench.h"
 #include "../FakeDevices.h"
+#include "NmeaLines.h"
 #include "PseudoTerminal.h"
-#include "hardware/serial/NmeaSentence.h"
 
 #include <QtTest/QtTest>
 
@@ -10,12 +10,6 @@ using namespace qplc;
 using namespace std::chrono_literals;
 
 namespace {
-
-QByteArray line(const QByteArray &body)
-{
-    return '$' + body + '*'
-        + QByteArray::number(NmeaSentence::checksum(body.constData(), body.size()), 16).rightJustified(2, '0') + "\r\n";
-}
 
 /// A sensor at the far end of a line.
 struct Sensor
@@ -61,7 +55,7 @@ void tst_NmeaWindDriver::windComesInSiUnits()
     QVERIFY2(sensor.bench.open(), qPrintable(sensor.bench.errorString()));
     QVERIFY(sensor.bench.exchange());
     QVERIFY(!sensor.bench.isFresh("relativeSpeed"));
-    QVERIFY(sensor.say(line("WIMWV,90,R,36,K,A") + line("WIMWV,180,T,7.5,M,A") + line("WIXDR,C,12.5,C,0")));
+    QVERIFY(sensor.say(nmeaLine("WIMWV,90,R,36,K,A") + nmeaLine("WIMWV,180,T,7.5,M,A") + nmeaLine("WIXDR,C,12.5,C,0")));
     QCOMPARE(sensor.bench.value("relativeSpeed"), 10.0);
     QCOMPARE(sensor.bench.value("relativeAngle"), M_PI / 2);
     QCOMPARE(sensor.bench.value("trueSpeed"), 7.5);
@@ -74,7 +68,7 @@ void tst_NmeaWindDriver::sentencesMayComeInPieces()
 {
     Sensor sensor;
     QVERIFY2(sensor.bench.open(), qPrintable(sensor.bench.errorString()));
-    const QByteArray bytes = line("WIMWV,90,R,10,M,A");
+    const QByteArray bytes = nmeaLine("WIMWV,90,R,10,M,A");
     for (const char byte : bytes.chopped(1))
         QVERIFY(sensor.say(QByteArray(1, byte)));
     QVERIFY(sensor.say("\n"));
@@ -87,7 +81,7 @@ void tst_NmeaWindDriver::aValueIsFreshForItsTimeout()
          {std::pair<QByteArray, std::chrono::nanoseconds>{"", 2500ms}, {"timeout = 300 ms\n", 300ms}}) {
         Sensor sensor(keys);
         QVERIFY2(sensor.bench.open(), qPrintable(sensor.bench.errorString()));
-        QVERIFY(sensor.say(line("WIMWV,90,R,10,M,A")));
+        QVERIFY(sensor.say(nmeaLine("WIMWV,90,R,10,M,A")));
         sensor.bench.advance(timeout);
         QVERIFY(sensor.bench.exchange());
         QVERIFY(sensor.bench.isFresh("relativeSpeed"));
@@ -101,8 +95,8 @@ void tst_NmeaWindDriver::windMarkedInvalidIsNotFresh()
 {
     Sensor sensor;
     QVERIFY2(sensor.bench.open(), qPrintable(sensor.bench.errorString()));
-    QVERIFY(sensor.say(line("WIMWV,90,R,10,M,A") + line("WIMWV,90,T,8,M,A")));
-    QVERIFY(sensor.say(line("WIMWV,90,R,10,M,V")));
+    QVERIFY(sensor.say(nmeaLine("WIMWV,90,R,10,M,A") + nmeaLine("WIMWV,90,T,8,M,A")));
+    QVERIFY(sensor.say(nmeaLine("WIMWV,90,R,10,M,V")));
     QVERIFY(!sensor.bench.isFresh("relativeSpeed"));
     QVERIFY(!sensor.bench.isFresh("relativeAngle"));
     QCOMPARE(sensor.bench.value("trueSpeed"), 8.0);
@@ -125,7 +119,7 @@ void tst_NmeaWindDriver::aWrongRateIsNamed()
              qPrintable(error));
     // It is tried again, and the sensor may be set right meanwhile.
     QVERIFY2(sensor.bench.open(), qPrintable(sensor.bench.errorString()));
-    QVERIFY(sensor.say(line("WIMWV,90,R,10,M,A")));
+    QVERIFY(sensor.say(nmeaLine("WIMWV,90,R,10,M,A")));
     QCOMPARE(sensor.bench.value("relativeSpeed"), 10.0);
 }
 
@@ -133,7 +127,7 @@ void tst_NmeaWindDriver::aSilentSensorIsNamed()
 {
     Sensor sensor;
     QVERIFY2(sensor.bench.open(), qPrintable(sensor.bench.errorString()));
-    QVERIFY(sensor.say(line("WIMWV,90,R,10,M,A")));
+    QVERIFY(sensor.say(nmeaLine("WIMWV,90,R,10,M,A")));
     sensor.bench.advance(5s);
     QVERIFY(sensor.bench.exchange());
     sensor.bench.advance(1ms);
@@ -146,10 +140,10 @@ void tst_NmeaWindDriver::anotherInstrumentIsNamed()
 {
     Sensor sensor;
     QVERIFY2(sensor.bench.open(), qPrintable(sensor.bench.errorString()));
-    QVERIFY(sensor.say(line("GPGGA,1")));
+    QVERIFY(sensor.say(nmeaLine("GPGGA,1")));
     for (int i = 0; i < 5; ++i) {
         sensor.bench.advance(1s);
-        QVERIFY(sensor.say(line("GPGGA,1")));
+        QVERIFY(sensor.say(nmeaLine("GPGGA,1")));
     }
     sensor.bench.advance(1ms);
     QVERIFY(!sensor.bench.exchange());
@@ -161,7 +155,7 @@ void tst_NmeaWindDriver::aLineThatIsUnpluggedIsOpenedAgain()
 {
     Sensor sensor;
     QVERIFY2(sensor.bench.open(), qPrintable(sensor.bench.errorString()));
-    QVERIFY(sensor.say(line("WIMWV,90,R,10,M,A")));
+    QVERIFY(sensor.say(nmeaLine("WIMWV,90,R,10,M,A")));
     sensor.far.unplug();
     QVERIFY(!sensor.bench.exchange());
     QVERIFY(!sensor.bench.isFresh("relativeSpeed"));
@@ -171,7 +165,7 @@ void tst_NmeaWindDriver::aLineThatIsUnpluggedIsOpenedAgain()
     QVERIFY(!sensor.bench.open());
     QVERIFY(sensor.far.plugIn("fake:wind"));
     QVERIFY2(sensor.bench.open(), qPrintable(sensor.bench.errorString()));
-    QVERIFY(sensor.say(line("WIMWV,90,R,11,M,A")));
+    QVERIFY(sensor.say(nmeaLine("WIMWV,90,R,11,M,A")));
     QCOMPARE(sensor.bench.value("relativeSpeed"), 11.0);
 }
 
