@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "FakeI2cBus.h"
 
+#include <algorithm>
 #include <cerrno>
 
 namespace qplc {
@@ -12,7 +13,7 @@ std::unique_ptr<FakeI2cBus> FakeI2cBus::open(const QString &device, int address,
     return bus->m_memory.open(device, Size, error) ? std::move(bus) : nullptr;
 }
 
-bool FakeI2cBus::answers() const noexcept
+bool FakeI2cBus::answers(int first, int count) const noexcept
 {
     if (!m_memory.isThere()) {
         errno = ENODEV;
@@ -23,24 +24,29 @@ bool FakeI2cBus::answers() const noexcept
     if (now > 1)
         mark.store(quint8(now - 1));
     errno = ENXIO;
-    return now == 1;
-}
-
-bool FakeI2cBus::read(quint8 first, quint8 *bytes, int count) noexcept
-{
-    if (!answers())
+    if (now != 1 || placeOf(m_address, first + count) > Size)
         return false;
-    for (int i = 0; i < count; ++i)
-        bytes[i] = m_memory.at(placeOf(m_address, quint8(first + i))).load();
+    m_memory.at(0).fetch_add(1);
     return true;
 }
 
-bool FakeI2cBus::write(quint8 first, const quint8 *bytes, int count) noexcept
+bool FakeI2cBus::read(int first, quint8 *bytes, int count) noexcept
 {
-    if (!answers())
+    first = std::max(first, 0);
+    if (!answers(first, count))
         return false;
     for (int i = 0; i < count; ++i)
-        m_memory.at(placeOf(m_address, quint8(first + i))).store(bytes[i]);
+        bytes[i] = m_memory.at(placeOf(m_address, first + i)).load();
+    return true;
+}
+
+bool FakeI2cBus::write(int first, const quint8 *bytes, int count) noexcept
+{
+    first = std::max(first, 0);
+    if (!answers(first, count))
+        return false;
+    for (int i = 0; i < count; ++i)
+        m_memory.at(placeOf(m_address, first + i)).store(bytes[i]);
     return true;
 }
 

@@ -24,11 +24,11 @@ public:
 
     static std::unique_ptr<FakeI2cBus> open(const QString &device, int address, QString *error);
 
-    bool read(quint8 first, quint8 *bytes, int count) noexcept override;
-    bool write(quint8 first, const quint8 *bytes, int count) noexcept override;
+    bool read(int first, quint8 *bytes, int count) noexcept override;
+    bool write(int first, const quint8 *bytes, int count) noexcept override;
 
 private:
-    bool answers() const noexcept;
+    bool answers(int first, int count) const noexcept;
 
     FakeMemory m_memory;
     int m_address = 0;

@@ -7,16 +7,22 @@
 
 namespace qplc {
 
-std::unique_ptr<I2cBus> I2cBus::open(const QString &device, int address, QString *error)
+std::unique_ptr<I2cBus> I2cBus::open(const QString &device, int address, QString *error, Numbers numbers)
 {
     if (FakeMemory::isFake(device))
         return FakeI2cBus::open(device, address, error);
-    return openKernelI2cBus(device, address, error);
+    return openKernelI2cBus(device, address, error, numbers);
 }
 
 QString i2cAddressText(int address)
 {
     return QStringLiteral("0x%1").arg(address, 2, 16, QLatin1Char('0'));
+}
+
+QString i2cRegisterText(int reg)
+{
+    return reg == I2cBus::NoRegister ? QStringLiteral("plain bytes")
+                                     : QStringLiteral("register ") + i2cAddressText(reg);
 }
 
 QString i2cRemedy(int errorNumber)
@@ -30,6 +36,9 @@ QString i2cRemedy(int errorNumber)
     case ETIMEDOUT:
         return QStringLiteral("the bus is stuck: SDA or SCL is held low; look at the wires and pull-up resistors, or "
                               "switch the device off and on");
+    case EOPNOTSUPP:
+        return QStringLiteral("the adapter has only SMBus calls, and so neither plain bytes nor registers of 16 bits; "
+                              "take another adapter");
     case EAGAIN:
         return QStringLiteral("another master has the bus");
     case ENODEV:

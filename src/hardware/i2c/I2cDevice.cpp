@@ -16,11 +16,11 @@ void I2cDevice::configure(const QString &device, int address, QPlcDriverSettings
         = int(settings.integer(QStringLiteral("retries"), DeviceHealth::DefaultRetries, 0, DeviceHealth::MostRetries));
 }
 
-bool I2cDevice::open(const QString &device, int address, QString *error)
+bool I2cDevice::open(const QString &device, int address, QString *error, I2cBus::Numbers numbers)
 {
     m_health.reset();
     m_hasFailed = false;
-    m_bus = I2cBus::open(device, address, error);
+    m_bus = I2cBus::open(device, address, error, numbers);
     return bool(m_bus);
 }
 
@@ -32,7 +32,7 @@ bool I2cDevice::repeat(Transfer transfer) noexcept
             return true;
         m_errorNumber = errno;
         m_health.countError();
-        if (m_errorNumber == ENODEV)
+        if (m_errorNumber == ENODEV || m_errorNumber == EOPNOTSUPP)
             break;
     }
     m_hasFailed = true;
@@ -40,12 +40,12 @@ bool I2cDevice::repeat(Transfer transfer) noexcept
     return false;
 }
 
-bool I2cDevice::read(quint8 first, quint8 *bytes, int count) noexcept
+bool I2cDevice::read(int first, quint8 *bytes, int count) noexcept
 {
     return repeat([&] { return m_bus->read(first, bytes, count); });
 }
 
-bool I2cDevice::write(quint8 first, const quint8 *bytes, int count) noexcept
+bool I2cDevice::write(int first, const quint8 *bytes, int count) noexcept
 {
     return repeat([&] { return m_bus->write(first, bytes, count); });
 }

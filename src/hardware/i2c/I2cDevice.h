@@ -24,12 +24,12 @@ public:
 
     /// Claims the address (key `address`) of the bus \a device.
     void configure(const QString &device, int address, QPlcDriverSettings &settings);
-    bool open(const QString &device, int address, QString *error);
+    bool open(const QString &device, int address, QString *error, I2cBus::Numbers numbers = I2cBus::EightBits);
     void close() { m_bus.reset(); }
 
     /// \return false, with errno
-    bool read(quint8 first, quint8 *bytes, int count) noexcept;
-    bool write(quint8 first, const quint8 *bytes, int count) noexcept;
+    bool read(int first, quint8 *bytes, int count) noexcept;
+    bool write(int first, const quint8 *bytes, int count) noexcept;
 
     void begin() noexcept { m_hasFailed = false; }
     bool hasFailed() const noexcept { return m_hasFailed; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "I2cRegister.h"
 
+#include "I2cBus.h"
 #include "signals/MessageText.h"
 
 #include <cmath>
@@ -8,8 +9,6 @@
 namespace qplc {
 
 namespace {
-
-constexpr quint8 LastRegister = 0xff;
 
 bool readType(const QString &name, I2cRegister *result)
 {
@@ -45,9 +44,24 @@ bool readNumber(const QString &word, const QString &name, double *number)
     return isNumber && std::isfinite(*number);
 }
 
+/// "bits 4-15", or "bits 3"
+bool readBits(const QStringList &parts, I2cRegister *result)
+{
+    const QStringList ends = parts.value(1).split(QLatin1Char('-'));
+    bool isLowest = false;
+    bool isHighest = false;
+    const int lowest = ends.first().toInt(&isLowest);
+    const int highest = ends.last().toInt(&isHighest);
+    result->lowestBit = lowest;
+    result->bitCount = highest - lowest + 1;
+    return parts.size() == 2 && ends.size() <= 2 && isLowest && isHighest && lowest >= 0 && highest >= lowest;
+}
+
 bool readWord(const QString &word, I2cRegister *result)
 {
     const QStringList parts = word.split(QLatin1Char(' '));
+    if (parts.first() == QLatin1String("bits") || parts.first() == QLatin1String("bit"))
+        return readBits(parts, result);
     if (word == QLatin1String("write") || word == QLatin1String("read")) {
         result->isWritten = word == QLatin1String("write");
         return true;
@@ -62,56 +76,99 @@ bool readWord(const QString &word, I2cRegister *result)
         && readType(parts.first(), result);
 }
 
-RawNumber registerNumber(const I2cRegister &reg)
-{
-    const RawNumber::Kind kind = reg.type == I2cRegister::Real ? RawNumber::Float
-        : reg.type == I2cRegister::SignedInteger               ? RawNumber::Signed
-                                                               : RawNumber::Unsigned;
-    return {kind, 8 * reg.size};
-}
-
 }  // namespace
 
-QString I2cRegister::read(const QStringList &words, I2cRegister *result)
+QString I2cRegister::read(const QStringList &words, I2cRegister *result, int lastRegister)
 {
     *result = I2cRegister();
     bool isNumber = false;
-    const uint first = words.value(0).trimmed().toUInt(&isNumber, 0);
-    if (!isNumber || first > LastRegister)
-        return QStringLiteral("%1 is not a register; its number comes first, 0 ... 255 or 0x00 ... 0xff")
-            .arg(quoted(words.value(0)));
-    result->first = quint8(first);
+    const QString place = words.value(0).trimmed();
+    const uint first = place.toUInt(&isNumber, 0);
+    if (place == QLatin1String("plain"))
+        result->first = I2cBus::NoRegister;
+    else if (isNumber && first <= uint(lastRegister))
+        result->first = int(first);
+    else
+        return QStringLiteral("%1 is not a register; its number comes first, 0 ... %2 or 0x00 ... 0x%3, or 'plain' for "
+                              "bytes without a register%4")
+            .arg(quoted(words.value(0)))
+            .arg(lastRegister)
+            .arg(lastRegister, 0, 16)
+            .arg(lastRegister > 0xff ? QString()
+                                     : QStringLiteral("; for higher ones write 'register-numbers = 16 bits'"));
     for (const QString &text : words.mid(1)) {
         if (!readWord(text.simplified().toLower(), result))
             return QStringLiteral("%1 is not an option of a register; use a type (int8, uint8, int16, uint16, "
                                   "int24, uint24, int32, uint32, real32, and behind that big-endian or little-endian), "
-                                  "factor X, offset X, read, write")
+                                  "bits M-N, factor X, offset X, read, write")
                 .arg(quoted(text));
     }
-    if (result->first + result->size - 1 > LastRegister)
-        return QStringLiteral("its last byte would be in register %1, and 255 is the last one")
-            .arg(result->first + result->size - 1);
+    return result->check(lastRegister);
+}
+
+QString I2cRegister::check(int lastRegister) const
+{
+    if (first + size - 1 > lastRegister)
+        return QStringLiteral("its last byte would be in register %1, and %2 is the last one")
+            .arg(first + size - 1)
+            .arg(lastRegister);
+    if (isField() && type == Real)
+        return QStringLiteral("some bits of a real32 are no number; use a type of integers with 'bits'");
+    if (isField() && lowestBit + bitCount > 8 * size)
+        return QStringLiteral("bit %1 is not one of its %2 bits; use a longer type, for example 'uint16'")
+            .arg(lowestBit + bitCount - 1)
+            .arg(8 * size);
+    if (isField() && isWritten && first == I2cBus::NoRegister)
+        return QStringLiteral("the other bits of plain bytes are not known; write all of them, without 'bits'");
     return QString();
+}
+
+bool I2cRegister::overlaps(const I2cRegister &other) const
+{
+    if (first == I2cBus::NoRegister || other.first == I2cBus::NoRegister)
+        return first == other.first;
+    if (first >= other.first + other.size || other.first >= first + size)
+        return false;
+    const bool isSamePlace = first == other.first && size == other.size && isBigEndian == other.isBigEndian;
+    const bool isApart = lowestBit >= other.lowestBit + other.bitCount || other.lowestBit >= lowestBit + bitCount;
+    return !(isField() && other.isField() && isSamePlace && isApart);
+}
+
+RawNumber I2cRegister::number() const
+{
+    const RawNumber::Kind kind = type == Real ? RawNumber::Float
+        : type == SignedInteger               ? RawNumber::Signed
+                                              : RawNumber::Unsigned;
+    return {kind, isField() ? bitCount : 8 * size};
 }
 
 RawNumber::Limits I2cRegister::limits() const
 {
-    return registerNumber(*this).limits(factor, offset);
+    return number().limits(factor, offset);
+}
+
+quint64 I2cRegister::join(const quint8 *bytes) const
+{
+    quint64 joined = 0;
+    for (int i = 0; i < size; ++i)
+        joined = joined << 8 | bytes[isBigEndian ? i : size - 1 - i];
+    return joined;
 }
 
 double I2cRegister::valueOf(const quint8 *bytes) const
 {
-    quint64 number = 0;
-    for (int i = 0; i < size; ++i)
-        number = number << 8 | bytes[isBigEndian ? i : size - 1 - i];
-    return factor * registerNumber(*this).decode(number) + offset;
+    return factor * number().decode(join(bytes) >> lowestBit) + offset;
 }
 
 void I2cRegister::bytesOf(double value, quint8 *bytes) const
 {
-    const quint64 number = registerNumber(*this).encode(RawNumber::scaled(value, factor, offset));
+    quint64 bits = number().encode(RawNumber::scaled(value, factor, offset));
+    if (isField()) {
+        const quint64 mask = RawNumber::lowBits(bitCount) << lowestBit;
+        bits = (join(bytes) & ~mask) | (bits << lowestBit & mask);
+    }
     for (int i = 0; i < size; ++i)
-        bytes[isBigEndian ? size - 1 - i : i] = quint8(number >> (8 * i));
+        bytes[isBigEndian ? size - 1 - i : i] = quint8(bits >> (8 * i));
 }
 
 }  // namespace qplc

@@ -8,7 +8,7 @@
 namespace qplc {
 
 /// A number in the registers of a device, as a configuration says it:
-/// `0x3b, int16 big-endian, factor 0.001, offset 0, write`.
+/// `0x3b, int16 big-endian, bits 4-15, factor 0.001, offset 0, write`, or `plain, uint16`.
 struct I2cRegister
 {
     enum Type : quint8 {
@@ -18,21 +18,34 @@ struct I2cRegister
     };
     static constexpr int MostBytes = 4;
 
-    quint8 first = 0;
+    int first = 0;  // or I2cBus::NoRegister
     Type type = UnsignedInteger;
     int size = 1;  // [byte]
+    // Bits of the number that count, 0 is the lowest; bitCount 0: all of them.
+    int lowestBit = 0;
+    int bitCount = 0;
     bool isBigEndian = true;
     double factor = 1.0;  // value = factor * number + offset
     double offset = 0.0;
     bool isWritten = false;
 
     /// \return an empty text, or what is wrong with \a words, and what would be right
-    static QString read(const QStringList &words, I2cRegister *result);
+    static QString read(const QStringList &words, I2cRegister *result, int lastRegister = 0xff);
+
+    bool isField() const { return bitCount > 0; }
+    /// Whether writing both would write a bit twice.
+    bool overlaps(const I2cRegister &other) const;
 
     RawNumber::Limits limits() const;
     double valueOf(const quint8 *bytes) const;
-    /// The nearest number that the registers can hold.
+    /// The nearest number that the registers can hold. Bits of \a bytes that are not of the field
+    /// stay.
     void bytesOf(double value, quint8 *bytes) const;
+
+private:
+    QString check(int lastRegister) const;
+    RawNumber number() const;
+    quint64 join(const quint8 *bytes) const;
 };
 
 }  // namespace qplc

@@ -36,14 +36,16 @@ QString i2cAddressErrorText(const QString &device, int address, int errorNumber)
               .arg(i2cAddressText(address), device, qt_error_string(errorNumber));
 }
 
-/// A device on a bus of the kernel, by its i2c-dev. All calls are SMBus calls, which every adapter
-/// has, also those without plain I2C transfers.
+/// A device on a bus of the kernel, by its i2c-dev. Registers of 8 bits are SMBus calls, which
+/// every adapter has, also those without plain I2C transfers.
 class KernelI2cBus final : public I2cBus
 {
 public:
-    static std::unique_ptr<KernelI2cBus> open(const QString &device, int address, QString *error)
+    static std::unique_ptr<KernelI2cBus> open(const QString &device, int address, QString *error, Numbers numbers)
     {
         auto bus = std::make_unique<KernelI2cBus>();
+        bus->m_address = address;
+        bus->m_numbers = numbers;
         const QString path = DeviceFiles::path(device);
         bus->m_descriptor = ::open(QFile::encodeName(path).constData(), O_RDWR | O_CLOEXEC);
         if (bus->m_descriptor < 0) {
@@ -61,6 +63,10 @@ public:
                          .arg(device);
             return nullptr;
         }
+        if (numbers == SixteenBits && !(bus->m_abilities & I2C_FUNC_I2C)) {
+            *error = QStringLiteral("cannot use registers of 16 bits at %1: %2").arg(device, i2cRemedy(EOPNOTSUPP));
+            return nullptr;
+        }
         return bus;
     }
 
@@ -70,9 +76,39 @@ public:
             ::close(m_descriptor);
     }
 
+    bool read(int first, quint8 *bytes, int count) noexcept override
+    {
+        if (first == NoRegister) {
+            i2c_msg message = {__u16(m_address), I2C_M_RD, __u16(count), bytes};
+            return transfer(&message, 1);
+        }
+        if (m_numbers == EightBits)
+            return readRegisters(first, bytes, count);
+        __u8 number[] = {__u8(first >> 8), __u8(first)};
+        i2c_msg messages[]
+            = {{__u16(m_address), 0, sizeof number, number}, {__u16(m_address), I2C_M_RD, __u16(count), bytes}};
+        return transfer(messages, 2);
+    }
+
+    bool write(int first, const quint8 *bytes, int count) noexcept override
+    {
+        if (first != NoRegister && m_numbers == EightBits)
+            return writeRegisters(first, bytes, count);
+        __u8 all[2 + MostAtOnce] = {__u8(first >> 8), __u8(first)};
+        const int head = first == NoRegister ? 0 : 2;
+        if (count > MostAtOnce) {
+            errno = EMSGSIZE;
+            return false;
+        }
+        std::memcpy(all + head, bytes, std::size_t(count));
+        i2c_msg message = {__u16(m_address), 0, __u16(head + count), all};
+        return transfer(&message, 1);
+    }
+
+private:
     // Blocks come in one transfer, so that bytes of one measurement stay together; an adapter that
     // cannot do them gives words, then single bytes.
-    bool read(quint8 first, quint8 *bytes, int count) noexcept override
+    bool readRegisters(int first, quint8 *bytes, int count) noexcept
     {
         for (int done = 0; done < count;) {
             i2c_smbus_data data = {};
@@ -105,7 +141,7 @@ public:
         return true;
     }
 
-    bool write(quint8 first, const quint8 *bytes, int count) noexcept override
+    bool writeRegisters(int first, const quint8 *bytes, int count) noexcept
     {
         for (int done = 0; done < count;) {
             i2c_smbus_data data = {};
@@ -133,7 +169,15 @@ public:
         return true;
     }
 
-private:
+    bool transfer(i2c_msg *messages, int count) noexcept
+    {
+        i2c_rdwr_ioctl_data data = {messages, __u32(count)};
+        if (m_abilities & I2C_FUNC_I2C)
+            return ::ioctl(m_descriptor, I2C_RDWR, &data) == count;
+        errno = EOPNOTSUPP;
+        return false;
+    }
+
     bool call(bool isRead, quint8 reg, quint32 size, void *data) noexcept
     {
         i2c_smbus_ioctl_data arguments = {};
@@ -145,14 +189,16 @@ private:
     }
 
     int m_descriptor = -1;
+    int m_address = 0;
+    Numbers m_numbers = EightBits;
     unsigned long m_abilities = 0;  // I2C_FUNC_...
 };
 
 }  // namespace
 
-std::unique_ptr<I2cBus> openKernelI2cBus(const QString &device, int address, QString *error)
+std::unique_ptr<I2cBus> openKernelI2cBus(const QString &device, int address, QString *error, I2cBus::Numbers numbers)
 {
-    return KernelI2cBus::open(device, address, error);
+    return KernelI2cBus::open(device, address, error, numbers);
 }
 
 }  // namespace qplc

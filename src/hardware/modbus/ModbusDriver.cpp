@@ -38,7 +38,7 @@ QString exceptionText(ModbusException exception)
             "it does not have all of these addresses (exception 2); they count from 0 here, what a manual "
             "calls 40101 is \"holding 100\"");
     case ModbusException::RefusedValue:
-        return QStringLiteral("it refuses the value (exception 3); look at type, factor and word-order");
+        return QStringLiteral("it refuses the value (exception 3); look at type, factor, word-order and byte-order");
     case ModbusException::DeviceFailure:
         return QStringLiteral("it has failed (exception 4); look at the display or the log of the device");
     case ModbusException::Acknowledge:
@@ -187,8 +187,9 @@ private:
         ModbusRegister defaults;
         const bool isSerial = m_device.startsWith(QLatin1String("rtu:"));
         defaults.unit = quint8(settings.integer(QStringLiteral("unit"), 1, isSerial ? 1 : 0, isSerial ? 247 : 255));
-        defaults.isLowWordFirst
-            = settings.choice(QStringLiteral("word-order"), {QStringLiteral("big"), QStringLiteral("little")}) == 1;
+        const QStringList orders{QStringLiteral("big"), QStringLiteral("little")};
+        defaults.isLowWordFirst = settings.choice(QStringLiteral("word-order"), orders) == 1;
+        defaults.isLowByteFirst = settings.choice(QStringLiteral("byte-order"), orders) == 1;
         const QString prefix = QStringLiteral("register.");
         const QStringList names = settings.namesBehind(prefix);
         for (const QString &name : names) {

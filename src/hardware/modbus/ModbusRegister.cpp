@@ -4,6 +4,7 @@
 #include "signals/MessageText.h"
 
 #include <QtCore/QStringList>
+#include <QtCore/QtEndian>
 
 #include <algorithm>
 #include <cmath>
@@ -109,12 +110,18 @@ private:
         if (key == QLatin1String("offset"))
             return toFinite(value, &m_register.offset) || refuse(part, "a number");
         if (key == QLatin1String("bit"))
-            return readBit(part, value);
+            return readBits(part, value, value, "a number of 0 ... 15");
+        if (key == QLatin1String("bits"))
+            return readBits(part, value.section(QLatin1Char('-'), 0, 0), value.section(QLatin1Char('-'), 1),
+                            "the lowest and the highest bit of 0 ... 15, \"4-7\" for example,");
         if (key == QLatin1String("unit"))
             return readUnit(part, value);
         if (key == QLatin1String("word-order"))
-            return readWordOrder(part, value);
-        return fail(QStringLiteral("%1 is not known: %2, factor, offset, bit, unit and word-order are")
+            return readOrder(part, value, &m_register.isLowWordFirst);
+        if (key == QLatin1String("byte-order"))
+            return readOrder(part, value, &m_register.isLowByteFirst);
+        return fail(QStringLiteral("%1 is not known: %2, factor, offset, bit, bits, unit, word-order and byte-order "
+                                   "are")
                         .arg(quoted(part), typeWords().join(QStringLiteral(", "))));
     }
 
@@ -124,15 +131,17 @@ private:
                         .arg(quoted(part), QLatin1String(right)));
     }
 
-    bool readBit(const QString &part, const QString &value)
+    bool readBits(const QString &part, const QString &lowest, const QString &highest, const char *right)
     {
-        qint64 bit = 0;
-        if (!toWhole(value, 0, 15, &bit))
-            return refuse(part, "a number of 0 ... 15");
+        qint64 first = 0;
+        qint64 last = 0;
+        if (!toWhole(lowest, 0, 15, &first) || !toWhole(highest, first, 15, &last))
+            return refuse(part, right);
         if (m_register.isOfBits())
             return fail(QStringLiteral("%1: a coil or discrete input is a bit itself").arg(quoted(part)));
         m_register.type = ModbusRegister::Bit;
-        m_register.bit = quint8(bit);
+        m_register.bit = quint8(first);
+        m_register.bitCount = quint8(last - first + 1);
         return true;
     }
 
@@ -145,14 +154,16 @@ private:
         return true;
     }
 
-    bool readWordOrder(const QString &part, const QString &value)
+    bool readOrder(const QString &part, const QString &value, bool *isLowFirst)
     {
-        m_register.isLowWordFirst = value == QLatin1String("little");
-        return m_register.isLowWordFirst || value == QLatin1String("big") || refuse(part, "big or little");
+        *isLowFirst = value == QLatin1String("little");
+        return *isLowFirst || value == QLatin1String("big") || refuse(part, "big or little");
     }
 
     bool check()
     {
+        if (m_register.isOfBits())
+            m_register.isLowByteFirst = false;  // that of the section is one of registers
         if (m_register.address + m_register.size() <= 0x10000)
             return true;
         return fail(QStringLiteral("the value takes %1 registers from %2 on, and the last one of a device is 65535")
@@ -171,18 +182,25 @@ int ModbusRegister::size() const
     return std::max(1, modbusNumbers[type].bits / 16);
 }
 
+RawNumber ModbusRegister::number() const
+{
+    return type == Bit ? RawNumber{RawNumber::Unsigned, bitCount} : modbusNumbers[type];
+}
+
 RawNumber::Limits ModbusRegister::limits() const
 {
-    return modbusNumbers[type].limits(factor, offset);
+    return number().limits(factor, offset);
 }
 
 double ModbusRegister::decode(const quint16 *words) const
 {
     const int count = size();
     quint64 bits = 0;
-    for (int i = 0; i < count; ++i)
-        bits = (bits << 16) | words[isLowWordFirst ? count - 1 - i : i];
-    return modbusNumbers[type].decode(type == Bit ? bits >> bit : bits) * factor + offset;
+    for (int i = 0; i < count; ++i) {
+        const quint16 word = words[isLowWordFirst ? count - 1 - i : i];
+        bits = (bits << 16) | (isLowByteFirst ? qbswap(word) : word);
+    }
+    return number().decode(type == Bit ? bits >> bit : bits) * factor + offset;
 }
 
 void ModbusRegister::encode(double value, quint16 *words) const
@@ -190,8 +208,10 @@ void ModbusRegister::encode(double value, quint16 *words) const
     const double raw = RawNumber::scaled(value, factor, offset);
     quint64 bits = type == Bit ? quint64(raw >= 0.5) : modbusNumbers[type].encode(raw);
     const int count = size();
-    for (int i = 0; i < count; ++i, bits >>= 16)
-        words[isLowWordFirst ? i : count - 1 - i] = quint16(bits);
+    for (int i = 0; i < count; ++i, bits >>= 16) {
+        const auto word = quint16(bits);
+        words[isLowWordFirst ? i : count - 1 - i] = isLowByteFirst ? qbswap(word) : word;
+    }
 }
 
 bool ModbusRegister::parse(const QString &text, const ModbusRegister &defaults, ModbusRegister *result, QString *error)

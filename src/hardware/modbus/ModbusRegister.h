@@ -21,9 +21,12 @@ struct ModbusRegister
     Space space = Holding;
     Type type = UInt16;
     quint8 unit = 1;
-    quint8 bit = 0;  // of the register, when it is one of an Input or Holding register; 0 is the lowest
+    // Bits of an Input or Holding register: the lowest of them (0 ... 15), and how many.
+    quint8 bit = 0;
+    quint8 bitCount = 1;
     bool isLowWordFirst = false;
-    quint16 address = 0;  // as on the wire: from 0
+    bool isLowByteFirst = false;  // in each word
+    quint16 address = 0;          // as on the wire: from 0
     double factor = 1.0;
     double offset = 0.0;
 
@@ -31,6 +34,7 @@ struct ModbusRegister
     bool isWritable() const { return space == Coil || (space == Holding && type != Bit); }
     /// How many bits (Coil, Discrete) or registers it takes.
     int size() const;
+    RawNumber number() const;
 
     RawNumber::Limits limits() const;
     /// \param words  size() of them, one for each bit or register

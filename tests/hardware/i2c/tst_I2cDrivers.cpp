@@ -75,6 +75,11 @@ private Q_SLOTS:
     void invalidKeysAreReported_data();
     void invalidKeysAreReported();
     void registersAreReadAndWritten();
+    void writtenBitsLeaveTheOthers();
+    void registersMayHaveNumbersOf16Bits();
+    void plainBytesHaveNoRegister();
+    void neighboursAreReadInOneTransaction_data();
+    void neighboursAreReadInOneTransaction();
     void outputIsWrittenInEveryCycle();
     void setupRegistersAreWrittenOnOpen();
     void deviceWithWrongIdentityIsRefused();
@@ -114,6 +119,12 @@ void tst_I2cDrivers::registersEncodeNumbers_data()
     QTest::newRow("32 bits") << QStringList{"16", "int32"} << QByteArray("80000000") << -2147483648.0;
     QTest::newRow("32 bits, unsigned") << QStringList{"16", "uint32"} << QByteArray("ffffffff") << 4294967295.0;
     QTest::newRow("a real") << QStringList{"16", "real32"} << QByteArray("c0200000") << -2.5;
+    QTest::newRow("some bits") << QStringList{"16", "bits 4-6"} << QByteArray("50") << 5.0;
+    QTest::newRow("one bit") << QStringList{"16", "bit 3"} << QByteArray("08") << 1.0;
+    QTest::newRow("signed bits at the left")
+        << QStringList{"16", "int16", "bits 4-15", "factor 2"} << QByteArray("ffd0") << -6.0;
+    QTest::newRow("bits of three bytes") << QStringList{"16", "uint24 little-endian", "bits 8-19"}
+                                         << QByteArray("00340a") << 2612.0;
     QTest::newRow("factor and offset") << QStringList{"16", "int16", "factor 0.5", "offset -10"} << QByteArray("0003")
                                        << -8.5;
 }
@@ -125,7 +136,7 @@ void tst_I2cDrivers::registersEncodeNumbers()
     I2cRegister reg;
     QCOMPARE(I2cRegister::read(words, &reg), QString());
     const QByteArray bytes = QByteArray::fromHex(hex);
-    QCOMPARE(reg.first, quint8(16));
+    QCOMPARE(reg.first, 16);
     QCOMPARE(reg.size, bytes.size());
     QTEST(reg.valueOf(reinterpret_cast<const quint8 *>(bytes.constData())), "value");
 
@@ -168,6 +179,22 @@ void tst_I2cDrivers::invalidKeysAreReported_data()
     QTest::newRow("an order that is none")
         << QByteArray("address = 0x68\nregister.a = 1, int16 middle\n") << "'int16 middle'";
     QTest::newRow("factor zero") << QByteArray("address = 0x68\nregister.a = 1, factor 0\n") << "'factor 0'";
+    QTest::newRow("wide register") << QByteArray("address = 0x68\nregister.a = 0x1234\n")
+                                   << "write 'register-numbers = 16 bits'";
+    QTest::newRow("too wide register") << QByteArray(
+        "address = 0x68\nregister-numbers = 16 bits\nregister.a = 0x10000\n")
+                                       << "0 ... 65535 or 0x00 ... 0xffff";
+    QTest::newRow("bit behind the last") << QByteArray("address = 0x68\nregister.a = 1, bits 4-8\n")
+                                         << "bit 8 is not one of its 8 bits; use a longer type";
+    QTest::newRow("bits in the wrong order")
+        << QByteArray("address = 0x68\nregister.a = 1, bits 6-4\n") << "'bits 6-4' is not an option";
+    QTest::newRow("bits of a real") << QByteArray("address = 0x68\nregister.a = 1, real32, bits 0-7\n")
+                                    << "some bits of a real32 are no number";
+    QTest::newRow("plain bits that are written")
+        << QByteArray("address = 0x68\nregister.a = plain, bit 1, write\n") << "write all of them, without 'bits'";
+    QTest::newRow("bits that are written twice")
+        << QByteArray("address = 0x68\nregister.a = 1, bits 0-3, write\nregister.b = 1, bits 3-4, write\n")
+        << "'b' and 'a' write the same register";
     QTest::newRow("set up without value")
         << QByteArray("address = 0x68\nregister.a = 1\nsetup = 0x6b\n") << "'0x6b' is not a register with its value";
 }
@@ -196,6 +223,95 @@ void tst_I2cDrivers::registersAreReadAndWritten()
     bus.bench.set("limit", 513.0);
     QVERIFY(bus.bench.exchange());
     QCOMPARE(bus.get(0x30, 2), QByteArray("\x01\x02"));
+}
+
+void tst_I2cDrivers::writtenBitsLeaveTheOthers()
+{
+    Bus bus("i2c-registers",
+            "address = 0x68\nregister.gain = 0x20, bits 4-6, write\nregister.mode = 0x20, bits 0-1, write\n");
+    QCOMPARE(bus.bench.errors() + bus.bench.wireWrite("gain") + bus.bench.wireWrite("mode"), QString());
+    bus.set(0x20, "\xfc");
+    QVERIFY2(bus.bench.open(), qPrintable(bus.bench.errorString()));
+    bus.bench.set("gain", 2.0);
+    bus.bench.set("mode", 9.0);  // as many as there are
+    QVERIFY(bus.bench.exchange());
+    QCOMPARE(bus.get(0x20, 1).toHex(), QByteArray("af"));
+}
+
+void tst_I2cDrivers::registersMayHaveNumbersOf16Bits()
+{
+    Bus bus("i2c-registers",
+            "address = 0x68\nregister-numbers = 16 bits\nidentity = 0x010f 0xea\nsetup = 0x0200 7\n"
+            "register.range = 0x1234, uint16\nregister.limit = 0x1000, uint16, write\n");
+    QCOMPARE(bus.bench.errors() + bus.bench.wireRead("range") + bus.bench.wireWrite("limit"), QString());
+    bus.set(0x010f, "\xea");
+    bus.set(0x1234, "\x01\x02");
+    QVERIFY2(bus.bench.open(), qPrintable(bus.bench.errorString()));
+    bus.bench.set("limit", 772.0);
+    QVERIFY(bus.bench.exchange());
+    QCOMPARE(bus.bench.value("range"), 258.0);
+    QCOMPARE(bus.get(0x0200, 1), QByteArray("\x07"));
+    QCOMPARE(bus.get(0x1000, 2), QByteArray("\x03\x04"));
+}
+
+void tst_I2cDrivers::plainBytesHaveNoRegister()
+{
+    Bus bus("i2c-registers", "address = 0x68\nregister.pins = plain, write\nregister.state = plain, bits 4-7\n");
+    QCOMPARE(bus.bench.errors() + bus.bench.wireRead("state") + bus.bench.wireWrite("pins"), QString());
+    QVERIFY2(bus.bench.open(), qPrintable(bus.bench.errorString()));
+    bus.bench.set("pins", 0xa5);
+    QVERIFY(bus.bench.exchange());
+    QCOMPARE(bus.get(0, 1).toHex(), QByteArray("a5"));
+    QCOMPARE(bus.bench.value("state"), 10.0);
+    bus.memory.at(Address) = 0;
+    bus.bench.advance(1s);
+    QVERIFY(bus.bench.exchange());
+    bus.bench.advance(1s);
+    QVERIFY(!bus.bench.exchange());
+    QVERIFY2(bus.bench.errorString().contains("cannot write plain bytes of the device at 0x68"),
+             qPrintable(bus.bench.errorString()));
+}
+
+void tst_I2cDrivers::neighboursAreReadInOneTransaction_data()
+{
+    QTest::addColumn<QByteArray>("keys");
+    QTest::addColumn<int>("transactions");
+    const QByteArray axes = "register.x = 0x20, int16\nregister.y = 0x22, int16\nregister.z = 0x24, int16\n";
+    QTest::newRow("no burst") << axes << 3;
+    QTest::newRow("burst") << "burst = yes\n" + axes << 1;
+    QTest::newRow("gap") << "burst = yes\n" + axes + "register.t = 0x27\n" << 2;
+    QTest::newRow("one register in another") << "burst = yes\n" + axes + "register.flags = 0x21, bits 0-3\n" << 1;
+    QTest::newRow("plain bytes") << "burst = yes\n" + axes + "register.plain = plain\n" << 2;
+    QByteArray many = "burst = yes\n";
+    for (int i = 0; i < 33; ++i)
+        many += "register.r" + QByteArray::number(i) + " = " + QByteArray::number(0x20 + i) + "\n";
+    QTest::newRow("more than one transaction takes") << many << 2;
+}
+
+void tst_I2cDrivers::neighboursAreReadInOneTransaction()
+{
+    QFETCH(QByteArray, keys);
+    QFETCH(int, transactions);
+    Bus bus("i2c-registers", "address = 0x68\n" + keys);
+    QCOMPARE(bus.bench.errors(), QString());
+    QStringList names;
+    for (const QByteArray &line : keys.split('\n')) {
+        if (line.startsWith("register."))
+            names << line.mid(9, line.indexOf(' ') - 9);
+    }
+    for (const QString &name : names)
+        QCOMPARE(bus.bench.wireRead(name), QString());
+    for (int i = 0; i < 64; ++i)
+        bus.set(0x20 + i, QByteArray(1, char(i)));
+    QVERIFY2(bus.bench.open(), qPrintable(bus.bench.errorString()));
+    const int before = bus.memory.at(0);
+    QVERIFY(bus.bench.exchange());
+    QCOMPARE(quint8(bus.memory.at(0) - before), quint8(transactions));
+    if (names.contains("z"))
+        QCOMPARE(bus.bench.value("z"), 0x0405);
+    else
+        QCOMPARE(bus.bench.value("r32"), 32.0);
+    QVERIFY(std::all_of(names.begin(), names.end(), [&](const QString &name) { return bus.bench.isFresh(name); }));
 }
 
 void tst_I2cDrivers::outputIsWrittenInEveryCycle()

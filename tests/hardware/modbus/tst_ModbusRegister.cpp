@@ -23,6 +23,7 @@ private Q_SLOTS:
     void invalidRegistersAreReported();
     void typesAreEncodedAsTheProtocolDefines_data();
     void typesAreEncodedAsTheProtocolDefines();
+    void bitsOfARegisterAreANumber();
     void randomValuesAreReadBack();
     void valuesOutOfRangeAreSaturated_data();
     void valuesOutOfRangeAreSaturated();
@@ -108,6 +109,14 @@ void tst_ModbusRegister::invalidRegistersAreReported_data()
                                    << "is a bit itself";
     QTest::newRow("bit 16") << "holding 5, bit 16"
                             << "'bit 16' is not valid: a number of 0 ... 15";
+    QTest::newRow("bits of a coil") << "coil 5, bits 1-2"
+                                    << "is a bit itself";
+    QTest::newRow("bits in the wrong order") << "holding 5, bits 7-4"
+                                             << "'bits 7-4' is not valid: the lowest and the highest bit of 0 ... 15";
+    QTest::newRow("bits without an end") << "holding 5, bits 4"
+                                         << "\"4-7\" for example";
+    QTest::newRow("byte order") << "holding 5, byte-order middle"
+                                << "big or little";
     QTest::newRow("factor 0") << "holding 5, factor 0"
                               << "'factor 0' is not valid: a number, not 0";
     QTest::newRow("factor nan") << "holding 5, factor nan"
@@ -146,6 +155,12 @@ void tst_ModbusRegister::typesAreEncodedAsTheProtocolDefines_data()
     QTest::newRow("float32") << "holding 0, float32" << -1.5 << Words{0xbfc0, 0x0000};
     QTest::newRow("float32 little") << "holding 0, float32, word-order little" << -1.5 << Words{0x0000, 0xbfc0};
     QTest::newRow("int64") << "holding 0, int64" << -3.0 << Words{0xffff, 0xffff, 0xffff, 0xfffd};
+    QTest::newRow("uint16, bytes swapped") << "holding 0, byte-order little" << 4660.0 << Words{0x3412};
+    QTest::newRow("int32, bytes swapped") << "holding 0, int32, byte-order little" << -2.0 << Words{0xffff, 0xfeff};
+    QTest::newRow("uint32, bytes and words swapped")
+        << "holding 0, uint32, word-order little, byte-order little" << 305419896.0 << Words{0x7856, 0x3412};
+    QTest::newRow("float32, bytes swapped") << "holding 0, float32, byte-order little" << -1.5 << Words{0xc0bf, 0x0000};
+    QTest::newRow("coil has no bytes") << "coil 0, byte-order little" << 1.0 << Words{1};
     QTest::newRow("float64") << "holding 0, float64" << 1.0 << Words{0x3ff0, 0, 0, 0};
     QTest::newRow("float64 little") << "holding 0, float64, word-order little" << 1.0 << Words{0, 0, 0, 0x3ff0};
 }
@@ -165,12 +180,22 @@ void tst_ModbusRegister::typesAreEncodedAsTheProtocolDefines()
     QCOMPARE(parsed("input 0, bit 3").decode(Words{0xfff7}.data()), 0.0);
 }
 
+void tst_ModbusRegister::bitsOfARegisterAreANumber()
+{
+    QCOMPARE(parsed("input 0, bits 4-7").decode(Words{0xfa5f}.data()), 5.0);
+    QCOMPARE(parsed("holding 0, bits 0-15").decode(Words{0xfffe}.data()), 65534.0);
+    QCOMPARE(parsed("holding 0, bits 9-9").decode(Words{0x0200}.data()), 1.0);
+    QCOMPARE(parsed("holding 0, bits 12-15, factor 0.5, offset -1").decode(Words{0x7fff}.data()), 2.5);
+    QCOMPARE(parsed("holding 0, bits 0-7, byte-order little").decode(Words{0x12ff}.data()), 18.0);
+    QVERIFY(!parsed("holding 0, bits 4-7").isWritable());
+}
+
 void tst_ModbusRegister::randomValuesAreReadBack()
 {
     std::mt19937 random(1);
     std::uniform_real_distribution<double> any(-32768.0, 32767.0);
     for (const char *type : {"int16", "int32", "int64", "float32", "float64"}) {
-        for (const char *order : {"big", "little"}) {
+        for (const char *order : {"big", "little", "big, byte-order little", "little, byte-order little"}) {
             const ModbusRegister place = parsed(QStringLiteral("holding 0, %1, word-order %2").arg(type, order));
             for (int i = 0; i < 1000; ++i) {
                 const double value = place.type == ModbusRegister::Float64 ? any(random) : std::round(any(random));
