@@ -22,6 +22,9 @@ DriverCatalog::DriverCatalog()
     add(QStringLiteral("canopen-device"),
         {QStringLiteral("plays a device on a CANopen bus, for a master at the other end"), createCanOpenDeviceDriver});
     add(QStringLiteral("gpio"), {QStringLiteral("switches and lamps at the lines of a GPIO chip"), createGpioDriver});
+    add(QStringLiteral("gpio-expander"),
+        {QStringLiteral("the same at a chip behind a slow bus (I2C, SPI), beside the cycle"),
+         createGpioExpanderDriver});
     add(QStringLiteral("i2c-registers"),
         {QStringLiteral("any I2C device, its registers named by the configuration"), createI2cRegistersDriver});
     add(QStringLiteral("mcp3208"), {QStringLiteral("converter MCP3208 on SPI: 8 voltages"), createMcp3208Driver});

@@ -13,6 +13,7 @@ std::unique_ptr<QPlcDriver> createCanDriver();
 std::unique_ptr<QPlcDriver> createCanOpenDeviceDriver();
 std::unique_ptr<QPlcDriver> createCanOpenDriver();
 std::unique_ptr<QPlcDriver> createGpioDriver();
+std::unique_ptr<QPlcDriver> createGpioExpanderDriver();
 std::unique_ptr<QPlcDriver> createI2cRegistersDriver();
 std::unique_ptr<QPlcDriver> createMcp3208Driver();
 std::unique_ptr<QPlcDriver> createModbusDriver();

@@ -18,12 +18,13 @@ namespace {
 constexpr int MostEdgesAtOnce = 16;
 constexpr int MostEdgesPerCycle = 16 * MostEdgesAtOnce;  // a line that never rests must not hold the cycle
 
-/// Kind `gpio`: switches and lamps at the lines of a GPIO chip. See docs/hardware/gpio.md.
+/// Kinds `gpio` and `gpio-expander`: switches and lamps at the lines of a GPIO chip, in the cycle,
+/// or at a pace of their own, because the chip is behind a slow bus. See docs/hardware/gpio.md.
 class GpioDriver final : public QPlcDriver
 {
 public:
-    GpioDriver()
-        : QPlcDriver(EveryCycle)
+    explicit GpioDriver(Pace pace)
+        : QPlcDriver(pace)
     {
     }
 
@@ -174,7 +175,8 @@ private:
     {
         QString error;
         GpioLineRequest request = input->words.request;
-        request.wantsEdges = input->wantsEdges();
+        // Expanders often have no edges: what is read at the interval is what counts.
+        request.wantsEdges = pace() == EveryCycle && input->wantsEdges();
         input->debouncer.reset();
         input->line = m_chip->request(request, &error);
         return input->line || fail(error);
@@ -247,7 +249,12 @@ private:
 
 std::unique_ptr<QPlcDriver> createGpioDriver()
 {
-    return std::make_unique<GpioDriver>();
+    return std::make_unique<GpioDriver>(QPlcDriver::EveryCycle);
+}
+
+std::unique_ptr<QPlcDriver> createGpioExpanderDriver()
+{
+    return std::make_unique<GpioDriver>(QPlcDriver::OwnPace);
 }
 
 }  // namespace qplc

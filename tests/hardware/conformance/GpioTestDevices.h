@@ -10,7 +10,12 @@
 class FakeGpioDevice : public TestDevice
 {
 public:
-    QString kind() const override { return QStringLiteral("gpio"); }
+    explicit FakeGpioDevice(const QString &kind)
+        : m_kind(kind)
+    {
+    }
+
+    QString kind() const override { return m_kind; }
     QByteArray keys() const override { return "device = fake:board\ninput.in = 2\noutput.out = 5\n"; }
     QString name() const override { return QStringLiteral("fake:board"); }
     QStringList inputs() const override { return {QStringLiteral("in")}; }
@@ -41,6 +46,7 @@ public:
     }
 
 private:
+    const QString m_kind;
     qplc::FakeMemory m_memory;
 };
 
@@ -94,7 +100,9 @@ private:
 
 inline void addGpioDevices(TestDevices *devices)
 {
-    devices->insert(QStringLiteral("gpio, fake"), [] { return std::make_unique<FakeGpioDevice>(); });
+    for (const char *kind : {"gpio", "gpio-expander"})
+        devices->insert(QLatin1String(kind) + QStringLiteral(", fake"),
+                        [kind] { return std::make_unique<FakeGpioDevice>(QString::fromLatin1(kind)); });
     const QStringList parts = testDeviceParts("QTPLC_TEST_GPIO");
     if (parts.size() == 4)
         devices->insert(QStringLiteral("gpio, gpio-sim"),

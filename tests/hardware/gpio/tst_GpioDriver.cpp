@@ -15,8 +15,8 @@ namespace {
 /// A board with 8 lines, and the driver that uses it.
 struct Board
 {
-    explicit Board(const QByteArray &keys)
-        : bench(QStringLiteral("gpio"), "device = fake:board\n" + keys)
+    explicit Board(const QByteArray &keys, const QString &kind = QStringLiteral("gpio"))
+        : bench(kind, "device = fake:board\n" + keys)
     {
         QString error;
         if (!memory.create(QStringLiteral("fake:board"), 8, &error))
@@ -58,6 +58,7 @@ private Q_SLOTS:
     void anOutputBeginsWithItsSafeValue();
     void anOutputThatIsKeptDoesNotGetItsSafeValue();
     void cycleAllocatesNothingAndLocksNothing();
+    void anExpanderIsReadBesideTheCycle();
     void aMissingLineIsNamed();
     void unpluggedBoardIsReportedAndReconnects();
     void missingChipIsReportedWithARemedy();
@@ -312,6 +313,29 @@ void tst_GpioDriver::cycleAllocatesNothingAndLocksNothing()
     QCOMPARE(costs.allocations, std::uint64_t(0));
     QCOMPARE(costs.locks, std::uint64_t(0));
     QVERIFY(board.bench.value("stop.@edges") > 100.0);
+}
+
+void tst_GpioDriver::anExpanderIsReadBesideTheCycle()
+{
+    Board board("interval = 20 ms\ninput.door = 3, debounce 30 ms\noutput.lamp = 5\n", "gpio-expander");
+    QCOMPARE(board.bench.errors(), QString());
+    for (const char *name : {"door", "door.@edges"})
+        QCOMPARE(board.bench.wireRead(name), QString());
+    QCOMPARE(board.bench.wireWrite("lamp"), QString());
+    QVERIFY2(board.bench.open(), qPrintable(board.bench.errorString()));
+    board.pull(3, true);
+    board.bench.set("lamp", 1.0);
+    board.bench.runner().write(board.bench.now());  // a cycle
+    board.bench.runner().read(board.bench.now());
+    QCOMPARE(board.driven(5), -1);
+    QCOMPARE(board.bench.value("door"), 0.0);
+    for (int i = 0; i < 3; ++i) {  // the thread of the driver
+        board.bench.advance(20ms);
+        QVERIFY(board.bench.exchange());
+    }
+    QCOMPARE(board.driven(5), 1);
+    QCOMPARE(board.bench.value("door"), 1.0);
+    QCOMPARE(board.bench.value("door.@edges"), 1.0);
 }
 
 void tst_GpioDriver::aMissingLineIsNamed()
