@@ -26,6 +26,7 @@ public:
 
     LibModbusLink(const ModbusSerialLine &line, std::chrono::nanoseconds responseTimeout)
         : m_isSerial(true)
+        , m_mode(line.mode)
         , m_responseTimeout(responseTimeout)
         , m_context(modbus_new_rtu(line.device.toLocal8Bit().constData(), line.baud, line.parity, 8, line.stopBits))
         , m_bits(ModbusRequest::MostBitsRead)
@@ -43,7 +44,7 @@ public:
         m_isUnsettled = false;
         if (modbus_connect(m_context.get()) != 0)
             return fail(textOf(errno));
-        if (m_isSerial && !isAlone()) {
+        if (m_isSerial && (!isAlone() || !setMode())) {
             close();
             return false;
         }
@@ -90,6 +91,12 @@ private:
     {
         return ::flock(modbus_get_socket(m_context.get()), LOCK_EX | LOCK_NB) == 0
             || fail(QStringLiteral("another program uses the line; end it, or wire its values in this section, too"));
+    }
+
+    bool setMode()
+    {
+        const QString problem = m_mode.apply(modbus_get_socket(m_context.get()));
+        return problem.isEmpty() || fail(problem);
     }
 
     bool select(quint8 unit) { return modbus_set_slave(m_context.get(), unit) == 0 || failWithErrno(); }
@@ -199,6 +206,7 @@ private:
     static constexpr int MostFlushes = 20;
 
     const bool m_isSerial;
+    const SerialMode m_mode;
     bool m_isUnsettled = false;  // the last answer was bad
     const std::chrono::nanoseconds m_responseTimeout;
     std::unique_ptr<modbus_t, Release> m_context;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "ModbusLink.h"
+#include "hardware/serial/SerialMode.h"
 
 #include <chrono>
 #include <memory>
@@ -14,6 +15,7 @@ struct ModbusSerialLine
     int baud = 19200;
     char parity = 'E';  // or 'N', 'O'
     int stopBits = 1;
+    SerialMode mode;
 };
 
 /// Requests over TCP or over a serial line, by libmodbus.

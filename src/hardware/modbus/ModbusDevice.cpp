@@ -49,6 +49,7 @@ ModbusSerialLine readSerialLine(QPlcDriverSettings &settings)
     line.parity = "ENO"[settings.choice(QStringLiteral("parity"),
                                         {QStringLiteral("even"), QStringLiteral("none"), QStringLiteral("odd")})];
     line.stopBits = int(settings.integer(QStringLiteral("stop-bits"), line.stopBits, 1, 2));
+    line.mode.read(settings);
     return line;
 }
 

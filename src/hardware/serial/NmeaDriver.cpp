@@ -44,7 +44,7 @@ bool NmeaDriver::open()
     m_isFirstRead = true;
     m_bytesWithoutSentence = 0;
     m_otherType.clear();
-    return m_line.open(m_keys.device, m_keys.settings, &error) || fail(error);
+    return m_line.open(m_keys.device, m_keys.line, &error) || fail(error);
 }
 
 bool NmeaDriver::read()
@@ -99,7 +99,7 @@ bool NmeaDriver::judge()
             QStringLiteral("what comes from '%1' at %2 is not NMEA 0183: not one sentence in a second; look for the "
                            "sensor's rate and format, and set 'baud' (usual are 4800, 9600, 38400) and 'format'; "
                            "when it sends no checksums, 'checksum = optional'")
-                .arg(m_keys.device, m_keys.settings.toString()));
+                .arg(m_keys.device, m_keys.line.toString()));
     if (now() - m_lastByte > LongestSilence)
         return fail(
             QStringLiteral("nothing comes from '%1'; look at the sensor's power, at its wires (its TX is our RX), "

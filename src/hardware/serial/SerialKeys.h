@@ -7,14 +7,14 @@ class QPlcDriverSettings;
 
 namespace qplc {
 
-/// The keys of a section that concern its serial line: `device`, `baud`, `format`. The line is
-/// claimed.
+/// The keys of a section that concern its serial line: `device`, `baud`, `format`, and those of
+/// SerialMode. The line is claimed.
 struct SerialKeys
 {
     QString device;
-    SerialSettings settings;
+    SerialSettings line;
 
-    void read(QPlcDriverSettings &keys, int usualBaud);
+    void read(QPlcDriverSettings &settings, int usualBaud);
 };
 
 }  // namespace qplc

@@ -124,19 +124,28 @@ bool SerialLine::setUp(const SerialSettings &settings, QString *error)
     ::cfmakeraw(&wanted);
     wanted.c_iflag &= ~tcflag_t(IXON | IXOFF | IXANY);
     wanted.c_cflag = flagsOf(settings);
-    wanted.c_cc[VMIN] = 1;  // no bytes and no line are different things then
+    if (settings.parity != SerialSettings::NoParity)
+        wanted.c_iflag |= INPCK;  // a byte with a wrong parity is read as 0
+    wanted.c_cc[VMIN] = 1;        // no bytes and no line are different things then
     wanted.c_cc[VTIME] = 0;
     const speed_t speed = codeOf(settings.baud);
-    ::cfsetispeed(&wanted, speed);
-    ::cfsetospeed(&wanted, speed);
+    const bool isUsual = speed != B0;
+    ::cfsetispeed(&wanted, isUsual ? speed : B9600);
+    ::cfsetospeed(&wanted, isUsual ? speed : B9600);
     termios obtained = {};
     // tcsetattr() is content when it could set anything: what matters is looked at.
+    constexpr tcflag_t format = CSIZE | CSTOPB | PARENB | PARODD;
     const bool isSet = ::tcsetattr(m_descriptor, TCSANOW, &wanted) == 0 && ::tcgetattr(m_descriptor, &obtained) == 0
-        && ::cfgetospeed(&obtained) == speed
-        && (obtained.c_cflag & (CSIZE | CSTOPB)) == (wanted.c_cflag & (CSIZE | CSTOPB));
+        && (obtained.c_cflag & format) == (wanted.c_cflag & format)
+        && (isUsual ? ::cfgetospeed(&obtained) == speed : setSerialRate(m_descriptor, settings.baud));
     if (!isSet) {
         *error = QStringLiteral("the serial line '%1' cannot do %2; take another rate or format, or another adapter")
                      .arg(m_device, settings.toString());
+        return false;
+    }
+    const QString problem = settings.mode.apply(m_descriptor);
+    if (!problem.isEmpty()) {
+        *error = QStringLiteral("cannot set up the serial line '%1': %2").arg(m_device, problem);
         return false;
     }
     ::tcflush(m_descriptor, TCIFLUSH);
@@ -176,12 +185,12 @@ int SerialLine::write(const char *bytes, int size) noexcept
     return -1;
 }
 
-bool SerialLine::isKnownRate(int baud)
+bool SerialLine::isUsualRate(int baud)
 {
     return codeOf(baud) != B0;
 }
 
-QString SerialLine::knownRates()
+QString SerialLine::usualRates()
 {
     QStringList texts;
     for (const SerialRate &rate : serialRates)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <QtCore/QString>
+#include "SerialMode.h"
 
 namespace qplc {
 
@@ -14,6 +14,7 @@ struct SerialSettings
     int dataBits = 8;
     Parity parity = NoParity;
     int stopBits = 1;
+    SerialMode mode;
 
     /// "8N1", "7E2", ... \return false when it is something else; nothing has changed then
     bool setFormat(const QString &text);
@@ -46,9 +47,9 @@ public:
     /// \return how many bytes were taken; -1, with errno, when the line is gone
     int write(const char *bytes, int size) noexcept;
 
-    /// Rates that the kernel knows [bit/s].
-    static bool isKnownRate(int baud);
-    static QString knownRates();
+    /// Rates that devices have usually [bit/s]. Other ones are possible, too.
+    static bool isUsualRate(int baud);
+    static QString usualRates();
     /// What to do when a line is gone, for QPlcDriver::remedy(). Empty for errors that are no
     /// errors of a line.
     static QString remedy(int errorNumber);

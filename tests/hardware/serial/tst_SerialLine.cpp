@@ -24,6 +24,9 @@ private Q_SLOTS:
     void aMissingLineIsNamedWithTheRemedy();
     void otherDeviceFilesAreRefused();
     void aRateThatTheLineCannotDoIsNamed();
+    void anyOtherRateIsSet();
+    void parityIsCheckedByItsEffect();
+    void modesThatTheLineDoesNotHaveAreNamed();
     void aFakeLineIsALinkInTheFolder();
 };
 
@@ -75,11 +78,11 @@ void tst_SerialLine::allUsualRatesAreSet()
         SerialSettings settings;
         QString error;
         settings.baud = baud;
-        QVERIFY(SerialLine::isKnownRate(baud));
+        QVERIFY(SerialLine::isUsualRate(baud));
         QVERIFY2(line.open(far.path(), settings, &error), qPrintable(error));
     }
-    QVERIFY(!SerialLine::isKnownRate(4801));
-    QVERIFY(SerialLine::knownRates().contains("4800, 9600"));
+    QVERIFY(!SerialLine::isUsualRate(4801));
+    QVERIFY(SerialLine::usualRates().contains("4800, 9600"));
 }
 
 void tst_SerialLine::openDiscardsEarlierBytes()
@@ -142,6 +145,54 @@ void tst_SerialLine::aRateThatTheLineCannotDoIsNamed()
     QVERIFY(settings.setFormat("7E1"));
     QVERIFY(!line.open(far.path(), settings, &error));
     QVERIFY2(error.contains("cannot do 9600 7E1"), qPrintable(error));
+}
+
+void tst_SerialLine::anyOtherRateIsSet()
+{
+    PseudoTerminal far;
+    QVERIFY(far.plugIn());
+    for (const int baud : {50000, 76800, 100000, 250000}) {
+        SerialLine line;
+        SerialSettings settings;
+        QString error;
+        settings.baud = baud;
+        QVERIFY(!SerialLine::isUsualRate(baud));
+        QVERIFY2(line.open(far.path(), settings, &error), qPrintable(error));
+    }
+}
+
+// A pseudo-terminal has no parity, whatever it is told, and says nothing.
+void tst_SerialLine::parityIsCheckedByItsEffect()
+{
+    PseudoTerminal far;
+    SerialLine line;
+    SerialSettings settings;
+    QString error;
+    QVERIFY(far.plugIn());
+    for (const char *format : {"8E1", "8O1"}) {
+        QVERIFY(settings.setFormat(format));
+        QVERIFY(!line.open(far.path(), settings, &error));
+        QVERIFY2(error.contains(QStringLiteral("cannot do 9600 ") + format), qPrintable(error));
+    }
+}
+
+void tst_SerialLine::modesThatTheLineDoesNotHaveAreNamed()
+{
+    PseudoTerminal far;
+    SerialLine line;
+    SerialSettings direction;
+    SerialSettings latency;
+    QString error;
+    QVERIFY(far.plugIn());
+    direction.mode.direction = SerialMode::RtsOnSend;
+    QVERIFY(!line.open(far.path(), direction, &error));
+    QVERIFY2(error.contains("cannot set up the serial line '" + far.path()) && error.contains("direction of RS-485")
+                 && error.contains("write 'rs485 = no'"),
+             qPrintable(error));
+    QVERIFY(!line.isOpen());
+    latency.mode.isLowLatency = true;
+    QVERIFY(!line.open(far.path(), latency, &error));
+    QVERIFY2(error.contains("no low latency") && error.contains("remove 'low-latency'"), qPrintable(error));
 }
 
 void tst_SerialLine::aFakeLineIsALinkInTheFolder()
