@@ -37,6 +37,8 @@ DriverCatalog::DriverCatalog()
          createNmeaGnssDriver});
     add(QStringLiteral("nmea-wind"),
         {QStringLiteral("wind sensor on a serial line that speaks NMEA 0183"), createNmeaWindDriver});
+    add(QStringLiteral("spi-registers"),
+        {QStringLiteral("any SPI device, its registers named by the configuration"), createSpiRegistersDriver});
     add(QStringLiteral("sysfs"),
         {QStringLiteral("what the kernel has a driver for: IIO, hwmon, counters, 1-wire thermometers, PWM"),
          createSysfsDriver});

@@ -2,6 +2,7 @@
 #include "I2cBus.h"
 
 #include "FakeI2cBus.h"
+#include "QPlcDriverSettings.h"
 
 #include <cerrno>
 
@@ -14,15 +15,11 @@ std::unique_ptr<I2cBus> I2cBus::open(const QString &device, int address, QString
     return openKernelI2cBus(device, address, error, numbers);
 }
 
-QString i2cAddressText(int address)
+void claimI2cAddress(const QString &device, int address, QPlcDriverSettings &settings)
 {
-    return QStringLiteral("0x%1").arg(address, 2, 16, QLatin1Char('0'));
-}
-
-QString i2cRegisterText(int reg)
-{
-    return reg == I2cBus::NoRegister ? QStringLiteral("plain bytes")
-                                     : QStringLiteral("register ") + i2cAddressText(reg);
+    settings.claim(QStringLiteral("address"),
+                   QStringLiteral("address %1 of %2")
+                       .arg(RegisterBus::byteText(address), QString(device).remove(QStringLiteral("/dev/"))));
 }
 
 QString i2cRemedy(int errorNumber)

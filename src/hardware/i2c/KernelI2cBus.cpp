@@ -31,9 +31,9 @@ QString i2cAddressErrorText(const QString &device, int address, int errorNumber)
     return errorNumber == EBUSY
         ? QStringLiteral("address %1 of %2 is used by a driver of the kernel; take its values from there, or take it "
                          "away: echo N-00%3 | sudo tee /sys/bus/i2c/devices/N-00%3/driver/unbind")
-              .arg(i2cAddressText(address), device, i2cAddressText(address).mid(2))
+              .arg(RegisterBus::byteText(address), device, RegisterBus::byteText(address).mid(2))
         : QStringLiteral("cannot use address %1 of %2: %3; is that an I2C bus?")
-              .arg(i2cAddressText(address), device, qt_error_string(errorNumber));
+              .arg(RegisterBus::byteText(address), device, qt_error_string(errorNumber));
 }
 
 /// A device on a bus of the kernel, by its i2c-dev. Registers of 8 bits are SMBus calls, which

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "I2cDevice.h"
+#include "I2cBus.h"
 #include "QPlcDriverSettings.h"
 #include "QPlcReadChannel.h"
 #include "hardware/Drivers.h"
+#include "hardware/RegisterDevice.h"
 
 #include <cerrno>
 #include <chrono>
@@ -74,13 +75,14 @@ protected:
                                               QStringLiteral("1000 deg/s"), QStringLiteral("2000 deg/s")},
                                              1));
         setUpRates(settings);
-        m_bus.configure(m_device, m_address, settings);
+        claimI2cAddress(m_device, m_address, settings);
+        m_bus.configure(settings);
     }
 
     bool open() override
     {
         QString error;
-        if (!m_bus.open(m_device, m_address, &error))
+        if (!m_bus.open(I2cBus::open(m_device, m_address, &error)))
             return fail(error);
         return checkIdentity() && wakeUp();
     }
@@ -101,7 +103,7 @@ protected:
             return !isLate
                 || fail(QStringLiteral("the MPU-6050 at %1 of %2 gives no samples any more: it has lost its settings, "
                                        "probably its power; look at its supply")
-                            .arg(i2cAddressText(m_address), m_device));
+                            .arg(RegisterBus::byteText(m_address), m_device));
         }
         m_lastSample = now();
         const double acceleration = AccelerationPerRange * double(1 << m_accelerationRange);
@@ -132,7 +134,7 @@ private:
             || fail(QStringLiteral(
                         "the device at %1 of %2 is not an MPU-6050: its register WHO_AM_I (0x75) is %3, and not 0x68; "
                         "the sensor answers at 0x68, or at 0x69 when its pin AD0 is high: look at 'address'")
-                        .arg(i2cAddressText(m_address), m_device, i2cAddressText(identity)));
+                        .arg(RegisterBus::byteText(m_address), m_device, RegisterBus::byteText(identity)));
     }
 
     bool wakeUp()
@@ -183,8 +185,9 @@ private:
     bool failToTalk()
     {
         const int errorNumber = errno;
-        return fail(QStringLiteral("cannot talk to the MPU-6050 at %1 of %2: %3; %4")
-                        .arg(i2cAddressText(m_address), m_device, qt_error_string(errorNumber), remedy(errorNumber)));
+        return fail(
+            QStringLiteral("cannot talk to the MPU-6050 at %1 of %2: %3; %4")
+                .arg(RegisterBus::byteText(m_address), m_device, qt_error_string(errorNumber), remedy(errorNumber)));
     }
 
     QString m_device;
@@ -194,7 +197,7 @@ private:
     quint8 m_divider = 0;      // register SMPLRT_DIV
     quint8 m_rateRange = 0;
     quint8 m_accelerationRange = 0;
-    I2cDevice m_bus{this};
+    RegisterDevice m_bus{this};
     qint64 m_lastSample = 0;  // when it came [ns]; 0: the device has just been opened
 
     QPlcReadChannel m_acceleration[3] = {

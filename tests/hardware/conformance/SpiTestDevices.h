@@ -3,6 +3,7 @@
 
 #include "TestDevice.h"
 #include "hardware/spi/FakeMcp3208.h"
+#include "hardware/spi/FakeSpiRegisters.h"
 
 #include <QtCore/QFile>
 
@@ -42,6 +43,60 @@ public:
     }
 
 private:
+    qplc::FakeMemory m_memory;
+};
+
+/// A device with a value in a register, and one for a set point.
+class FakeSpiRegistersDevice : public TestDevice
+{
+public:
+    QString kind() const override { return QStringLiteral("spi-registers"); }
+    QByteArray keys() const override
+    {
+        return "device = fake:chip\nidentity = 0x0f 0x33\nregister.in = 0x10, int16, factor 0.5\n"
+               "register.out = 0x20, int16, factor 0.5, write\n";
+    }
+    QString name() const override { return QStringLiteral("fake:chip"); }
+    QStringList inputs() const override { return {QStringLiteral("in")}; }
+    QStringList outputs() const override { return {QStringLiteral("out")}; }
+    QVector<double> values() const override { return {-3.0, 1200.5}; }
+
+    bool plugIn() override
+    {
+        QString error;
+        if (!m_memory.create(name(), qplc::FakeSpiRegisters::Size, &error))
+            return false;
+        m_memory.at(qplc::FakeSpiRegisters::Power) = 1;
+        m_memory.at(qplc::FakeSpiRegisters::ReadBit) = 0x80;
+        m_memory.at(qplc::FakeSpiRegisters::CommandSize) = 1;
+        at(0x0f) = 0x33;
+        at(0x20) = 0x80;  // untouched
+        return true;
+    }
+    bool unplug() override
+    {
+        qplc::FakeMemory::remove(name());
+        return true;
+    }
+    bool fallSilent() override
+    {
+        m_memory.at(qplc::FakeSpiRegisters::Power) = 0;
+        return true;
+    }
+    void give(const QString &, double value) override
+    {
+        const int counts = qRound(value * 2.0);
+        at(0x10) = quint8(counts >> 8);
+        at(0x11) = quint8(counts);
+    }
+    std::optional<double> taken(const QString &) override
+    {
+        const auto counts = qint16(quint16(at(0x20).load() << 8 | at(0x21).load()));
+        return counts == std::numeric_limits<qint16>::min() ? std::nullopt : std::optional<double>(0.5 * counts);
+    }
+
+private:
+    std::atomic<quint8> &at(std::size_t reg) const { return m_memory.at(qplc::FakeSpiRegisters::FirstRegister + reg); }
     qplc::FakeMemory m_memory;
 };
 
@@ -85,6 +140,7 @@ private:
 inline void addSpiDevices(TestDevices *devices)
 {
     devices->insert(QStringLiteral("mcp3208, fake"), [] { return std::make_unique<FakeMcp3208Device>(); });
+    devices->insert(QStringLiteral("spi-registers, fake"), [] { return std::make_unique<FakeSpiRegistersDevice>(); });
     const QStringList parts = testDeviceParts("QTPLC_TEST_SPI");
     if (parts.size() == 2)
         devices->insert(QStringLiteral("mcp3208, spidev"),

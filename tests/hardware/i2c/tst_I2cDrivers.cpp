@@ -2,8 +2,8 @@
 #include "../DriverBench.h"
 #include "../FakeDevices.h"
 #include "hardware/DeviceFiles.h"
+#include "hardware/DeviceRegister.h"
 #include "hardware/i2c/FakeI2cBus.h"
-#include "hardware/i2c/I2cRegister.h"
 
 #include <QtTest/QtTest>
 
@@ -133,14 +133,14 @@ void tst_I2cDrivers::registersEncodeNumbers()
 {
     QFETCH(QStringList, words);
     QFETCH(QByteArray, hex);
-    I2cRegister reg;
-    QCOMPARE(I2cRegister::read(words, &reg), QString());
+    DeviceRegister reg;
+    QCOMPARE(DeviceRegister::read(words, &reg), QString());
     const QByteArray bytes = QByteArray::fromHex(hex);
     QCOMPARE(reg.first, 16);
     QCOMPARE(reg.size, bytes.size());
     QTEST(reg.valueOf(reinterpret_cast<const quint8 *>(bytes.constData())), "value");
 
-    QByteArray written(I2cRegister::MostBytes, '\0');
+    QByteArray written(DeviceRegister::MostBytes, '\0');
     QFETCH(double, value);
     reg.bytesOf(value, reinterpret_cast<quint8 *>(written.data()));
     QCOMPARE(written.left(reg.size).toHex(), hex);
@@ -148,15 +148,15 @@ void tst_I2cDrivers::registersEncodeNumbers()
 
 void tst_I2cDrivers::numbersThatDoNotFitAreLimited()
 {
-    I2cRegister reg;
-    quint8 bytes[I2cRegister::MostBytes] = {};
-    QCOMPARE(I2cRegister::read({"0", "int16", "factor 0.1"}, &reg), QString());
+    DeviceRegister reg;
+    quint8 bytes[DeviceRegister::MostBytes] = {};
+    QCOMPARE(DeviceRegister::read({"0", "int16", "factor 0.1"}, &reg), QString());
     for (const auto &[value, limited] :
          {std::pair{1e9, 3276.7}, {-1e9, -3276.8}, {0.26, 0.3}, {-0.26, -0.3}, {std::nan(""), 0.0}}) {
         reg.bytesOf(value, bytes);
         QCOMPARE(reg.valueOf(bytes), limited);
     }
-    QCOMPARE(I2cRegister::read({"0", "uint32"}, &reg), QString());
+    QCOMPARE(DeviceRegister::read({"0", "uint32"}, &reg), QString());
     reg.bytesOf(1e300, bytes);
     QCOMPARE(reg.valueOf(bytes), 4294967295.0);
     reg.bytesOf(-1.0, bytes);

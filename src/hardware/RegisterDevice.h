@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "I2cBus.h"
+#include "DeviceHealth.h"
 #include "QPlcReadChannel.h"
-#include "hardware/DeviceHealth.h"
+#include "RegisterBus.h"
+
+#include <memory>
 
 class QPlcDriverSettings;
 
@@ -14,22 +16,26 @@ namespace qplc {
 ///
 /// The driver calls begin() in its write(), keep() after a transfer that failed, and succeed() at
 /// the end of its read(). No transfer goes out between a failed one and the next begin().
-class I2cDevice
+class RegisterDevice
 {
 public:
-    explicit I2cDevice(QPlcDriver *driver)
+    explicit RegisterDevice(QPlcDriver *driver)
         : m_errors(driver, QStringLiteral("@errors"))
     {
     }
 
-    /// Claims the address (key `address`) of the bus \a device.
-    void configure(const QString &device, int address, QPlcDriverSettings &settings);
-    bool open(const QString &device, int address, QString *error, I2cBus::Numbers numbers = I2cBus::EightBits);
+    /// Reads the key `retries`.
+    void configure(QPlcDriverSettings &settings);
+    /// \param bus  null: it could not be opened \return whether it is there
+    bool open(std::unique_ptr<RegisterBus> bus);
     void close() { m_bus.reset(); }
 
     /// \return false, with errno
     bool read(int first, quint8 *bytes, int count) noexcept;
     bool write(int first, const quint8 *bytes, int count) noexcept;
+
+    /// What it has answered is not from this device.
+    void reject() noexcept;
 
     void begin() noexcept { m_hasFailed = false; }
     bool hasFailed() const noexcept { return m_hasFailed; }
@@ -41,7 +47,7 @@ private:
     template<typename Transfer>
     bool repeat(Transfer transfer) noexcept;
 
-    std::unique_ptr<I2cBus> m_bus;
+    std::unique_ptr<RegisterBus> m_bus;
     DeviceHealth m_health;
     QPlcReadChannel m_errors;
     int m_retries = DeviceHealth::DefaultRetries;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "I2cRegister.h"
+#include "DeviceRegister.h"
 
-#include "I2cBus.h"
+#include "RegisterBus.h"
 #include "signals/MessageText.h"
 
 #include <cmath>
@@ -10,20 +10,20 @@ namespace qplc {
 
 namespace {
 
-bool readType(const QString &name, I2cRegister *result)
+bool readType(const QString &name, DeviceRegister *result)
 {
     struct Name
     {
         const char *text;
-        I2cRegister::Type type;
+        DeviceRegister::Type type;
         int size;
     };
     constexpr Name names[] = {
-        {"int8", I2cRegister::SignedInteger, 1},  {"uint8", I2cRegister::UnsignedInteger, 1},
-        {"int16", I2cRegister::SignedInteger, 2}, {"uint16", I2cRegister::UnsignedInteger, 2},
-        {"int24", I2cRegister::SignedInteger, 3}, {"uint24", I2cRegister::UnsignedInteger, 3},
-        {"int32", I2cRegister::SignedInteger, 4}, {"uint32", I2cRegister::UnsignedInteger, 4},
-        {"real32", I2cRegister::Real, 4},
+        {"int8", DeviceRegister::SignedInteger, 1},  {"uint8", DeviceRegister::UnsignedInteger, 1},
+        {"int16", DeviceRegister::SignedInteger, 2}, {"uint16", DeviceRegister::UnsignedInteger, 2},
+        {"int24", DeviceRegister::SignedInteger, 3}, {"uint24", DeviceRegister::UnsignedInteger, 3},
+        {"int32", DeviceRegister::SignedInteger, 4}, {"uint32", DeviceRegister::UnsignedInteger, 4},
+        {"real32", DeviceRegister::Real, 4},
     };
     for (const Name &known : names) {
         if (name != QLatin1String(known.text))
@@ -45,7 +45,7 @@ bool readNumber(const QString &word, const QString &name, double *number)
 }
 
 /// "bits 4-15", or "bits 3"
-bool readBits(const QStringList &parts, I2cRegister *result)
+bool readBits(const QStringList &parts, DeviceRegister *result)
 {
     const QStringList ends = parts.value(1).split(QLatin1Char('-'));
     bool isLowest = false;
@@ -57,7 +57,7 @@ bool readBits(const QStringList &parts, I2cRegister *result)
     return parts.size() == 2 && ends.size() <= 2 && isLowest && isHighest && lowest >= 0 && highest >= lowest;
 }
 
-bool readWord(const QString &word, I2cRegister *result)
+bool readWord(const QString &word, DeviceRegister *result)
 {
     const QStringList parts = word.split(QLatin1Char(' '));
     if (parts.first() == QLatin1String("bits") || parts.first() == QLatin1String("bit"))
@@ -78,14 +78,14 @@ bool readWord(const QString &word, I2cRegister *result)
 
 }  // namespace
 
-QString I2cRegister::read(const QStringList &words, I2cRegister *result, int lastRegister)
+QString DeviceRegister::read(const QStringList &words, DeviceRegister *result, int lastRegister)
 {
-    *result = I2cRegister();
+    *result = DeviceRegister();
     bool isNumber = false;
     const QString place = words.value(0).trimmed();
     const uint first = place.toUInt(&isNumber, 0);
     if (place == QLatin1String("plain"))
-        result->first = I2cBus::NoRegister;
+        result->first = RegisterBus::NoRegister;
     else if (isNumber && first <= uint(lastRegister))
         result->first = int(first);
     else
@@ -106,7 +106,7 @@ QString I2cRegister::read(const QStringList &words, I2cRegister *result, int las
     return result->check(lastRegister);
 }
 
-QString I2cRegister::check(int lastRegister) const
+QString DeviceRegister::check(int lastRegister) const
 {
     if (first + size - 1 > lastRegister)
         return QStringLiteral("its last byte would be in register %1, and %2 is the last one")
@@ -118,14 +118,14 @@ QString I2cRegister::check(int lastRegister) const
         return QStringLiteral("bit %1 is not one of its %2 bits; use a longer type, for example 'uint16'")
             .arg(lowestBit + bitCount - 1)
             .arg(8 * size);
-    if (isField() && isWritten && first == I2cBus::NoRegister)
+    if (isField() && isWritten && first == RegisterBus::NoRegister)
         return QStringLiteral("the other bits of plain bytes are not known; write all of them, without 'bits'");
     return QString();
 }
 
-bool I2cRegister::overlaps(const I2cRegister &other) const
+bool DeviceRegister::overlaps(const DeviceRegister &other) const
 {
-    if (first == I2cBus::NoRegister || other.first == I2cBus::NoRegister)
+    if (first == RegisterBus::NoRegister || other.first == RegisterBus::NoRegister)
         return first == other.first;
     if (first >= other.first + other.size || other.first >= first + size)
         return false;
@@ -134,7 +134,7 @@ bool I2cRegister::overlaps(const I2cRegister &other) const
     return !(isField() && other.isField() && isSamePlace && isApart);
 }
 
-RawNumber I2cRegister::number() const
+RawNumber DeviceRegister::number() const
 {
     const RawNumber::Kind kind = type == Real ? RawNumber::Float
         : type == SignedInteger               ? RawNumber::Signed
@@ -142,12 +142,12 @@ RawNumber I2cRegister::number() const
     return {kind, isField() ? bitCount : 8 * size};
 }
 
-RawNumber::Limits I2cRegister::limits() const
+RawNumber::Limits DeviceRegister::limits() const
 {
     return number().limits(factor, offset);
 }
 
-quint64 I2cRegister::join(const quint8 *bytes) const
+quint64 DeviceRegister::join(const quint8 *bytes) const
 {
     quint64 joined = 0;
     for (int i = 0; i < size; ++i)
@@ -155,12 +155,12 @@ quint64 I2cRegister::join(const quint8 *bytes) const
     return joined;
 }
 
-double I2cRegister::valueOf(const quint8 *bytes) const
+double DeviceRegister::valueOf(const quint8 *bytes) const
 {
     return factor * number().decode(join(bytes) >> lowestBit) + offset;
 }
 
-void I2cRegister::bytesOf(double value, quint8 *bytes) const
+void DeviceRegister::bytesOf(double value, quint8 *bytes) const
 {
     quint64 bits = number().encode(RawNumber::scaled(value, factor, offset));
     if (isField()) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "hardware/RawNumber.h"
+#include "RawNumber.h"
 
 #include <QtCore/QStringList>
 
@@ -9,7 +9,7 @@ namespace qplc {
 
 /// A number in the registers of a device, as a configuration says it:
 /// `0x3b, int16 big-endian, bits 4-15, factor 0.001, offset 0, write`, or `plain, uint16`.
-struct I2cRegister
+struct DeviceRegister
 {
     enum Type : quint8 {
         SignedInteger,
@@ -18,7 +18,7 @@ struct I2cRegister
     };
     static constexpr int MostBytes = 4;
 
-    int first = 0;  // or I2cBus::NoRegister
+    int first = 0;  // or RegisterBus::NoRegister
     Type type = UnsignedInteger;
     int size = 1;  // [byte]
     // Bits of the number that count, 0 is the lowest; bitCount 0: all of them.
@@ -30,11 +30,11 @@ struct I2cRegister
     bool isWritten = false;
 
     /// \return an empty text, or what is wrong with \a words, and what would be right
-    static QString read(const QStringList &words, I2cRegister *result, int lastRegister = 0xff);
+    static QString read(const QStringList &words, DeviceRegister *result, int lastRegister = 0xff);
 
     bool isField() const { return bitCount > 0; }
     /// Whether writing both would write a bit twice.
-    bool overlaps(const I2cRegister &other) const;
+    bool overlaps(const DeviceRegister &other) const;
 
     RawNumber::Limits limits() const;
     double valueOf(const quint8 *bytes) const;
