@@ -37,6 +37,9 @@ DriverCatalog::DriverCatalog()
          createNmeaGnssDriver});
     add(QStringLiteral("nmea-wind"),
         {QStringLiteral("wind sensor on a serial line that speaks NMEA 0183"), createNmeaWindDriver});
+    add(QStringLiteral("serial-lines"),
+        {QStringLiteral("any instrument on a serial line that sends lines of text with numbers"),
+         createSerialLinesDriver});
     add(QStringLiteral("spi-registers"),
         {QStringLiteral("any SPI device, its registers named by the configuration"), createSpiRegistersDriver});
     add(QStringLiteral("sysfs"),

@@ -20,6 +20,7 @@ std::unique_ptr<QPlcDriver> createModbusDriver();
 std::unique_ptr<QPlcDriver> createMpu6050Driver();
 std::unique_ptr<QPlcDriver> createNmeaGnssDriver();
 std::unique_ptr<QPlcDriver> createNmeaWindDriver();
+std::unique_ptr<QPlcDriver> createSerialLinesDriver();
 std::unique_ptr<QPlcDriver> createSpiRegistersDriver();
 std::unique_ptr<QPlcDriver> createSysfsDriver();
 

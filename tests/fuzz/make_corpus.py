@@ -546,6 +546,22 @@ def nmea():
     return files
 
 
+# ---- lines of text from a serial line ------------------------------------------------------------
+
+
+def serial_lines():
+    return {
+        "two numbers": b"1.5, -2e3\r\n",
+        "several lines": b"1,2\n\n3,4\r\n+ 5 , six\n",
+        "without end": b"1,2",
+        "too long": b"1" * 600 + b",2\n7,8\n",
+        "odd numbers": b"1.2.3,nan\n1e999,inf\n,\n",
+        "bytes": b"\x00\xff\x80,\x02\n",
+        "control characters": b"W\\r\\n\\t\\\\\\x02\\xfF",
+        "half of one": b"\\x2",
+    }
+
+
 # ---- files of sysfs: bits of a count, and the text -----------------------------------------------
 
 
@@ -787,6 +803,7 @@ def main():
         ("eds_file", eds_files()),
         ("sdo", sdo()),
         ("nmea", nmea()),
+        ("serial_lines", serial_lines()),
         ("sysfs", sysfs()),
         ("key_file", {name: text.encode() for name, text in KEY_FILES.items()}),
         ("beacon", beacons()),

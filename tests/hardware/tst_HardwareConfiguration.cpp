@@ -3,6 +3,7 @@
 #include "BenchDriver.h"
 #include "QPlcHardwareNode.h"
 #include "hardware/HardwareConfiguration.h"
+#include "signals/MessageText.h"
 
 #include <QtTest/QtTest>
 
@@ -151,7 +152,7 @@ void tst_HardwareConfiguration::errorsAreReportedWithTheirPosition_data()
         "1:1: 'driver' stands before the first section; begin with [node] or the name of a device in brackets");
     add("no kind", "[drive]\ndevice = b\n", "1: section 'drive' has no driver; add for example 'driver = can'");
     add("unknown kind", "[drive]\ndriver = bensh\n",
-        "2:10: there is no driver 'bensh'; did you mean 'bench'?; known are: " + kinds.join(", "));
+        "2:10: there is no driver 'bensh'; did you mean 'bench'?" + qplc::knownAre(kinds));
     add("unknown key", drive + "gian = 3\n", "4:8: 'gian' is not a key of this driver; did you mean 'gain'?");
     add("missing key", "[drive]\ndriver = bench\n",
         "2:10: section 'drive' needs the key 'device', for example 'device = bench0'");

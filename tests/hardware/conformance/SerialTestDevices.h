@@ -104,11 +104,51 @@ private:
     double m_altitude = 0.0;
 };
 
+/// A scale that sends its weight.
+class ScaleDevice : public TestDevice
+{
+public:
+    QString kind() const override { return QStringLiteral("serial-lines"); }
+    QByteArray keys() const override { return "device = fake:scale\npattern = ^(?<weight>[-+.0-9]+) kg$\n"; }
+    QString name() const override { return QStringLiteral("fake:scale"); }
+    QStringList inputs() const override { return {QStringLiteral("weight")}; }
+    QVector<double> values() const override { return {-3.5, 12.25}; }
+
+    bool plugIn() override
+    {
+        m_isTalking = m_pseudo.plugIn(name());
+        return m_isTalking;
+    }
+    bool unplug() override
+    {
+        m_isTalking = false;
+        m_pseudo.unplug();
+        return true;
+    }
+    bool fallSilent() override
+    {
+        m_isTalking = false;
+        return true;
+    }
+    void live() override
+    {
+        if (m_isTalking)
+            m_pseudo.send(QByteArray::number(m_weight) + " kg\r\n");
+    }
+    void give(const QString &, double value) override { m_weight = value; }
+
+private:
+    PseudoTerminal m_pseudo;
+    bool m_isTalking = false;
+    double m_weight = 0.0;
+};
+
 inline void addSerialDevices(TestDevices *devices)
 {
     devices->insert(QStringLiteral("nmea-wind, fake"),
                     [] { return std::make_unique<WindSensorDevice>(QStringList()); });
     devices->insert(QStringLiteral("nmea-gnss, fake"), [] { return std::make_unique<GnssReceiverDevice>(); });
+    devices->insert(QStringLiteral("serial-lines, fake"), [] { return std::make_unique<ScaleDevice>(); });
     const QStringList parts = testDeviceParts("QTPLC_TEST_SERIAL");
     if (parts.size() == 2)
         devices->insert(QStringLiteral("nmea-wind, real line"),
