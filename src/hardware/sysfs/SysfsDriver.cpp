@@ -371,8 +371,9 @@ private:
     {
         m_problem = nullptr;
         if (m_class->kind == SysfsClass::Pwm) {
+            const bool isRead = input->pwm.readDuty(value);
             input->file = input->pwm.file();
-            return input->pwm.readDuty(value);
+            return isRead;
         }
         QByteArray text;
         if (!m_folder.read(input->file, &text))
