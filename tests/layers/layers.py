@@ -323,7 +323,11 @@ OF_MACHINE = (
     ("waits for the threads of devices", "a sleep", "hardware/QPlcHardwareNode.cpp"),
     ("lets a line become quiet after a damaged answer", "a sleep", "hardware/modbus/LibModbusLink.cpp"),
     ("ends a program whose device hangs", "a timer", "hardware/program/main.cpp"),
-    ("is a bus of the kernel", "a socket", "hardware/can/SocketCanBus.cpp hardware/can/FakeCanBus.cpp"),
+    (
+        "is a bus of the kernel",
+        "a socket",
+        "hardware/can/SocketCanBus.cpp hardware/can/CanLink.cpp hardware/can/FakeCanBus.cpp",
+    ),
     ("ends a process whose foreign code does not return", "a timer", "models/program/CrashReport.cpp"),
     ("prints at a rate that a person wants", "a clock", "tools/EchoCommand.cpp"),
     ("makes keys, which nobody can guess", "a random number", "tools/KeysCommand.cpp"),

@@ -53,7 +53,7 @@ class Bench:
     # ---- CAN ----
 
     def make_can(self):
-        command("modprobe", "vcan")
+        command("modprobe", "vcan", "echo=1")  # frames are confirmed as by a controller
         command("modprobe", "can-raw")
         command("ip", "link", "add", "vcan0", "type", "vcan")
         command("ip", "link", "set", "vcan0", "mtu", 72)

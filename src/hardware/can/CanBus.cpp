@@ -13,6 +13,11 @@ namespace qplc {
 
 namespace {
 
+// After this time without a confirmation, frames were dropped by the kernel or the adapter. A
+// controller that is error passive tells that it still repeats one.
+constexpr qint64 canDroppedAfter = 100'000'000;             // [ns]
+constexpr qint64 canDroppedAfterPassive = 10'000'000'000;  // [ns]
+
 // What the controller says of itself in an error frame; `before` when it says nothing.
 CanBus::State canStateOf(const CanFrame &frame, CanBus::State before)
 {
@@ -86,6 +91,8 @@ bool CanBus::open(const Options &options)
     std::sort(m_options.keys.begin(), m_options.keys.end());
     m_state = Active;
     m_errorNumber = 0;
+    m_confirms = false;
+    m_unconfirmed = m_overdue = 0;
     return join(m_options);
 }
 
@@ -98,15 +105,40 @@ int CanBus::receive(CanFrame *frames, int capacity) noexcept
         else
             ++m_counters.received;
     }
+    m_overdue = m_unconfirmed;
     return count;
 }
 
-int CanBus::send(const CanFrame *frames, int count) noexcept
+int CanBus::send(const CanFrame *frames, int count, qint64 now) noexcept
 {
-    const int sent = count > 0 ? writeFrames(frames, count) : 0;
+    const int sent = count > 0 && !holdsBack(now) ? writeFrames(frames, count) : 0;
+    if (m_confirms && sent > 0) {
+        m_takenAt = m_unconfirmed == 0 ? now : m_takenAt;
+        m_unconfirmed += sent;
+    }
     m_counters.sent += quint64(std::max(sent, 0));
     m_counters.unsent += quint64(count - std::max(sent, 0));
     return sent;
+}
+
+bool CanBus::holdsBack(qint64 now) noexcept
+{
+    const qint64 patience = m_state >= Passive ? canDroppedAfterPassive : canDroppedAfter;
+    if (m_overdue > 0 && now - m_takenAt >= patience && !hasQueue())
+        giveUpUnconfirmed();
+    return m_overdue > 0;
+}
+
+void CanBus::confirm(int count) noexcept
+{
+    m_unconfirmed -= std::min(count, m_unconfirmed);
+    m_overdue -= std::min(count, m_overdue);
+}
+
+void CanBus::giveUpUnconfirmed() noexcept
+{
+    countFailed(quint64(m_unconfirmed));
+    m_unconfirmed = m_overdue = 0;
 }
 
 void CanBus::countFailed(quint64 count) noexcept
@@ -143,6 +175,8 @@ void CanBus::noteError(const CanFrame &frame) noexcept
     m_state = canStateOf(frame, before);
     if (m_state == BusOff && before != BusOff)
         ++m_counters.busOffs;
+    if (frame.id & CAN_ERR_RESTARTED)
+        giveUpUnconfirmed();  // the restart has emptied the controller
 }
 
 }  // namespace qplc

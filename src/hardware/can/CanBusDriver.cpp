@@ -90,7 +90,7 @@ void CanBusDriver::showOwn() noexcept
 
 bool CanBusDriver::send(const CanFrame *frames, int count, int *sent) noexcept
 {
-    const int taken = m_bus->send(frames, count);
+    const int taken = m_bus->send(frames, count, now());
     if (sent)
         *sent = taken;
     return taken >= 0 || fail(m_sendText.constData(), m_bus->errorNumber());

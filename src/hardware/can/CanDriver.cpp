@@ -37,7 +37,7 @@ namespace {
 ///
 /// Read channels: MESSAGE.SIGNAL, MESSAGE.@age [s] and MESSAGE.@count of the frames received, and
 /// of the bus @state (0 active, 1 warning, 2 passive, 3 bus-off), @received,
-/// @sent, @lost, @unsent, @errors, @busOffs, @saturated, @tooShort and @logDropped. Write channels:
+/// @sent, @lost, @unsent, @unconfirmed, @errors, @busOffs, @saturated, @tooShort and @logDropped. Write channels:
 /// MESSAGE.SIGNAL; a message is sent when all of its wired signals have a value, the others have
 /// their start value (GenSigStartValue), else 0.
 ///
@@ -58,6 +58,7 @@ public:
         addOwn("@sent", [this] { return bus().counters().sent; });
         addOwn("@lost", [this] { return bus().counters().lost; });
         addOwn("@unsent", [this] { return bus().counters().unsent; });
+        addOwn("@unconfirmed", [this] { return quint64(bus().unconfirmed()); });
         addOwn("@errors", [this] { return bus().counters().errorFrames; });
         addOwn("@busOffs", [this] { return bus().counters().busOffs; });
         addOwn("@saturated", [this] { return saturated(); });
@@ -133,11 +134,7 @@ protected:
 
     bool read() override
     {
-        const auto take = [this](const CanFrame &frame) {
-            log(&frame, 1);
-            deliver(frame);
-        };
-        if (!receive(take))
+        if (!takeFrames())
             return false;
         refresh();
         return checkBusOff();
@@ -145,6 +142,9 @@ protected:
 
     bool write() override
     {
+        // The bus takes new frames when it has confirmed those of the cycle before.
+        if (bus().unconfirmed() > 0 && !takeFrames())
+            return false;
         repeatFailed();
         int count = 0;
         for (std::size_t i = 0; i < m_senders.size(); ++i) {
@@ -202,6 +202,7 @@ private:
             options.needsFd = options.needsFd || receiver->message().description.isFd;
         }
         for (const auto &sender : m_senders) {
+            options.sentKeys.push_back(sender->key());
             if (sender->message().rule.onRequest)
                 options.keys.push_back(sender->key());
             options.needsFd = options.needsFd || sender->message().description.isFd;
@@ -230,6 +231,14 @@ private:
         std::sort(m_senderOfKey.begin(), m_senderOfKey.end(), isBefore);
         m_outgoing.assign(most, CanFrame());
         m_counts.assign(m_senders.size(), 0);
+    }
+
+    bool takeFrames() noexcept
+    {
+        return receive([this](const CanFrame &frame) {
+            log(&frame, 1);
+            deliver(frame);
+        });
     }
 
     void deliver(const CanFrame &frame) noexcept

@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
+#include <linux/can/error.h>
 #include <new>
 #include <sys/file.h>
 #include <sys/mman.h>
@@ -70,12 +71,15 @@ bool FakeCanBus::failWith(const QString &what)
                     .arg(m_name, what, folder(), QString::fromLocal8Bit(std::strerror(errno))));
 }
 
-bool FakeCanBus::join(const Options &)
+bool FakeCanBus::join(const Options &options)
 {
     close();
     m_folder = folder().toLocal8Bit();
     if (openBoard() && takePlace()) {
         preparePeers();
+        m_repeats = m_board->isOneShot.load() == 0;
+        if (m_repeats && !options.sentKeys.empty())
+            expectConfirmations();
         return true;
     }
     close();
@@ -97,6 +101,8 @@ void FakeCanBus::close()
     m_board = nullptr;
     m_boardFile = m_socket = m_sender = m_place = -1;
     m_inboxFirst = m_inboxCount = 0;
+    m_waitingCount = m_echoes = 0;
+    m_isPassive = m_isToldOfPassive = false;
 }
 
 sockaddr_un FakeCanBus::addressOf(int number) const
@@ -134,9 +140,14 @@ bool FakeCanBus::setPlugged(const QString &name, bool isPlugged)
     return setMark(name, &Board::isUnplugged, !isPlugged);
 }
 
-bool FakeCanBus::setFull(const QString &name, bool isFull)
+bool FakeCanBus::setAcknowledged(const QString &name, bool isAcknowledged)
 {
-    return setMark(name, &Board::isFull, isFull);
+    return setMark(name, &Board::isUnacknowledged, !isAcknowledged);
+}
+
+bool FakeCanBus::setOneShot(const QString &name, bool isOneShot)
+{
+    return setMark(name, &Board::isOneShot, isOneShot);
 }
 
 bool FakeCanBus::setMark(const QString &name, std::atomic<quint32> Board::*mark, bool isSet)
@@ -211,7 +222,13 @@ int FakeCanBus::readFrames(CanFrame *frames, int capacity) noexcept
             flush(&m_peers[number]);
     }
     noteLost();
+    if (isAcknowledged())
+        sendWaiting();
+    confirm(m_echoes);
+    m_echoes = 0;
     int count = 0;
+    if (capacity > 0 && m_isToldOfPassive != m_isPassive)
+        frames[count++] = ownState();
     while (count < capacity && (m_inboxFirst < m_inboxCount || takeDatagram())) {
         const CanFrame &frame = m_inbox[m_inboxFirst++];
         if (accepts(frame))
@@ -243,9 +260,38 @@ int FakeCanBus::writeFrames(const CanFrame *frames, int count) noexcept
 {
     if (isUnplugged())
         return lose(ENODEV);
-    if (isFull())
-        return 0;
+    if (!isAcknowledged())
+        return keep(frames, count);
+    sendWaiting();
+    transmit(frames, count);
+    return count;
+}
+
+// Nobody acknowledges: the controller repeats the first frame, the others wait behind it.
+int FakeCanBus::keep(const CanFrame *frames, int count) noexcept
+{
+    m_isPassive = m_isPassive || count > 0;
+    if (!m_repeats)
+        return count;
+    const int kept = std::min(count, int(m_waiting.size()) - m_waitingCount);
+    std::copy_n(frames, kept, m_waiting.begin() + m_waitingCount);
+    m_waitingCount += kept;
+    return kept;
+}
+
+void FakeCanBus::sendWaiting() noexcept
+{
+    m_isPassive = false;
+    if (m_waitingCount == 0)
+        return;
+    transmit(m_waiting.data(), m_waitingCount);
+    m_waitingCount = 0;
+}
+
+void FakeCanBus::transmit(const CanFrame *frames, int count) noexcept
+{
     const qint64 now = m_time.now();
+    m_echoes = std::min(m_echoes + count, Backlog);
     for (int number = 0; number < MaximumPlaces; ++number) {
         if (number == m_place || !meet(number))
             continue;
@@ -257,7 +303,19 @@ int FakeCanBus::writeFrames(const CanFrame *frames, int count) noexcept
         }
         flush(&peer);
     }
-    return count;
+}
+
+// What the controller tells of itself, as the kernel does.
+CanFrame FakeCanBus::ownState() noexcept
+{
+    m_isToldOfPassive = m_isPassive;
+    CanFrame frame;
+    frame.id = CAN_ERR_CRTL;
+    frame.flags = CanFrame::Error;
+    frame.size = CAN_ERR_DLC;
+    frame.data[1] = m_isPassive ? CAN_ERR_CRTL_TX_PASSIVE : CAN_ERR_CRTL_ACTIVE;
+    frame.time = m_time.now();
+    return frame;
 }
 
 // Whether somebody has the place; frames for the one who had it before are forgotten.

@@ -22,12 +22,19 @@ namespace qplc {
 /// by the receiver. Frames are stamped when they are sent. A participant that was killed leaves its
 /// place to the next one.
 ///
+/// Each participant has a controller and a queue in front of it, as the kernel has. While nobody
+/// acknowledges frames (setAcknowledged()), the controller repeats one, QueueLength more wait in
+/// the queue, and further ones are refused. When the bus is back, they go out, the oldest first,
+/// with the next call of send() or receive() of their sender. A controller that sends a frame only
+/// once (setOneShot()) drops what is not acknowledged, and nothing waits.
+///
 /// The folder of the bus is can-NAME among the fake devices (FakeMemory::folder()).
 class FakeCanBus : public CanBus
 {
 public:
     static constexpr int MaximumPlaces = 16;
-    static constexpr int Backlog = 4096;  // [frame]
+    static constexpr int Backlog = 4096;    // [frame]
+    static constexpr int QueueLength = 10;  // [frame] as txqueuelen of a CAN interface
 
     /// \param time  stamps the frames that are sent here; outlives this object
     explicit FakeCanBus(const QString &name, TimeSource &time = TimeSource::monotonic());
@@ -37,9 +44,12 @@ public:
     /// Takes the adapters of all participants away, or gives them back: for tests. \return false
     /// when the folder cannot be used
     static bool setPlugged(const QString &name, bool isPlugged);
-    /// Lets the bus take no frame any more, as one that nobody acknowledges, or take them again:
-    /// for tests. \return false when the folder cannot be used
-    static bool setFull(const QString &name, bool isFull);
+    /// Lets nobody acknowledge the frames of the bus any more, or again: for tests. \return false
+    /// when the folder cannot be used
+    static bool setAcknowledged(const QString &name, bool isAcknowledged);
+    /// Lets controllers repeat no frame, for participants that open the bus from here on: for
+    /// tests. \return false when the folder cannot be used
+    static bool setOneShot(const QString &name, bool isOneShot);
     /// Of the bus.
     QString folder() const;
 
@@ -50,6 +60,7 @@ protected:
     bool join(const Options &options) override;
     int readFrames(CanFrame *frames, int capacity) noexcept override;
     int writeFrames(const CanFrame *frames, int count) noexcept override;
+    bool hasQueue() const noexcept override { return m_waitingCount > 1; }
 
 private:
     static constexpr int BatchSize = 64;  // frames of a datagram
@@ -64,7 +75,8 @@ private:
     {
         std::array<Place, MaximumPlaces> places;
         std::atomic<quint32> isUnplugged{0};
-        std::atomic<quint32> isFull{0};
+        std::atomic<quint32> isUnacknowledged{0};
+        std::atomic<quint32> isOneShot{0};
     };
     /// Frames that wait for the socket of another participant: a ring.
     struct Peer
@@ -85,8 +97,12 @@ private:
     sockaddr_un addressOf(int number) const;
     void preparePeers();
 
-    bool isFull() const noexcept { return m_board->isFull.load(std::memory_order_relaxed) != 0; }
+    bool isAcknowledged() const noexcept { return m_board->isUnacknowledged.load(std::memory_order_relaxed) == 0; }
     bool isUnplugged() const noexcept { return m_board->isUnplugged.load(std::memory_order_relaxed) != 0; }
+    int keep(const CanFrame *frames, int count) noexcept;
+    void sendWaiting() noexcept;
+    void transmit(const CanFrame *frames, int count) noexcept;
+    CanFrame ownState() noexcept;
     bool takeDatagram() noexcept;
     void noteLost() noexcept;
     bool meet(int number) noexcept;
@@ -107,6 +123,13 @@ private:
     std::array<CanFrame, BatchSize> m_inbox{};
     int m_inboxFirst = 0;
     int m_inboxCount = 0;
+
+    std::array<CanFrame, QueueLength + 1> m_waiting{};  // for an acknowledgement; the first is in the controller
+    int m_waitingCount = 0;
+    int m_echoes = 0;  // frames that have reached the bus since the last receive()
+    bool m_repeats = true;
+    bool m_isPassive = false;
+    bool m_isToldOfPassive = false;
 };
 
 }  // namespace qplc

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "CanBus.h"
+#include "CanLink.h"
 #include "WallTimeConverter.h"
 #include "realtime/TimeSource.h"
 
@@ -12,6 +13,7 @@
 #include <linux/can.h>
 #include <linux/can/error.h>
 #include <linux/can/raw.h>
+#include <linux/sock_diag.h>
 #include <net/if.h>
 #include <net/if_arp.h>
 #include <sys/ioctl.h>
@@ -111,7 +113,8 @@ protected:
     {
         close();
         m_dropped = 0;
-        if (makeSocket() && findInterface(options.needsFd) && setOptions() && setFilters(options) && bindSocket()) {
+        if (makeSocket() && findInterface(options.needsFd) && setOptions() && lookAtLink(options) && setFilters(options)
+            && bindSocket()) {
             lookAtClocks();
             m_clock.drained(monotonicNow());
             return true;
@@ -144,6 +147,15 @@ protected:
             }
         }
         return count;
+    }
+
+    // Memory of frames that no controller has taken yet.
+    bool hasQueue() const noexcept override
+    {
+        std::array<quint32, SK_MEMINFO_VARS> memory{};
+        socklen_t size = sizeof memory;
+        return getsockopt(m_socket, SOL_SOCKET, SO_MEMINFO, memory.data(), &size) == 0
+            && memory[SK_MEMINFO_WMEM_ALLOC] > 0;
     }
 
     int writeFrames(const CanFrame *frames, int count) noexcept override
@@ -219,9 +231,24 @@ private:
             && setOption(SOL_CAN_RAW, CAN_RAW_ERR_FILTER, &canErrorKinds, sizeof canErrorKinds, "error frames");
     }
 
+    /// A frame of this socket comes back to it when it has reached the bus. A one-shot controller
+    /// keeps no frame, and does not tell of one that it drops.
+    bool lookAtLink(const Options &options)
+    {
+        const int on = 1;
+        const CanLink link = CanLink::read(m_index);
+        setState(link.state);
+        if (options.sentKeys.empty() || !link.hasEcho || link.isOneShot)
+            return true;
+        expectConfirmations();
+        return setOption(SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, &on, sizeof on, "confirmations");
+    }
+
     bool setFilters(const Options &options)
     {
         std::vector<can_filter> filters;
+        for (const quint32 key : options.sentKeys)
+            filters.push_back(filterFor(key));
         for (const quint32 key : options.keys)
             filters.push_back(filterFor(key));
         if (options.receivesAll || filters.size() > CAN_RAW_FILTER_MAX) {
@@ -279,13 +306,18 @@ private:
         m_clock.look(now, wall);
     }
 
-    // Returns the number of frames received. Data whose size fits no frame does not count.
+    // Returns the number of frames received. Data whose size fits no frame does not count, nor
+    // do frames of this socket that have reached the bus.
     int convert(int received, CanFrame *frames) noexcept
     {
         int count = 0;
         for (int i = 0; i < received; ++i) {
             const qint64 time = readControl(&m_messages[i].msg_hdr);
             const unsigned size = m_messages[i].msg_len;
+            if (m_messages[i].msg_hdr.msg_flags & MSG_CONFIRM) {
+                confirm(1);
+                continue;
+            }
             if (size != CAN_MTU && size != CANFD_MTU)
                 continue;
             frames[count] = frameOfKernel(m_frames[i], size == CANFD_MTU);
@@ -310,6 +342,8 @@ private:
                 quint32 dropped = 0;
                 std::memcpy(&dropped, CMSG_DATA(part), sizeof dropped);
                 countLost(quint32(dropped - m_dropped));
+                if (dropped != m_dropped)
+                    giveUpUnconfirmed();  // confirmations may be among them
                 m_dropped = dropped;
             }
         }

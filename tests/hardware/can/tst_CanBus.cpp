@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "../../common/Waiting.h"
 #include "hardware/can/CanBus.h"
+#include "hardware/can/CanLink.h"
 #include "hardware/can/FakeCanBus.h"
 #include "hardware/can/WallTimeConverter.h"
 #include "realtime/TimeSource.h"
 
+#include <cstring>
 #include <linux/can/error.h>
+#include <linux/can/netlink.h>
+#include <linux/rtnetlink.h>
 #include <memory>
+#include <net/if.h>
 #include <poll.h>
 
 using namespace qplc;
@@ -82,6 +87,96 @@ void addBuses()
         QTest::newRow("kernel") << interface;
 }
 
+constexpr quint32 echoFlag = 1U << 18;  // IFF_ECHO of <linux/if.h>, which <net/if.h> does not go with
+
+CanBus::Options sends(quint32 key)
+{
+    CanBus::Options options;
+    options.sentKeys = {key};
+    return options;
+}
+
+// A bus that confirms frames when the test says so.
+class ScriptedBus : public CanBus
+{
+public:
+    // How many of so many frames it takes.
+    int give(int count)
+    {
+        const std::vector<CanFrame> frames(std::size_t(count), frameOf(1));
+        return send(frames.data(), count, now);
+    }
+    // Takes what has come in, and so many confirmations.
+    void turn(int confirmations = 0)
+    {
+        m_confirmations = confirmations;
+        receiveAll(*this);
+    }
+    void close() override {}
+
+    qint64 now = 0;  // [ns]
+    bool isQueued = false;
+    bool isPassive = false;
+    std::vector<CanFrame> incoming;
+
+protected:
+    bool join(const Options &) override
+    {
+        expectConfirmations();
+        return true;
+    }
+    int readFrames(CanFrame *frames, int) noexcept override
+    {
+        confirm(m_confirmations);
+        m_confirmations = 0;
+        if (isPassive)
+            setState(Passive);
+        if (incoming.empty())
+            return 0;
+        frames[0] = incoming.front();
+        incoming.erase(incoming.begin());
+        return 1;
+    }
+    int writeFrames(const CanFrame *, int count) noexcept override { return count; }
+    bool hasQueue() const noexcept override { return isQueued; }
+
+private:
+    int m_confirmations = 0;
+};
+
+QByteArray attribute(int kind, const QByteArray &content)
+{
+    rtattr head;
+    head.rta_type = quint16(kind);
+    head.rta_len = quint16(RTA_LENGTH(content.size()));
+    QByteArray bytes(reinterpret_cast<const char *>(&head), sizeof head);
+    bytes += content;
+    return bytes.leftJustified(int(RTA_SPACE(content.size())), '\0');
+}
+
+template<typename T>
+QByteArray bytesOf(const T &value)
+{
+    return {reinterpret_cast<const char *>(&value), int(sizeof value)};
+}
+
+// An answer of the kernel to RTM_GETLINK of a CAN interface.
+QByteArray linkMessage(quint32 flags, quint32 state, quint32 mode)
+{
+    ifinfomsg info;
+    std::memset(&info, 0, sizeof info);
+    info.ifi_flags = flags;
+    const can_ctrlmode modes{0xFFFFFFFF, mode};
+    const QByteArray can = attribute(IFLA_CAN_CTRLMODE, bytesOf(modes)) + attribute(IFLA_CAN_STATE, bytesOf(state));
+    const QByteArray body = bytesOf(info) + attribute(IFLA_IFNAME, QByteArray("can0", 5))
+        + attribute(IFLA_LINKINFO, attribute(IFLA_INFO_KIND, "can") + attribute(IFLA_INFO_DATA, can));
+    nlmsghdr header;
+    std::memset(&header, 0, sizeof header);
+    header.nlmsg_type = RTM_NEWLINK;
+    header.nlmsg_len = quint32(NLMSG_LENGTH(body.size()));
+    return bytesOf(header) + body;
+}
+
 }  // namespace
 
 class tst_CanBus : public QObject
@@ -111,6 +206,16 @@ private Q_SLOTS:
     void errorFramesSetTheControllerState();
     void overflowOfTheControllerIsALoss_data() { addBuses(); }
     void overflowOfTheControllerIsALoss();
+    void busHoldsBackUntilFramesAreConfirmed();
+    void framesOfOneTurnDoNotWaitForEachOther();
+    void busWithoutSentKeysHoldsNothingBack();
+    void droppedFramesAreGivenUpAfterATime_data();
+    void droppedFramesAreGivenUpAfterATime();
+    void framesInAQueueAreNotGivenUp();
+    void restartOfTheControllerEndsTheWait();
+    void queueOfAnUnacknowledgedBusIsShort();
+    void kernelTellsStateEchoAndOneShot();
+    void damagedLinkMessageIsRead();
     void processesExchangeFramesOverTheBus();
     void stampsFollowTheMonotonicClock();
     void stampsSurviveAStepOfTheWallClock();
@@ -367,6 +472,161 @@ void tst_CanBus::overflowOfTheControllerIsALoss()
     receive(*b, 1);
     QCOMPARE(b->counters().lost, quint64(1));
     QCOMPARE(b->state(), CanBus::Active);
+}
+
+// ---- confirmations ----
+
+void tst_CanBus::busHoldsBackUntilFramesAreConfirmed()
+{
+    ScriptedBus bus;
+    QVERIFY(bus.open(sends(1)));
+    QCOMPARE(bus.give(2), 2);
+    bus.turn();
+    QCOMPARE(bus.give(2), 0);
+    bus.turn(1);
+    QCOMPARE(bus.unconfirmed(), 1);
+    QCOMPARE(bus.give(2), 0);
+    bus.turn(1);
+    QCOMPARE(bus.unconfirmed(), 0);
+    QCOMPARE(bus.give(2), 2);
+    QCOMPARE(bus.counters().sent, quint64(4));
+    QCOMPARE(bus.counters().unsent, quint64(4));
+}
+
+void tst_CanBus::framesOfOneTurnDoNotWaitForEachOther()
+{
+    ScriptedBus bus;
+    QVERIFY(bus.open(sends(1)));
+    bus.turn();
+    QCOMPARE(bus.give(1), 1);
+    QCOMPARE(bus.give(3), 3);
+    QCOMPARE(bus.unconfirmed(), 4);
+}
+
+void tst_CanBus::busWithoutSentKeysHoldsNothingBack()
+{
+    const auto a = join(testBus);
+    QVERIFY(FakeCanBus::setAcknowledged(QStringLiteral("test"), false));
+    const CanFrame frame = frameOf(1);
+    for (int i = 0; i < 3; ++i) {
+        QCOMPARE(a->send(&frame, 1), 1);
+        receiveAll(*a);
+    }
+    QCOMPARE(a->unconfirmed(), 0);
+}
+
+void tst_CanBus::droppedFramesAreGivenUpAfterATime_data()
+{
+    QTest::addColumn<bool>("isPassive");
+    QTest::addColumn<qint64>("milliseconds");
+    QTest::newRow("the controller is well") << false << qint64(100);
+    QTest::newRow("the controller is error passive, as without an acknowledgement") << true << qint64(10'000);
+}
+
+void tst_CanBus::droppedFramesAreGivenUpAfterATime()
+{
+    QFETCH(bool, isPassive);
+    QFETCH(qint64, milliseconds);
+    ScriptedBus bus;
+    QVERIFY(bus.open(sends(1)));
+    bus.isPassive = isPassive;
+    bus.now = 1'000'000'000;
+    QCOMPARE(bus.give(2), 2);
+    bus.turn();
+    bus.now += milliseconds * 1'000'000 - 1;
+    QCOMPARE(bus.give(1), 0);
+    bus.now += 1;
+    QCOMPARE(bus.give(1), 1);
+    QCOMPARE(bus.unconfirmed(), 1);
+    QCOMPARE(bus.counters().failed, quint64(2));
+    QCOMPARE(bus.counters().sent, quint64(1));
+}
+
+void tst_CanBus::framesInAQueueAreNotGivenUp()
+{
+    ScriptedBus bus;
+    QVERIFY(bus.open(sends(1)));
+    bus.isQueued = true;
+    bus.give(2);
+    bus.turn();
+    bus.now += 3600'000'000'000;
+    QCOMPARE(bus.give(1), 0);
+    bus.isQueued = false;
+    QCOMPARE(bus.give(1), 1);
+}
+
+void tst_CanBus::restartOfTheControllerEndsTheWait()
+{
+    ScriptedBus bus;
+    QVERIFY(bus.open(sends(1)));
+    bus.give(3);
+    bus.turn();
+    CanFrame busOff = frameOf(CAN_ERR_BUSOFF, CanFrame::Error);
+    bus.incoming = {busOff};
+    bus.turn();
+    QCOMPARE(bus.give(1), 0);
+    bus.incoming = {frameOf(CAN_ERR_RESTARTED, CanFrame::Error)};
+    bus.turn();
+    QCOMPARE(bus.give(1), 1);
+    QCOMPARE(bus.counters().failed, quint64(3));
+}
+
+void tst_CanBus::queueOfAnUnacknowledgedBusIsShort()
+{
+    const auto a = join(testBus);
+    const auto b = join(testBus);
+    QVERIFY(FakeCanBus::setAcknowledged(QStringLiteral("test"), false));
+    std::vector<CanFrame> frames;
+    for (quint32 i = 0; i < 20; ++i)
+        frames.push_back(frameOf(i));
+    QCOMPARE(a->send(frames.data(), 20), FakeCanBus::QueueLength + 1);
+    QCOMPARE(a->send(frames.data(), 20), 0);
+    receiveAll(*a);
+    QCOMPARE(a->state(), CanBus::Passive);
+    QVERIFY(receiveAll(*b).empty());
+    QVERIFY(FakeCanBus::setAcknowledged(QStringLiteral("test"), true));
+    const CanFrame last = frameOf(0x777);
+    QCOMPARE(a->send(&last, 1), 1);
+    const auto received = receiveAll(*b);
+    QCOMPARE(received.size(), std::size_t(FakeCanBus::QueueLength + 2));
+    QCOMPARE(received.front().id, 0U);
+    QCOMPARE(received.back().id, 0x777U);
+    receiveAll(*a);
+    QCOMPARE(a->state(), CanBus::Active);
+}
+
+// ---- the interface, as the kernel tells of it ----
+
+void tst_CanBus::kernelTellsStateEchoAndOneShot()
+{
+    const QByteArray well = linkMessage(IFF_UP | echoFlag, CAN_STATE_ERROR_ACTIVE, 0);
+    const CanLink link = CanLink::fromMessage(well.constData(), well.size());
+    QCOMPARE(link.state, CanBus::Active);
+    QVERIFY(link.hasEcho);
+    QVERIFY(!link.isOneShot);
+    const QByteArray other = linkMessage(IFF_UP, CAN_STATE_ERROR_PASSIVE, CAN_CTRLMODE_ONE_SHOT | CAN_CTRLMODE_FD);
+    const CanLink otherLink = CanLink::fromMessage(other.constData(), other.size());
+    QCOMPARE(otherLink.state, CanBus::Passive);
+    QVERIFY(!otherLink.hasEcho);
+    QVERIFY(otherLink.isOneShot);
+    QCOMPARE(CanLink::read(int(if_nametoindex("lo"))).state, CanBus::Active);  // no CAN interface: the defaults
+    QVERIFY(!CanLink::read(int(if_nametoindex("lo"))).isOneShot);
+}
+
+void tst_CanBus::damagedLinkMessageIsRead()
+{
+    const QByteArray message = linkMessage(IFF_UP, CAN_STATE_ERROR_PASSIVE, CAN_CTRLMODE_ONE_SHOT);
+    for (int size = 0; size < message.size(); ++size) {
+        const QByteArray part = message.left(size);  // a copy, so that a sanitizer sees what is read behind it
+        QVERIFY(CanLink::fromMessage(part.constData(), part.size()).state <= CanBus::Passive);
+    }
+    for (int i = int(sizeof(nlmsghdr)); i < message.size(); ++i) {
+        for (const char value : {'\0', '\1', '\xff'}) {
+            QByteArray changed = message;
+            changed[i] = value;
+            QVERIFY(CanLink::fromMessage(changed.constData(), changed.size()).state <= CanBus::BusOff);
+        }
+    }
 }
 
 void tst_CanBus::processesExchangeFramesOverTheBus()

@@ -22,6 +22,33 @@ QByteArray commandSent(const QByteArray &rule)
         + (rule.isEmpty() ? QByteArray() : "send.Command = " + rule + "\n");
 }
 
+const QString benchBus = QStringLiteral("bench");
+const QString count = QStringLiteral("Counting.Count");
+
+QByteArray countingMessage(const QByteArray &rule)
+{
+    return "frame.Counting = 0x300, 2 bytes\nsignal.Counting.Count = 0|16@1+\nsend.Counting = " + rule + '\n';
+}
+
+// Frames of countingMessage() with begin ... end - 1.
+QByteArray countedFrames(int begin, int end)
+{
+    QByteArrayList frames;
+    for (int i = begin; i < end; ++i)
+        frames << "300#" + QByteArray(1, char(i)).toHex() + QByteArray(1, char(i >> 8)).toHex();
+    return frames.join(' ');
+}
+
+// Cycles of 100 Hz with these values. Returns what the partner got.
+QByteArray countIn(CanBench *bench, int begin, int end)
+{
+    for (int i = begin; i < end; ++i) {
+        bench->driver.set(count, i);
+        bench->cycle(10ms);
+    }
+    return bench->received();
+}
+
 }  // namespace
 
 class tst_CanSending : public QObject
@@ -52,6 +79,12 @@ private Q_SLOTS:
     void openSendsSafeValues();
     void frameRefusedByTheBusIsSentAgain();
     void refusedSafeValuesAreSentAgainWithoutCycles();
+    void afterAnOutageTheNewestValueFollowsTheFrameOfTheController();
+    void afterAnOutageOfAOneShotControllerTheFirstFrameIsNew();
+    void afterAnOutageTheSafeValueFollowsTheFrameOfTheController();
+    void outageKeepsTheFramesOfOneCycle();
+    void changesDuringAnOutageAreSentOnce();
+    void heldBackFramesAreCounted();
 };
 
 void tst_CanSending::withoutRuleEveryCycleSends()
@@ -373,13 +406,118 @@ void tst_CanSending::refusedSafeValuesAreSentAgainWithoutCycles()
         return hasReceived(frame);
     };
     QTRY_VERIFY(sendsInCycle("200#0500"));
-    QVERIFY(FakeCanBus::setFull(QStringLiteral("bench"), true));
+    QVERIFY(FakeCanBus::setAcknowledged(benchBus, false));
+    bench.driver.set(speed, 6.0);
+    runner.write(monotonicNow());  // the controller has this one now
     bench.driver.set(speed, 0.0, true);
     runner.leave(monotonicNow());
     QCOMPARE(bench.received(), QByteArray());
-    QVERIFY(FakeCanBus::setFull(QStringLiteral("bench"), false));
+    QVERIFY(FakeCanBus::setAcknowledged(benchBus, true));
     QTRY_VERIFY(hasReceived("200#0000"));
+    QVERIFY2(received.contains("200#0600"), received.constData());
     runner.stop();
+}
+
+// ---- an outage: nobody acknowledges for 5 s, at 100 Hz ----
+
+void tst_CanSending::afterAnOutageTheNewestValueFollowsTheFrameOfTheController()
+{
+    CanBench bench(countingMessage("every cycle"));
+    bench.driver.wireWrite(count);
+    QVERIFY(bench.open());
+    QCOMPARE(countIn(&bench, 0, 10), countedFrames(0, 10));
+    QVERIFY(FakeCanBus::setAcknowledged(benchBus, false));
+    QCOMPARE(countIn(&bench, 10, 510), QByteArray());
+    QVERIFY(FakeCanBus::setAcknowledged(benchBus, true));
+    QCOMPARE(countIn(&bench, 510, 515), countedFrames(10, 11) + ' ' + countedFrames(510, 515));
+}
+
+void tst_CanSending::afterAnOutageOfAOneShotControllerTheFirstFrameIsNew()
+{
+    CanBench bench(countingMessage("every cycle"));
+    bench.driver.wireWrite(count);
+    QVERIFY(FakeCanBus::setOneShot(benchBus, true));
+    QVERIFY(bench.open());
+    countIn(&bench, 0, 10);
+    QVERIFY(FakeCanBus::setAcknowledged(benchBus, false));
+    QCOMPARE(countIn(&bench, 10, 510), QByteArray());
+    QVERIFY(FakeCanBus::setAcknowledged(benchBus, true));
+    QCOMPARE(countIn(&bench, 510, 515), countedFrames(510, 515));
+}
+
+void tst_CanSending::afterAnOutageTheSafeValueFollowsTheFrameOfTheController()
+{
+    CanBench bench(countingMessage("every 50 ms"));
+    bench.driver.wireWrite(count);
+    QVERIFY(bench.open());
+    countIn(&bench, 1, 11);
+    QVERIFY(FakeCanBus::setAcknowledged(benchBus, false));
+    QCOMPARE(countIn(&bench, 11, 261), QByteArray());
+    bench.driver.set(count, 0.0, true);
+    for (int i = 0; i < 250; ++i)
+        QVERIFY(bench.cycle(10ms));
+    QVERIFY(FakeCanBus::setAcknowledged(benchBus, true));
+    QVERIFY(bench.cycle(10ms));
+    const QByteArray received = bench.received();
+    QCOMPARE(received.count(' '), 1);
+    QVERIFY2(received.startsWith("300#0b00") && received.endsWith("300#0000"), received.constData());
+}
+
+void tst_CanSending::outageKeepsTheFramesOfOneCycle()
+{
+    CanBench bench("frame.A = 1, 1 byte\nsignal.A.S = 0|8@1+\nframe.B = 2, 1 byte\nsignal.B.S = 0|8@1+\n");
+    for (const char *name : {"A.S", "B.S"})
+        bench.driver.wireWrite(text(name));
+    QVERIFY(bench.open());
+    const auto cycleWith = [&bench](double value) {
+        bench.driver.set(text("A.S"), value);
+        bench.driver.set(text("B.S"), value);
+        bench.cycle(10ms);
+        return bench.received();
+    };
+    cycleWith(1.0);
+    QVERIFY(FakeCanBus::setAcknowledged(benchBus, false));
+    for (int i = 2; i < 100; ++i)
+        QCOMPARE(cycleWith(i), QByteArray());
+    QVERIFY(FakeCanBus::setAcknowledged(benchBus, true));
+    QCOMPARE(cycleWith(100.0), QByteArray("1#02 2#02 1#64 2#64"));
+}
+
+void tst_CanSending::changesDuringAnOutageAreSentOnce()
+{
+    CanBench bench(countingMessage("on change"));
+    bench.driver.wireWrite(count);
+    QVERIFY(bench.open());
+    QCOMPARE(countIn(&bench, 0, 3), countedFrames(0, 3));
+    QVERIFY(FakeCanBus::setAcknowledged(benchBus, false));
+    QCOMPARE(countIn(&bench, 3, 50), QByteArray());
+    QVERIFY(FakeCanBus::setAcknowledged(benchBus, true));
+    for (int i = 0; i < 5; ++i)
+        bench.cycle(10ms);
+    QCOMPARE(bench.received(), countedFrames(3, 4) + ' ' + countedFrames(49, 50));
+}
+
+void tst_CanSending::heldBackFramesAreCounted()
+{
+    CanBench bench(countingMessage("every cycle"));
+    bench.driver.wireWrite(count);
+    for (const char *name : {"@sent", "@unsent", "@unconfirmed", "@state"})
+        bench.driver.wireRead(text(name));
+    const auto values = [&bench] {
+        QVector<double> all;
+        for (const char *name : {"@sent", "@unsent", "@unconfirmed", "@state"})
+            all.append(bench.driver.value(text(name)));
+        return all;
+    };
+    QVERIFY(bench.open());
+    countIn(&bench, 0, 10);
+    QCOMPARE(values(), (QVector<double>{10.0, 0.0, 0.0, 0.0}));
+    QVERIFY(FakeCanBus::setAcknowledged(benchBus, false));
+    countIn(&bench, 10, 20);
+    QCOMPARE(values(), (QVector<double>{11.0, 9.0, 1.0, 2.0}));
+    QVERIFY(FakeCanBus::setAcknowledged(benchBus, true));
+    countIn(&bench, 20, 21);
+    QCOMPARE(values(), (QVector<double>{12.0, 9.0, 0.0, 0.0}));
 }
 
 QTEST_GUILESS_MAIN(tst_CanSending)
