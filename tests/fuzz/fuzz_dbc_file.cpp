@@ -20,6 +20,26 @@ void exchange(const qplc::DbcMessage &message)
     }
 }
 
+// What is in a frame follows from multiplexors that are in it.
+void select(const qplc::DbcMessage &message)
+{
+    const QByteArray bytes(message.size, char(0xA5));
+    const auto *data = reinterpret_cast<const quint8 *>(bytes.constData());
+    bool hasPage = false;
+    for (const qplc::DbcSignal &signal : message.content) {
+        fuzz::check(signal.multiplexor < message.content.size(), "a multiplexor is one of the signals");
+        fuzz::check(message.depthOf(signal) < message.content.size(), "multiplexors have an end");
+        fuzz::check(signal.isMultiplexed() == (signal.multiplexor >= 0), "a page is that of a multiplexor");
+        const bool isThere = message.isThere(signal, data);
+        hasPage = hasPage || (isThere && signal.isMultiplexed());
+        if (isThere && signal.isMultiplexed())
+            fuzz::check(message.isThere(message.content.at(signal.multiplexor), data), "and so is its multiplexor");
+    }
+    fuzz::check(message.hasPage(data) == hasPage, "a frame has a page when it has a signal of one");
+    for (const auto &pair : message.overlappingSignals())
+        fuzz::check(message.find(pair.first) && message.find(pair.second), "signals that overlap have names");
+}
+
 }  // namespace
 
 // Input: a DBC file. Whatever is read without an error can be used.
@@ -34,10 +54,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
         fuzz::check(!error.toString().isEmpty() && error.line >= 0 && error.column >= 0, "an error has a place");
     for (const qplc::DbcMessage &message : file.messages()) {
         fuzz::check(file.find(message.name) == &message, "each message has its own name");
-        fuzz::check(message.multiplexor < message.content.size(), "the multiplexor is one of the signals");
         fuzz::check(!message.unsupported.isEmpty() || qplc::CanFrame::isSize(message.size, message.isFd),
                     "a message fits into a frame");
         exchange(message);
+        if (message.unsupported.isEmpty())
+            select(message);
     }
     return 0;
 }

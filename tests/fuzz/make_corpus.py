@@ -596,6 +596,12 @@ ODD_DBC_FILES = {
     ' SG_ Q m3 : 15|16@0- (0.5,-1) [-1|1] "m" X\nSG_MUL_VAL_ 1 Q P 3-3;\n',
     "extended multiplexing": 'BO_ 1 A: 8 X\n SG_ P M : 0|8@1+ (1,0) [0|0] "" X\n'
     ' SG_ Q m0M : 8|8@1+ (1,0) [0|0] "" X\nSG_MUL_VAL_ 1 Q P 0-2, 5-7;\n',
+    "several multiplexors": 'BO_ 1 A: 8 X\n SG_ P M : 0|8@1+ (1,0) [0|0] "" X\n'
+    ' SG_ Q m0M : 8|8@1+ (1,0) [0|0] "" X\n SG_ R M : 16|8@0+ (1,0) [0|0] "" X\n'
+    ' SG_ S m1 : 24|8@1+ (1,0) [0|0] "" X\n SG_ T m1 : 24|16@1- (1,0) [0|0] "" X\n'
+    "SG_MUL_VAL_ 1 Q P 0-0;\nSG_MUL_VAL_ 1 S Q 1-1, 3-7;\nSG_MUL_VAL_ 1 T R 1-2;\n",
+    "J1939": 'BO_ 2566844926 Speed: 8 X\n SG_ S : 0|16@1+ (0.125,0) [0|0] "" X\nBO_ 2566844670 Long: 39 X\n'
+    'BA_DEF_DEF_ "GenMsgDelayTime" 5;\nBA_ "ProtocolType" "J1939";\nBA_ "VFrameFormat" BO_ 2566844926 3;\n',
     "attributes": DBC_HEAD
     + 'BO_ 2566840318 A: 64 X\n SG_ F : 0|32@1- (1,0) [0|0] "" X\nBA_DEF_ BO_ "GenMsgCycleTime" INT 0 9;\n'
     'BA_DEF_DEF_ "GenMsgCycleTime" 5;\n'

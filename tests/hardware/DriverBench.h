@@ -46,6 +46,7 @@ public:
     qplc::DriverRunner &runner() { return m_runner; }
     /// What is wrong with the keys; empty: nothing.
     QString errors() const { return QPlcParseError::toString(m_configuration.errors()); }
+    QVector<QPlcParseError> warnings() const { return m_configuration.warnings(); }
     QString errorString() { return m_runner.driver().errorString(); }
 
     /// All wires before open(). \return what is wrong; empty: nothing

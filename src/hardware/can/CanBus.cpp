@@ -15,7 +15,7 @@ namespace {
 
 // After this time without a confirmation, frames were dropped by the kernel or the adapter. A
 // controller that is error passive tells that it still repeats one.
-constexpr qint64 canDroppedAfter = 100'000'000;             // [ns]
+constexpr qint64 canDroppedAfter = 100'000'000;            // [ns]
 constexpr qint64 canDroppedAfterPassive = 10'000'000'000;  // [ns]
 
 // What the controller says of itself in an error frame; `before` when it says nothing.
@@ -89,6 +89,7 @@ bool CanBus::open(const Options &options)
 {
     m_options = options;
     std::sort(m_options.keys.begin(), m_options.keys.end());
+    std::sort(m_options.groups.begin(), m_options.groups.end());
     m_state = Active;
     m_errorNumber = 0;
     m_confirms = false;
@@ -163,7 +164,9 @@ int CanBus::lose(int errorNumber) noexcept
 bool CanBus::accepts(const CanFrame &frame) const noexcept
 {
     return m_options.receivesAll || frame.has(CanFrame::Error)
-        || std::binary_search(m_options.keys.begin(), m_options.keys.end(), frame.key());
+        || std::binary_search(m_options.keys.begin(), m_options.keys.end(), frame.key())
+        || (frame.has(CanFrame::Extended)
+            && std::binary_search(m_options.groups.begin(), m_options.groups.end(), CanFrame::groupOf(frame.id)));
 }
 
 void CanBus::noteError(const CanFrame &frame) noexcept

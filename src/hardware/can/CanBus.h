@@ -38,6 +38,7 @@ public:
     struct Options
     {
         std::vector<quint32> keys;      ///< of the messages that are received (CanFrame::key())
+        std::vector<quint32> groups;    ///< parameter groups of J1939 that are received (CanFrame::groupOf())
         std::vector<quint32> sentKeys;  ///< of messages that are sent: the bus holds back; empty: it never does
         bool receivesAll = false;       ///< all frames of the bus
         bool needsFd = false;           ///< frames of CAN FD are sent or received
@@ -129,8 +130,8 @@ private:
 
     bool m_confirms = false;
     int m_unconfirmed = 0;
-    int m_overdue = 0;       // those of them that were taken before the last receive()
-    qint64 m_takenAt = 0;    // the first of them [ns]
+    int m_overdue = 0;     // those of them that were taken before the last receive()
+    qint64 m_takenAt = 0;  // the first of them [ns]
 };
 
 /// \return null: no interface of the kernel can have this name

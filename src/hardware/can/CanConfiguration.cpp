@@ -34,6 +34,7 @@ bool readCanPeriod(const QString &word, std::chrono::nanoseconds *period)
 
 bool readCanRule(const QStringList &words, CanSendRule *rule)
 {
+    const QLatin1String atMost("at most ");
     for (const QString &word : words) {
         if (word == QLatin1String("every cycle"))
             rule->everyCycle = true;
@@ -41,7 +42,10 @@ bool readCanRule(const QStringList &words, CanSendRule *rule)
             rule->onChange = true;
         else if (word == QLatin1String("on request"))
             rule->onRequest = true;
-        else if (!readCanPeriod(word, &rule->period))
+        else if (word.startsWith(atMost)) {
+            if (!readCanPeriod(word.mid(atMost.size()), &rule->gap))
+                return false;
+        } else if (!readCanPeriod(word, &rule->period))
             return false;
     }
     return !words.isEmpty();
@@ -87,7 +91,11 @@ void CanConfiguration::read(QPlcDriverSettings &settings)
     readSignals(settings);
     readRules(settings);
     readTimeouts(settings);
+    readSources(settings);
+    readProtections(settings);
     finish(settings);
+    finishIds(settings);
+    warnOfOverlaps(settings);
 }
 
 const CanMessage *CanConfiguration::find(const QString &message) const
@@ -155,7 +163,7 @@ bool CanConfiguration::addFrame(const QString &name, const QStringList &words, Q
     message.name = name;
     *error
         = QStringLiteral("'%1' is not a frame; write frame.%2 = 0x123, 8 bytes, and, if need be, extended, fd, no bit "
-                         "rate switch, every 10 ms")
+                         "rate switch, j1939, every 10 ms")
               .arg(words.join(QStringLiteral(", ")), name);
     if (words.size() < 2 || !allowed.match(name).hasMatch() || !readCanId(words.at(0), &message)
         || !readCanSize(words.at(1), &message.size))
@@ -165,13 +173,17 @@ bool CanConfiguration::addFrame(const QString &name, const QStringList &words, Q
             message.isExtended = true;
         else if (word == QLatin1String("fd"))
             message.isFd = true;
+        else if (word == QLatin1String("j1939"))
+            message.isJ1939 = message.isExtended = true;
         else if (word == QLatin1String("no bit rate switch"))
             message.hasBitRateSwitch = false;
         else if (!readCanPeriod(word, &message.cycleTime))
             return false;
     }
-    message.isFd = message.isFd || message.size > 8;
-    if (!CanFrame::isSize(message.size, message.isFd))
+    message.isFd = !message.isJ1939 && (message.isFd || message.size > 8);
+    if (message.isJ1939 && message.size > 8)
+        *error = DbcFile::sizeProblemOf(message);
+    else if (!CanFrame::isSize(message.size, message.isFd))
         *error = QStringLiteral("no frame has %1 bytes; it has 0 ... 8, and with CAN FD 12, 16, 20, 24, 32, 48 or 64")
                      .arg(message.size);
     else if (find(name))
@@ -192,21 +204,32 @@ void CanConfiguration::readSignals(QPlcDriverSettings &settings)
         QString error;
         if (!addSignal(name, settings.text(key), &error))
             settings.addError(key, error);
-        else
-            warnOfOverlap(find(name.section(QLatin1Char('.'), 0, 0))->description, key, settings);
     }
 }
 
-/// Of the last signal of a message.
-void CanConfiguration::warnOfOverlap(const DbcMessage &message, const QString &key, QPlcDriverSettings &settings)
+// Of signals by keys each pair, of a message in a DBC file one: unions of signals are usual there.
+void CanConfiguration::warnOfOverlaps(QPlcDriverSettings &settings) const
 {
-    const DbcSignal &last = message.content.last();
-    for (const DbcSignal &other : message.content) {
-        if (other.name != last.name && other.overlaps(last))
-            settings.addWarning(key,
-                                QStringLiteral("signals '%1' and '%2' of frame '%3' have bits in common; correct start "
+    int inFile = 0;
+    for (const CanMessage &message : m_messages) {
+        const DbcMessage &description = message.description;
+        if (!description.unsupported.isEmpty() || inFile == DbcFile::MaximumErrors)
+            continue;
+        const auto pairs = description.overlappingSignals();
+        for (const auto &pair : pairs) {
+            const QString key = QStringLiteral("signal.%1.%2").arg(description.name, pair.second);
+            const bool isByKey = settings.has(key);
+            settings.addWarning(isByKey ? key : QStringLiteral("dbc"),
+                                QStringLiteral("signals '%1' and '%2' of %3 '%4' have bits in common; correct start "
                                                "and length if this is not on purpose")
-                                    .arg(other.name, last.name, message.name));
+                                    .arg(pair.first, pair.second,
+                                         isByKey ? QStringLiteral("frame") : QStringLiteral("message"),
+                                         description.name));
+            if (!isByKey) {
+                ++inFile;
+                break;
+            }
+        }
     }
 }
 
@@ -229,12 +252,14 @@ bool CanConfiguration::addSignal(const QString &name, const QString &text, QStri
     }
     DbcMessage &message = owner->description;
     *error = DbcFile::problemOf(message, signal);
-    if (signal.role == DbcSignal::Multiplexor && message.multiplexor >= 0)
-        *error = QStringLiteral("frame '%1' has two multiplexors; it can have one").arg(frame);
+    const bool hasMultiplexor = std::any_of(message.content.cbegin(), message.content.cend(),
+                                            [](const DbcSignal &part) { return part.isMultiplexor; });
+    if (signal.isMultiplexor && (hasMultiplexor || signal.isMultiplexed()))
+        *error = QStringLiteral("frame '%1' has two multiplexors; it can have one: write a frame of the same id for "
+                                "each, or a DBC file with lines SG_MUL_VAL_")
+                     .arg(frame);
     if (!error->isEmpty())
         return false;
-    if (signal.role == DbcSignal::Multiplexor)
-        message.multiplexor = message.content.size();
     message.content.append(signal);
     return true;
 }
@@ -266,8 +291,13 @@ void CanConfiguration::readRules(QPlcDriverSettings &settings)
             settings.addError(
                 key,
                 QStringLiteral("'%1' does not say when to send; write every cycle, every 10 ms, on change, "
-                               "on request, or some of them with commas between")
+                               "on request, or some of them with commas between, and at most every 10 ms for a gap")
                     .arg(words.join(QStringLiteral(", "))));
+        else if (rule.period.count() > 0 && rule.gap > rule.period)
+            settings.addError(key,
+                              QStringLiteral("at most every %1 is less often than every %2; write a longer period, or "
+                                             "a smaller gap")
+                                  .arg(durationText(rule.gap), durationText(rule.period)));
         else if (rule.onRequest && message->description.isFd)
             settings.addError(key,
                               QStringLiteral("message '%1' is one of CAN FD, which has no requests (remote frames); "
@@ -296,30 +326,106 @@ void CanConfiguration::readTimeouts(QPlcDriverSettings &settings)
     }
 }
 
+// source.MESSAGE = 0x21
+void CanConfiguration::readSources(QPlcDriverSettings &settings)
+{
+    const QStringList names = settings.namesBehind(QStringLiteral("source."));
+    for (const QString &name : names) {
+        const QString key = QStringLiteral("source.") + name;
+        const int source = int(settings.integer(key, 0, 0, 253));
+        CanMessage *message = messageOf(name, key, settings);
+        if (!message)
+            continue;
+        message->source = source;
+        if (!message->description.isJ1939)
+            settings.addError(key,
+                              QStringLiteral("message '%1' is not one of J1939, so its id is that of the frame; remove "
+                                             "the key, or add the word j1939 to frame.%1")
+                                  .arg(name));
+    }
+}
+
+// counter.MESSAGE = SIGNAL, up to 14
+// checksum.MESSAGE = SIGNAL, crc8, polynomial 0x2F
+void CanConfiguration::readProtections(QPlcDriverSettings &settings)
+{
+    for (const bool isCounter : {true, false}) {
+        const QString prefix = isCounter ? QStringLiteral("counter.") : QStringLiteral("checksum.");
+        const QStringList names = settings.namesBehind(prefix);
+        for (const QString &name : names) {
+            const QString key = prefix + name;
+            const QStringList words = settings.list(key);
+            CanMessage *message = messageOf(name, key, settings);
+            if (!message)
+                continue;
+            const QString error = isCounter ? message->protection.readCounter(words, message->description)
+                                            : message->protection.readChecksum(words, message->description);
+            if (!error.isEmpty())
+                settings.addError(key, error);
+        }
+    }
+}
+
 // What is not said follows from the cycle times.
 void CanConfiguration::finish(QPlcDriverSettings &settings)
 {
-    QHash<quint32, QString> nameOfKey;
     for (CanMessage &message : m_messages) {
         DbcMessage &description = message.description;
-        const bool isMultiplexed
-            = std::any_of(description.content.cbegin(), description.content.cend(),
-                          [](const DbcSignal &signal) { return signal.role == DbcSignal::Multiplexed; });
-        if (isMultiplexed && description.multiplexor < 0 && description.unsupported.isEmpty())
-            description.unsupported = QStringLiteral("it has multiplexed signals and no multiplexor (M)");
+        if (description.unsupported.isEmpty())
+            description.unsupported = description.connectMultiplexors();
         CanSendRule &rule = message.rule;
+        if (rule.onRequest && description.isJ1939)
+            settings.addError(QStringLiteral("send.") + description.name,
+                              QStringLiteral("message '%1' is one of J1939, which has no remote frames; write another "
+                                             "rule")
+                                  .arg(description.name));
         if (!rule.everyCycle && !rule.onChange && !rule.onRequest && rule.period.count() == 0) {
             rule.period = description.cycleTime;
             rule.everyCycle = rule.period.count() == 0;
         }
+        if (rule.gap.count() == 0)
+            rule.gap = description.delayTime;
         if (message.timeout.count() == 0)
             message.timeout = 3 * description.cycleTime;
-        const quint32 key = CanFrame::keyOf(description.id, description.isExtended);
-        if (nameOfKey.contains(key))
-            settings.addError(QStringLiteral("frame.") + description.name,
-                              QStringLiteral("frame '%1' has the id of message '%2'; give each its own")
-                                  .arg(description.name, nameOfKey.value(key)));
-        nameOfKey.insert(key, description.name);
+    }
+}
+
+// A group of J1939 comes from any source and goes to any node, unless its messages need source and
+// destination to be told apart. Messages of one id are told apart by their multiplexors.
+void CanConfiguration::finishIds(QPlcDriverSettings &settings)
+{
+    constexpr quint32 sourceBits = 0xFF;
+    constexpr quint32 destinationBits = 0xFF00;
+    constexpr quint32 priorityBits = 0x1C000000;
+    QHash<quint32, int> messagesOfGroup;
+    for (const CanMessage &message : qAsConst(m_messages)) {
+        if (message.description.isJ1939)
+            ++messagesOfGroup[CanFrame::groupOf(message.description.id)];
+    }
+    QHash<quint64, int> firstOfId;
+    for (int i = 0; i < m_messages.size(); ++i) {
+        CanMessage &message = m_messages[i];
+        const DbcMessage &description = message.description;
+        if (description.isJ1939) {
+            const quint32 group = CanFrame::groupOf(description.id);
+            const bool isAlone = messagesOfGroup.value(group) == 1;
+            message.mask &= ~priorityBits & ~(isAlone && message.source < 0 ? sourceBits : 0)
+                & ~(isAlone && CanFrame::isForOneNode(group) ? destinationBits : 0);
+        }
+        const quint64 id
+            = quint64(message.mask) << 32 | CanFrame::keyOf(message.sentId() & message.mask, description.isExtended);
+        const int first = firstOfId.value(id, i);
+        firstOfId.insert(id, first);
+        CanMessage &other = m_messages[first];
+        const QString key = QStringLiteral("frame.") + description.name;
+        if (first == i || !settings.has(key))  // in a DBC file, ids that differ by their priority alone
+            continue;
+        message.sharesId = other.sharesId = true;
+        if (!description.isMultiplexed() || !other.description.isMultiplexed())
+            settings.addError(key,
+                              QStringLiteral("frame '%1' has the id of message '%2'; give each its own, or a "
+                                             "multiplexor (M) by which their frames can be told apart")
+                                  .arg(description.name, other.description.name));
     }
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "CanFrame.h"
+#include "CanProtection.h"
 #include "DbcFile.h"
 
 #include <QtCore/QStringList>
@@ -18,6 +20,7 @@ struct CanSendRule
     bool onChange = false;
     bool onRequest = false;
     std::chrono::nanoseconds period{0};  // 0: not periodically
+    std::chrono::nanoseconds gap{0};     // at least between two frames, but before a safe value; 0: none
 };
 
 /// A message of the bus: what it carries, when it is sent, and how long it is fresh.
@@ -25,7 +28,16 @@ struct CanMessage
 {
     DbcMessage description;
     CanSendRule rule;
-    std::chrono::nanoseconds timeout{0};  // 0: that of the driver
+    CanProtection protection;
+    std::chrono::nanoseconds timeout{0};   // 0: that of the driver
+    int source = -1;                       // address of J1939 of its frames; -1: that in the id, or any
+    quint32 mask = CanFrame::ExtendedIds;  // bits of the id that its frames have in common
+    bool sharesId = false;                 // with other messages: the multiplexor says whose frame it is
+
+    /// Of frames that are sent.
+    quint32 sentId() const { return source < 0 ? description.id : (description.id & ~0xFFU) | quint32(source); }
+    /// Whether the id of a frame that was received is that of the message.
+    bool accepts(quint32 id) const { return ((id ^ sentId()) & mask) == 0; }
 };
 
 /// The keys of a CanDriver, which describes them.
@@ -53,9 +65,12 @@ private:
     void readSignals(QPlcDriverSettings &settings);
     void readRules(QPlcDriverSettings &settings);
     void readTimeouts(QPlcDriverSettings &settings);
+    void readSources(QPlcDriverSettings &settings);
+    void readProtections(QPlcDriverSettings &settings);
     void finish(QPlcDriverSettings &settings);
+    void finishIds(QPlcDriverSettings &settings);
     bool addFrame(const QString &name, const QStringList &words, QString *error);
-    static void warnOfOverlap(const DbcMessage &message, const QString &key, QPlcDriverSettings &settings);
+    void warnOfOverlaps(QPlcDriverSettings &settings) const;
     bool addSignal(const QString &name, const QString &text, QString *error);
     CanMessage *messageOf(const QString &name, const QString &key, QPlcDriverSettings &settings);
     QStringList names() const;

@@ -37,9 +37,9 @@ namespace {
 ///
 /// Read channels: MESSAGE.SIGNAL, MESSAGE.@age [s] and MESSAGE.@count of the frames received, and
 /// of the bus @state (0 active, 1 warning, 2 passive, 3 bus-off), @received,
-/// @sent, @lost, @unsent, @unconfirmed, @errors, @busOffs, @saturated, @tooShort and @logDropped. Write channels:
-/// MESSAGE.SIGNAL; a message is sent when all of its wired signals have a value, the others have
-/// their start value (GenSigStartValue), else 0.
+/// @sent, @lost, @unsent, @unconfirmed, @errors, @busOffs, @saturated, @tooShort, @corrupt and
+/// @logDropped. Write channels: MESSAGE.SIGNAL; a message is sent when all of its wired signals
+/// have a value, the others have their start value (GenSigStartValue), else 0.
 ///
 /// A message is sent with its GenMsgCycleTime, else in every cycle, unless send.MESSAGE says
 /// something else; safe values at once. It is fresh for three times its cycle time, else for the
@@ -63,6 +63,7 @@ public:
         addOwn("@busOffs", [this] { return bus().counters().busOffs; });
         addOwn("@saturated", [this] { return saturated(); });
         addOwn("@tooShort", [this] { return tooShort(); });
+        addOwn("@corrupt", [this] { return corrupt(); });
         addOwn("@logDropped", [this] { return m_log.dropped(); });
     }
 
@@ -90,6 +91,19 @@ protected:
         }
         if (direction == QPlcChannel::Read)
             return receiverOf(*message).channel(signal);
+        if (message->description.isJ1939 && (message->sentId() & 0xFF) >= 0xFE) {
+            *error = QStringLiteral("message '%1' has no source address (the last byte of its id is 0x%2); write "
+                                    "source.%1 = address of this node, 0 ... 253")
+                         .arg(message->description.name)
+                         .arg(message->sentId() & 0xFF, 0, 16);
+            return nullptr;
+        }
+        if (signal == message->protection.counter || signal == message->protection.checksum) {
+            *error = QStringLiteral("the driver writes signal '%1' of message '%2' itself (counter.%2, checksum.%2); "
+                                    "remove this line")
+                         .arg(signal, message->description.name);
+            return nullptr;
+        }
         CanSender &sender = senderOf(*message);
         const QString other = sender.overlapWith(*message->description.find(signal));
         if (!other.isEmpty()) {
@@ -198,7 +212,10 @@ private:
         options.bitRate = m_configuration.bitRate();
         options.dataBitRate = m_configuration.dataBitRate();
         for (const auto &receiver : m_receivers) {
-            options.keys.push_back(receiver->key());
+            if (receiver->message().description.isJ1939)
+                options.groups.push_back(CanFrame::groupOf(receiver->message().description.id));
+            else
+                options.keys.push_back(receiver->key());
             options.needsFd = options.needsFd || receiver->message().description.isFd;
         }
         for (const auto &sender : m_senders) {
@@ -216,10 +233,15 @@ private:
         const auto isBefore = [](const Entry &a, const Entry &b) { return a.key < b.key; };
         std::size_t most = 0;
         m_receiverOfKey.clear();
+        m_receiverOfGroup.clear();
         m_senderOfKey.clear();
         for (std::size_t i = 0; i < m_receivers.size(); ++i) {
+            const DbcMessage &description = m_receivers[i]->message().description;
             m_receivers[i]->reset();
-            m_receiverOfKey.push_back({m_receivers[i]->key(), i});
+            if (description.isJ1939)
+                m_receiverOfGroup.push_back({CanFrame::groupOf(description.id), i});
+            else
+                m_receiverOfKey.push_back({m_receivers[i]->key(), i});
         }
         for (std::size_t i = 0; i < m_senders.size(); ++i) {
             m_senders[i]->prepare();
@@ -228,6 +250,7 @@ private:
             m_senderOfKey.push_back({m_senders[i]->key(), i});
         }
         std::sort(m_receiverOfKey.begin(), m_receiverOfKey.end(), isBefore);
+        std::sort(m_receiverOfGroup.begin(), m_receiverOfGroup.end(), isBefore);
         std::sort(m_senderOfKey.begin(), m_senderOfKey.end(), isBefore);
         m_outgoing.assign(most, CanFrame());
         m_counts.assign(m_senders.size(), 0);
@@ -245,15 +268,24 @@ private:
     {
         if (frame.has(CanFrame::Error))
             return;
-        const auto &table = frame.has(CanFrame::Remote) ? m_senderOfKey : m_receiverOfKey;
-        const auto found = std::lower_bound(table.begin(), table.end(), frame.key(),
-                                            [](const Entry &entry, quint32 key) { return entry.key < key; });
-        if (found == table.end() || found->key != frame.key())
+        if (frame.has(CanFrame::Remote)) {
+            forEach(m_senderOfKey, frame.key(), [this](std::size_t index) { m_senders[index]->request(); });
             return;
-        if (frame.has(CanFrame::Remote))
-            m_senders[found->index]->request();
-        else
-            m_receivers[found->index]->decode(frame);
+        }
+        const auto decode = [this, &frame](std::size_t index) { m_receivers[index]->decode(frame); };
+        forEach(m_receiverOfKey, frame.key(), decode);
+        if (frame.has(CanFrame::Extended))
+            forEach(m_receiverOfGroup, CanFrame::groupOf(frame.id), decode);
+    }
+
+    /// Calls \a call with the index of each entry of a key.
+    template<typename Call>
+    static void forEach(const std::vector<Entry> &table, quint32 key, Call call) noexcept
+    {
+        auto entry = std::lower_bound(table.begin(), table.end(), key,
+                                      [](const Entry &one, quint32 wanted) { return one.key < wanted; });
+        for (; entry != table.end() && entry->key == key; ++entry)
+            call(entry->index);
     }
 
     void refresh() noexcept
@@ -307,14 +339,23 @@ private:
         return sum;
     }
 
+    quint64 corrupt() const
+    {
+        quint64 sum = 0;
+        for (const auto &receiver : m_receivers)
+            sum += receiver->corrupt();
+        return sum;
+    }
+
     CanConfiguration m_configuration;
     CanLogWriter m_log;
     bool m_hasLog = false;
     std::vector<std::unique_ptr<CanReceiver>> m_receivers;
     std::vector<std::unique_ptr<CanSender>> m_senders;
 
-    std::vector<Entry> m_receiverOfKey;  // sorted
-    std::vector<Entry> m_senderOfKey;    // sorted; of those that can be asked for
+    std::vector<Entry> m_receiverOfKey;    // sorted
+    std::vector<Entry> m_receiverOfGroup;  // sorted; of J1939
+    std::vector<Entry> m_senderOfKey;      // sorted; of those that can be asked for
     std::vector<CanFrame> m_outgoing;
     std::vector<int> m_counts;  // frames of each sender in m_outgoing
     quint64 m_failed = 0;       // frames, as the bus has counted them

@@ -34,6 +34,15 @@ struct CanFrame
     /// id.
     quint32 key() const { return keyOf(id, has(Extended)); }
     static constexpr quint32 keyOf(quint32 id, bool isExtended) { return id | (isExtended ? 0x80000000U : 0U); }
+    /// The parameter group (PGN) of an extended id, as J1939 defines it: 18 bits. Priority, source
+    /// and, for a group that goes to one node, its destination are no part of it.
+    static constexpr quint32 groupOf(quint32 extendedId)
+    {
+        const quint32 group = (extendedId >> 8) & 0x3FFFF;
+        return isForOneNode(group) ? group & 0x3FF00 : group;
+    }
+    /// Whether frames of a parameter group have a destination in their id (format PDU1).
+    static constexpr bool isForOneNode(quint32 group) { return ((group >> 8) & 0xFF) < 240; }
 
     /// Whether a frame can have this size. \param isFd  of CAN FD
     static constexpr bool isSize(int size, bool isFd)

@@ -11,10 +11,9 @@ CanReceiver::CanReceiver(QPlcDriver *driver, const CanMessage &message)
     : m_driver(driver)
     , m_message(message)
     , m_key(CanFrame::keyOf(message.description.id, message.description.isExtended))
-    , m_isMultiplexed(message.description.multiplexor >= 0)
+    , m_counter(m_message.description.find(m_message.protection.counter))
+    , m_checksum(m_message.description.find(m_message.protection.checksum))
 {
-    if (m_isMultiplexed)
-        m_multiplexor = message.description.content.at(message.description.multiplexor);
 }
 
 QPlcReadChannel *CanReceiver::channel(const QString &name)
@@ -45,18 +44,39 @@ QPlcReadChannel *CanReceiver::makeOwn(std::unique_ptr<QPlcReadChannel> *channel,
     return channel->get();
 }
 
+bool CanReceiver::isSound(const CanFrame &frame) noexcept
+{
+    const quint8 *data = frame.data.data();
+    const CanProtection &protection = m_message.protection;
+    if (m_checksum && m_checksum->bits(data) != protection.checksumOf(data, m_message.description.size))
+        return false;
+    if (!m_counter)
+        return true;
+    const quint64 before = m_counted;
+    m_counted = m_counter->bits(data);
+    return !m_hasFrame || m_counted != before;
+}
+
 void CanReceiver::decode(const CanFrame &frame) noexcept
 {
-    if (frame.size < m_message.description.size) {
+    const DbcMessage &description = m_message.description;
+    if (!m_message.accepts(frame.id))
+        return;
+    if (frame.size < description.size) {
         ++m_tooShort;
+        return;
+    }
+    if (m_message.sharesId && !description.hasPage(frame.data.data()))
+        return;
+    if (!isSound(frame)) {
+        ++m_corrupt;
         return;
     }
     ++m_frames;
     m_hasFrame = true;
     m_time = frame.time;
-    const quint64 page = m_isMultiplexed ? m_multiplexor.bits(frame.data.data()) : 0;
     for (Part &part : m_parts) {
-        if (part.signal.role != DbcSignal::Multiplexed || part.signal.multiplexValue == page)
+        if (description.isThere(part.signal, frame.data.data()))
             part.channel->set(part.signal.decode(frame.data.data()), frame.time);
     }
 }

@@ -10,12 +10,19 @@ namespace qplc {
 CanSender::CanSender(QPlcDriver *driver, const CanMessage &message)
     : m_driver(driver)
     , m_message(message)
-    , m_key(CanFrame::keyOf(message.description.id, message.description.isExtended))
-    , m_isMultiplexed(message.description.multiplexor >= 0)
+    , m_key(CanFrame::keyOf(message.sentId(), message.description.isExtended))
+    , m_counter(m_message.description.find(m_message.protection.counter))
+    , m_checksum(m_message.description.find(m_message.protection.checksum))
     , m_period(message.rule.period.count())
+    , m_gap(message.rule.gap.count())
 {
-    if (m_isMultiplexed)
-        m_multiplexor = message.description.content.at(message.description.multiplexor);
+    for (const DbcSignal &signal : message.description.content) {
+        if (signal.isMultiplexor)
+            m_multiplexors.push_back(signal);
+    }
+    std::stable_sort(m_multiplexors.begin(), m_multiplexors.end(), [this](const DbcSignal &a, const DbcSignal &b) {
+        return m_message.description.depthOf(a) < m_message.description.depthOf(b);
+    });
 }
 
 QPlcWriteChannel *CanSender::channel(const QString &name)
@@ -31,53 +38,86 @@ QPlcWriteChannel *CanSender::channel(const QString &name)
         {*signal, std::make_unique<QPlcWriteChannel>(m_driver, m_message.description.name + QLatin1Char('.') + name)});
     const RawNumber::Limits limits = signal->limits();
     m_parts.back().channel->setRange(limits.lowest, limits.highest);
-    if (signal->role == DbcSignal::Multiplexor)
-        m_selector = m_parts.back().channel.get();
     return m_parts.back().channel.get();
 }
 
 QString CanSender::overlapWith(const DbcSignal &signal) const
 {
-    const auto found = std::find_if(m_parts.begin(), m_parts.end(), [&signal](const Part &part) {
-        return part.signal.name != signal.name && part.signal.overlaps(signal);
+    const auto found = std::find_if(m_parts.begin(), m_parts.end(), [this, &signal](const Part &part) {
+        return part.signal.name != signal.name && m_message.description.overlap(part.signal, signal);
     });
     return found == m_parts.end() ? QString() : found->signal.name;
 }
 
 void CanSender::prepare()
 {
-    std::vector<quint64> values;
-    for (const Part &part : m_parts) {
-        if (part.signal.role == DbcSignal::Multiplexed)
-            values.push_back(part.signal.multiplexValue);
-    }
-    if (values.empty())
-        values.push_back(m_isMultiplexed ? static_cast<quint64>(std::max(0.0, m_multiplexor.initial)) : 0);
-    std::sort(values.begin(), values.end());
-    values.erase(std::unique(values.begin(), values.end()), values.end());
+    const DbcMessage &description = m_message.description;
+    const auto rank = [&description](const Part &part) {
+        return part.signal.isMultiplexor ? description.depthOf(part.signal) : description.content.size() + 1;
+    };
+    std::stable_sort(m_parts.begin(), m_parts.end(),
+                     [&rank](const Part &a, const Part &b) { return rank(a) < rank(b); });
+    m_selectors = std::size_t(
+        std::count_if(m_parts.begin(), m_parts.end(), [](const Part &part) { return part.signal.isMultiplexor; }));
     m_pages.clear();
-    for (const quint64 value : values) {
-        const CanFrame frame = emptyFrame(value);
-        m_pages.push_back({value, frame, frame, true});
+    for (const bool hasChoice : {false, true}) {
+        for (const Part &part : m_parts) {
+            const auto has = [&](const Page &page) { return description.isThere(part.signal, page.empty.data.data()); };
+            if (!part.signal.isMultiplexed() || hasOneValue(part.signal) == hasChoice
+                || std::any_of(m_pages.begin(), m_pages.end(), has))
+                continue;
+            const CanFrame frame = emptyFrame(&part.signal);
+            m_pages.push_back({frame, frame, frame, true});
+        }
     }
+    if (m_pages.empty()) {
+        const CanFrame frame = emptyFrame(nullptr);
+        m_pages.push_back({frame, frame, frame, true});
+    }
+    std::sort(m_pages.begin(), m_pages.end(), [this](const Page &a, const Page &b) { return isBefore(a, b); });
 }
 
-// With the values that signals have before anybody writes them.
-CanFrame CanSender::emptyFrame(quint64 page) const
+bool CanSender::hasOneValue(const DbcSignal &signal)
+{
+    return signal.pages.size() == 1 && signal.pages.first().first == signal.pages.first().last;
+}
+
+bool CanSender::isBefore(const Page &a, const Page &b) const noexcept
+{
+    for (const DbcSignal &multiplexor : m_multiplexors) {
+        const quint64 valueOfA = multiplexor.bits(a.empty.data.data());
+        const quint64 valueOfB = multiplexor.bits(b.empty.data.data());
+        if (valueOfA != valueOfB)
+            return valueOfA < valueOfB;
+    }
+    return false;
+}
+
+// With the values that signals have before anybody writes them, on the page of a signal.
+CanFrame CanSender::emptyFrame(const DbcSignal *onPage) const
 {
     const DbcMessage &description = m_message.description;
     CanFrame frame;
-    frame.id = description.id;
+    frame.id = m_message.sentId();
     frame.size = quint8(description.size);
     frame.flags = quint8((description.isExtended ? CanFrame::Extended : 0) | (description.isFd ? CanFrame::Fd : 0)
                          | (description.isFd && description.hasBitRateSwitch ? CanFrame::BitRateSwitch : 0));
-    for (const DbcSignal &signal : description.content) {
-        const bool isThere = signal.role != DbcSignal::Multiplexed || signal.multiplexValue == page;
-        if (isThere && signal.initial != 0.0)
-            signal.encodeRaw(frame.data.data(), signal.initial);
+    quint8 *data = frame.data.data();
+    for (const DbcSignal &multiplexor : m_multiplexors) {
+        if (!description.isThere(multiplexor, data))
+            continue;
+        multiplexor.encodeRaw(data, multiplexor.initial);
+        for (const DbcSignal *part = onPage; part && part->multiplexor >= 0;) {
+            const DbcSignal &selector = description.content.at(part->multiplexor);
+            if (selector.name == multiplexor.name)
+                multiplexor.setBits(data, part->pages.first().first);
+            part = &selector;
+        }
     }
-    if (m_isMultiplexed)
-        m_multiplexor.setBits(frame.data.data(), page);
+    for (const DbcSignal &signal : description.content) {
+        if (!signal.isMultiplexor && signal.initial != 0.0 && description.isThere(signal, data))
+            signal.encodeRaw(data, signal.initial);
+    }
     return frame;
 }
 
@@ -87,6 +127,7 @@ void CanSender::reset() noexcept
     m_isRequested = false;
     m_isPending = false;
     m_wasSafe = false;
+    m_hasSent = false;
 }
 
 bool CanSender::hasValues() const noexcept
@@ -102,11 +143,17 @@ bool CanSender::isSafe() const noexcept
 void CanSender::encodePage(Page *page) noexcept
 {
     page->fits = true;
-    for (const Part &part : m_parts) {
-        const bool isThere = part.signal.role != DbcSignal::Multiplexed || part.signal.multiplexValue == page->value;
-        if (isThere && part.signal.encode(page->frame.data.data(), part.channel->value()) != DbcSignal::Fits)
-            page->fits = false;
-    }
+    page->frame.data = page->empty.data;
+    for (const Part &part : m_parts)  // multiplexors first: the others are there, or not
+        encodePart(page, part);
+}
+
+void CanSender::encodePart(Page *page, const Part &part) noexcept
+{
+    quint8 *data = page->frame.data.data();
+    if (m_message.description.isThere(part.signal, data)
+        && part.signal.encode(data, part.channel->value()) != DbcSignal::Fits)
+        page->fits = false;
 }
 
 // Whether something is to be sent that has not been sent before.
@@ -120,9 +167,16 @@ bool CanSender::encode() noexcept
     return hasChanged;
 }
 
+// A wired multiplexor has put its value into the frame, and only its page has the same one.
 bool CanSender::isSelected(const Page &page) const noexcept
 {
-    return !m_selector || m_pages.size() == 1 || m_multiplexor.bits(page.frame.data.data()) == page.value;
+    if (m_pages.size() == 1)
+        return true;
+    return std::all_of(m_parts.begin(), m_parts.begin() + std::ptrdiff_t(m_selectors), [this, &page](const Part &part) {
+        const quint8 *empty = page.empty.data.data();
+        return !m_message.description.isThere(part.signal, empty)
+            || part.signal.bits(empty) == part.signal.bits(page.frame.data.data());
+    });
 }
 
 bool CanSender::isDue(qint64 now) noexcept
@@ -137,6 +191,22 @@ bool CanSender::isDue(qint64 now) noexcept
     return rule.everyCycle || isTime || (rule.onChange && m_hasChanged) || m_isRequested || m_isPending;
 }
 
+bool CanSender::isTooEarly(qint64 now) const noexcept
+{
+    // A cycle that begins a bit early is the right one, as above.
+    return m_hasSent && now - m_sentAt < m_gap - m_gap / 100;
+}
+
+// The checksum is made last: the counter is a part of it.
+void CanSender::protect(CanFrame *frame, int number) const noexcept
+{
+    const CanProtection &protection = m_message.protection;
+    if (m_counter)
+        m_counter->setBits(frame->data.data(), (m_counted + quint64(number)) % (protection.mostCounted + 1));
+    if (m_checksum)
+        m_checksum->setBits(frame->data.data(), protection.checksumOf(frame->data.data(), frame->size));
+}
+
 int CanSender::collect(qint64 now, CanFrame *frames) noexcept
 {
     if (!hasValues())
@@ -149,7 +219,11 @@ int CanSender::collect(qint64 now, CanFrame *frames) noexcept
         m_now = now;
     }
     const bool isSafeNews = isSafeNow && !m_wasSafe;
-    const bool isDueNow = isDue(now) || isFirst || isSafeNews;  // in this order: the period goes on
+    bool isDueNow = isDue(now) || isFirst || isSafeNews;  // in this order: the period goes on
+    if (isDueNow && !isSafeNews && isTooEarly(now)) {
+        isDueNow = false;
+        m_isPending = true;
+    }
     m_isFirst = false;
     m_wasSafe = isSafeNow;
     m_now = now;
@@ -157,9 +231,12 @@ int CanSender::collect(qint64 now, CanFrame *frames) noexcept
     for (const Page &page : m_pages) {
         if (!isDueNow || !isSelected(page))
             continue;
-        frames[count++] = page.frame;
+        frames[count] = page.frame;
+        protect(&frames[count], count);
+        ++count;
         m_saturated += page.fits ? 0 : 1;
     }
+    m_frames = count;
     return count;
 }
 
@@ -169,6 +246,9 @@ void CanSender::sent(bool isTaken) noexcept
     if (!isTaken)
         return;
     m_isRequested = false;
+    m_hasSent = true;
+    m_sentAt = m_now;
+    m_counted += quint64(m_frames);
     for (Page &page : m_pages) {
         if (isSelected(page))
             page.last = page.frame;

@@ -12,9 +12,10 @@ namespace qplc {
 
 /// A message that is sent: makes frames of the values of its channels when it is time.
 ///
-/// A multiplexed message has a page for each value of the multiplexor that a wired signal belongs
-/// to. All of them are sent, one after the other, unless the multiplexor itself is wired: then its
-/// value says which one.
+/// A multiplexed message has pages: settings of its multiplexors. Each wired signal is on one of
+/// them, and all are sent, one after the other. A signal that is on several is sent on those of the
+/// others; without others, on its first one. If a multiplexor itself is wired, its value says which
+/// pages are sent.
 class CanSender
 {
 public:
@@ -59,10 +60,10 @@ private:
     };
     struct Page
     {
-        quint64 value = 0;  // of the multiplexor
-        CanFrame frame;     // as computed last
-        CanFrame last;      // as sent last
-        bool fits = true;   // each value into its bits
+        CanFrame empty;    // with the multiplexors, and what signals have before anybody writes them
+        CanFrame frame;    // as computed last
+        CanFrame last;     // as sent last
+        bool fits = true;  // each value into its bits
     };
 
     bool hasValues() const noexcept;
@@ -71,21 +72,33 @@ private:
     void encodePage(Page *page) noexcept;
     bool isDue(qint64 now) noexcept;
     bool isSelected(const Page &page) const noexcept;
-    CanFrame emptyFrame(quint64 page) const;
+    void encodePart(Page *page, const Part &part) noexcept;
+    CanFrame emptyFrame(const DbcSignal *onPage) const;
+    bool isTooEarly(qint64 now) const noexcept;
+    void protect(CanFrame *frame, int number) const noexcept;
+    bool isBefore(const Page &a, const Page &b) const noexcept;
+    static bool hasOneValue(const DbcSignal &signal);
 
     QPlcDriver *m_driver;
     CanMessage m_message;
     quint32 m_key = 0;
-    DbcSignal m_multiplexor;
-    bool m_isMultiplexed = false;
-    const QPlcWriteChannel *m_selector = nullptr;  // channel of the multiplexor
-    std::vector<Part> m_parts;
+    std::vector<DbcSignal> m_multiplexors;  // those that select others first
+    std::vector<Part> m_parts;              // likewise, multiplexors in front of other signals
+    std::size_t m_selectors = 0;            // of m_parts: wired multiplexors, at its beginning
     std::vector<Page> m_pages;
     quint64 m_saturated = 0;
 
+    const DbcSignal *m_counter = nullptr;   // of m_message; null: none
+    quint64 m_counted = 0;                  // value of the next frame
+    const DbcSignal *m_checksum = nullptr;  // likewise
+    int m_frames = 0;                       // of the last collect()
+
     qint64 m_period = 0;  // [ns]; 0: none
-    qint64 m_next = 0;    // when it is due by its period [ns]
-    qint64 m_now = 0;     // of the last collect() [ns]
+    qint64 m_gap = 0;     // [ns]; 0: none
+    qint64 m_sentAt = 0;  // last [ns]
+    bool m_hasSent = false;
+    qint64 m_next = 0;  // when it is due by its period [ns]
+    qint64 m_now = 0;   // of the last collect() [ns]
     bool m_isFirst = true;
     bool m_isRequested = false;
     bool m_isPending = false;  // could not be sent

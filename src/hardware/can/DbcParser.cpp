@@ -24,7 +24,12 @@ QString idText(quint64 id)
     return QStringLiteral("0x%1").arg(id & ~extendedIdBit, 0, 16);
 }
 
-// A value of VFrameFormat: a word, or its number.
+// Values of VFrameFormat: a word, or its number.
+bool isJ1939Format(const QString &value)
+{
+    return value == QLatin1String("J1939PG") || value == QLatin1String("3");
+}
+
 bool isFdFormat(const QString &value)
 {
     return value.endsWith(QLatin1String("_FD")) || value == QLatin1String("14") || value == QLatin1String("15");
@@ -145,17 +150,16 @@ private:
     {
         DbcSignal signal;
         signal.initial = unsaidStart;
-        bool isExtended = false;
         const DbcToken at = m_reader.peek();
         if (m_current < 0 && !m_isSkipped) {
             m_reader.fail(at, QStringLiteral("SG_ %1 belongs to no message; put it behind a line BO_").arg(at.shown()));
             return;
         }
-        if (!m_reader.expectWord(&signal.name, "the name of the signal") || !m_reader.expectRole(&signal, &isExtended)
+        if (!m_reader.expectWord(&signal.name, "the name of the signal") || !m_reader.expectRole(&signal)
             || !m_reader.expectSign(':', "':' behind the name of the signal") || !m_reader.expectPlace(&signal))
             return;
         if (!m_isSkipped)
-            addSignal(at, signal, isExtended);
+            addSignal(at, signal);
         m_reader.skipToLine(isKeyword);  // behind its receivers
     }
 
@@ -197,24 +201,22 @@ private:
         m_reader.skipStatement();
     }
 
-    // SG_MUL_VAL_ id signal multiplexor 3-3, 5-7; nothing new where it says what m3 says.
+    // SG_MUL_VAL_ id signal multiplexor 3-3, 5-7;
     void extendedMultiplexing()
     {
         DbcMessage *message = expectMessage();
-        const DbcSignal *signal = expectSignal(message);
-        QString multiplexor;
-        quint64 first = 0;
-        qint64 last = 0;
-        if (!signal || !m_reader.expectWord(&multiplexor, "the name of the multiplexor")
-            || !m_reader.expectUnsigned(&first, "the first value of the multiplexor")
-            || !m_reader.expectInteger(&last, -std::numeric_limits<qint64>::max(), 0, "'-' and the last value")) {
-            m_reader.skipStatement();
-            return;
+        DbcSignal *signal = expectSignal(message);
+        const DbcToken at = m_reader.peek();
+        const DbcSignal *multiplexor = signal ? expectSignal(message) : nullptr;
+        QVector<DbcSignal::Range> pages;
+        if (multiplexor && m_reader.expectPages(&pages)) {
+            if (!multiplexor->isMultiplexor)
+                m_reader.fail(at,
+                              QStringLiteral("signal '%1' of message '%2' is not a multiplexor (M)")
+                                  .arg(multiplexor->name, message->name));
+            signal->multiplexor = int(multiplexor - message->content.constData());
+            signal->pages = pages;
         }
-        if (first != signal->multiplexValue || quint64(-last) != first || !m_reader.peek().isSign(';'))
-            message->unsupported = QStringLiteral("its signal '%1' is there for a range of values of the multiplexor "
-                                                  "(SG_MUL_VAL_); write its frames by keys of the configuration")
-                                       .arg(signal->name);
         m_reader.skipStatement();
     }
 
@@ -226,6 +228,8 @@ private:
             return;
         const bool isOfMessage = m_reader.peek().isWord("BO_");
         const bool isOfSignal = m_reader.peek().isWord("SG_");
+        if (name == QLatin1String("ProtocolType"))
+            m_isJ1939 = m_reader.peek().text == QLatin1String("J1939");
         if (isOfMessage || isOfSignal) {
             m_reader.next();
             DbcMessage *message = expectMessage();
@@ -274,7 +278,6 @@ private:
         if (!m_reader.expectInteger(&size, 0, 65535, "the size of the message in bytes"))
             return false;
         message->size = int(size);
-        message->isFd = size > 8;
         return true;
     }
 
@@ -299,7 +302,7 @@ private:
         return true;
     }
 
-    bool addSignal(const DbcToken &at, const DbcSignal &signal, bool isExtended)
+    bool addSignal(const DbcToken &at, const DbcSignal &signal)
     {
         DbcMessage &message = m_messages[m_current];
         if (++m_signalCount > DbcFile::MaximumSignals)
@@ -310,11 +313,6 @@ private:
         const QString problem = DbcFile::problemOf(message, signal);
         if (!problem.isEmpty())
             return m_reader.fail(at, problem);
-        if (isExtended || (signal.role == DbcSignal::Multiplexor && message.multiplexor >= 0))
-            message.unsupported = QStringLiteral("it has more than one multiplexor; write its frames by keys of the "
-                                                 "configuration, one for each");
-        if (signal.role == DbcSignal::Multiplexor && message.multiplexor < 0)
-            message.multiplexor = message.content.size();
         message.content.append(signal);
         return true;
     }
@@ -349,24 +347,30 @@ private:
     void setAttribute(DbcMessage *message, const Attribute &attribute)
     {
         const DbcToken &value = attribute.value;
-        if (attribute.name == QLatin1String("GenMsgCycleTime")) {
+        const bool isCycleTime = attribute.name == QLatin1String("GenMsgCycleTime");
+        if (isCycleTime || attribute.name == QLatin1String("GenMsgDelayTime")) {
             bool isNumber = false;
             const double time = value.text.toDouble(&isNumber);  // [ms]
             if (!isNumber || !(time >= 0.0 && time <= 1e9))
                 m_reader.fail(value,
-                              QStringLiteral("the cycle time %1 of message '%2' is not a number of milliseconds")
-                                  .arg(value.shown(), message->name));
+                              QStringLiteral("the %1 %2 of message '%3' is not a number of milliseconds")
+                                  .arg(isCycleTime ? QStringLiteral("cycle time") : QStringLiteral("delay time"),
+                                       value.shown(), message->name));
             else
-                message->cycleTime = std::chrono::nanoseconds(static_cast<qint64>(time * 1e6));
-        } else if (attribute.name == QLatin1String("VFrameFormat"))
-            message->isFd = message->size > 8 || isFdFormat(value.text);
-        else if (attribute.name == QLatin1String("CANFD_BRS"))
+                (isCycleTime ? message->cycleTime : message->delayTime)
+                    = std::chrono::nanoseconds(static_cast<qint64>(time * 1e6));
+        } else if (attribute.name == QLatin1String("VFrameFormat")) {
+            message->isFd = isFdFormat(value.text);
+            message->isJ1939 = message->isExtended && isJ1939Format(value.text);
+        } else if (attribute.name == QLatin1String("CANFD_BRS"))
             message->hasBitRateSwitch = value.text != QLatin1String("0");
     }
 
     // What can be said only when everything is read.
     void finish()
     {
+        for (DbcMessage &message : m_messages)
+            message.isJ1939 = m_isJ1939 && message.isExtended;
         for (const Attribute &attribute : qAsConst(m_defaults)) {
             for (DbcMessage &message : m_messages)
                 setAttribute(&message, attribute);
@@ -378,13 +382,11 @@ private:
         for (const Attribute &attribute : qAsConst(m_attributes))
             setAttribute(&m_messages[attribute.message], attribute);
         for (DbcMessage &message : m_messages) {
-            const bool isMultiplexed
-                = std::any_of(message.content.cbegin(), message.content.cend(),
-                              [](const auto &part) { return part.role == DbcSignal::Multiplexed; });
-            if (isMultiplexed && message.multiplexor < 0)
-                message.unsupported = QStringLiteral("it has multiplexed signals and no multiplexor (M)");
-            if (!CanFrame::isSize(message.size, message.isFd))
-                message.unsupported = QStringLiteral("it has %1 bytes, which no frame has").arg(message.size);
+            message.isFd = !message.isJ1939 && (message.isFd || message.size > 8);
+            message.unsupported = message.connectMultiplexors();
+            const QString problem = DbcFile::sizeProblemOf(message);
+            if (!problem.isEmpty())
+                message.unsupported = problem;
         }
     }
 
@@ -397,6 +399,7 @@ private:
     double m_startValue = 0.0;        // raw, of signals that have none of their own
     int m_signalCount = 0;
     int m_current = -1;        // the message that SG_ belongs to; -1: none
+    bool m_isJ1939 = false;    // the whole network, as far as messages do not say something else
     bool m_isSkipped = false;  // SG_ belongs to a message that is no message
 };
 

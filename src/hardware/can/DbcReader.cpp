@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "DbcReader.h"
 
+#include "DbcFile.h"
+
 #include <cmath>
 #include <limits>
 
@@ -101,26 +103,47 @@ bool DbcReader::expectUnsigned(quint64 *number, const char *what)
     return true;
 }
 
-bool DbcReader::expectRole(DbcSignal *signal, bool *isExtended)
+bool DbcReader::expectRole(DbcSignal *signal)
 {
     if (m_isBroken)
         return false;
     if (peek().kind != DbcToken::Word)
         return true;
     const DbcToken token = next();
-    if (token.text == QLatin1String("M")) {
-        signal->role = DbcSignal::Multiplexor;
+    signal->isMultiplexor = token.text.endsWith(QLatin1Char('M'));
+    if (token.text == QLatin1String("M"))
         return true;
-    }
-    *isExtended = token.text.size() > 2 && token.text.endsWith(QLatin1Char('M'));
     bool isNumber = false;
-    signal->multiplexValue = token.text.mid(1, token.text.size() - (*isExtended ? 2 : 1)).toULongLong(&isNumber);
-    signal->role = DbcSignal::Multiplexed;
+    const int digits = token.text.size() - (signal->isMultiplexor ? 2 : 1);
+    const quint64 value = token.text.mid(1, digits).toULongLong(&isNumber);
+    signal->pages = {{value, value}};
     if (!isNumber || token.text.at(0) != QLatin1Char('m'))
         return fail(token,
-                    QStringLiteral("%1 behind the name of signal '%2'; use ':', M for a multiplexor, or m with a "
-                                   "number, m3 for example")
+                    QStringLiteral("%1 behind the name of signal '%2'; use ':', M for a multiplexor, m with a "
+                                   "number, m3 for example, or m3M for both")
                         .arg(token.shown(), signal->name));
+    return true;
+}
+
+// Read as words, 3-7 is the number 3 and the number -7.
+bool DbcReader::expectPages(QVector<DbcSignal::Range> *pages)
+{
+    do {
+        const DbcToken at = peek();
+        DbcSignal::Range range;
+        qint64 last = 0;
+        if (!expectUnsigned(&range.first, "the first value of a range of the multiplexor, as in 3-5")
+            || !expectInteger(&last, -std::numeric_limits<qint64>::max(), 0,
+                              "the last value of the range, with a '-' in front"))
+            return false;
+        range.last = quint64(-last);
+        if (range.last < range.first)
+            return fail(at,
+                        QStringLiteral("the range %1-%2 is empty; write the smaller value first")
+                            .arg(range.first)
+                            .arg(range.last));
+        pages->append(range);
+    } while (takes(','));
     return true;
 }
 
@@ -128,7 +151,7 @@ bool DbcReader::expectPlace(DbcSignal *signal)
 {
     qint64 start = 0;
     qint64 length = 0;
-    if (!expectInteger(&start, 0, 511, "the start bit of the signal")
+    if (!expectInteger(&start, 0, 8 * DbcFile::LongestMessage - 1, "the start bit of the signal")
         || !expectSign('|', "'|' behind the start bit: write start|length@order sign, 8|16@1- for example")
         || !expectInteger(&length, 1, 64, "the length of the signal in bits")
         || !expectSign('@', "'@' behind the length: write start|length@order sign, 8|16@1- for example"))

@@ -33,8 +33,10 @@ public:
     /// What stands behind the name of a signal and its role: start|length@order sign
     /// (factor,offset) [minimum|maximum] "unit"; the rest behind `sign` may be missing.
     bool expectPlace(DbcSignal *signal);
-    /// M or m3, if that is next. \param isExtended  true for m3M
-    bool expectRole(DbcSignal *signal, bool *isExtended);
+    /// M, m3 or m3M, if that is next.
+    bool expectRole(DbcSignal *signal);
+    /// Ranges of a multiplexor: 3-3, 5-7.
+    bool expectPages(QVector<DbcSignal::Range> *pages);
 
     /// Goes behind the next ';'.
     void skipStatement();

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "DbcSignal.h"
 
-#include "CanFrame.h"
-
 #include <algorithm>
-#include <array>
 
 namespace qplc {
 
@@ -80,15 +77,20 @@ RawNumber numberOf(const DbcSignal &signal) noexcept
 
 }  // namespace
 
-bool DbcSignal::overlaps(const DbcSignal &other) const
+bool DbcSignal::isOnPage(quint64 value) const noexcept
 {
-    if (role == Multiplexed && other.role == Multiplexed && multiplexValue != other.multiplexValue)
-        return false;
-    std::array<quint8, CanFrame::MaximumSize> ours{};
-    std::array<quint8, CanFrame::MaximumSize> theirs{};
-    setBits(ours.data(), ~quint64(0));
-    other.setBits(theirs.data(), ~quint64(0));
-    return !std::equal(ours.begin(), ours.end(), theirs.begin(), [](quint8 a, quint8 b) { return (a & b) == 0; });
+    return std::any_of(pages.cbegin(), pages.cend(),
+                       [value](const Range &range) { return value >= range.first && value <= range.last; });
+}
+
+DbcSignal::Bits DbcSignal::places() const
+{
+    Bits bits;
+    for (int i = 0; i < length; ++i) {
+        const int position = byteOrder == Intel ? start + i : busOrder(busOrder(start) + i);
+        bits.set(std::size_t(position));
+    }
+    return bits;
 }
 
 RawNumber::Limits DbcSignal::limits() const

@@ -5,6 +5,9 @@
 
 #include <QtCore/QMap>
 #include <QtCore/QString>
+#include <QtCore/QVector>
+
+#include <bitset>
 
 namespace qplc {
 
@@ -19,11 +22,13 @@ struct DbcSignal
 {
     enum ByteOrder : quint8 { Intel, Motorola };
     enum Kind : quint8 { Unsigned, Signed, Float32, Float64 };
-    enum Role : quint8 {
-        Plain,
-        Multiplexor,  ///< says which of the others are in the frame
-        Multiplexed   ///< is in the frame when the multiplexor has the value multiplexValue
+    /// Values of a multiplexor, the first and the last one included.
+    struct Range
+    {
+        quint64 first = 0;
+        quint64 last = 0;
     };
+    using Bits = std::bitset<512>;  // of the longest frame
     using Fit = RawNumber::Fit;
     static constexpr Fit Fits = RawNumber::Fits;
     static constexpr Fit Saturated = RawNumber::Saturated;
@@ -39,14 +44,18 @@ struct DbcSignal
     double minimum = 0.0;  // as the file says it; both 0: nothing said
     double maximum = 0.0;
     QString unit;
-    Role role = Plain;
-    quint64 multiplexValue = 0;
-    double initial = 0.0;  // raw, before anybody has written
+    bool isMultiplexor = false;  // says which of the others are in the frame
+    QVector<Range> pages;        // values of its multiplexor with which it is in the frame; empty: it always is
+    int multiplexor = -1;        // index in DbcMessage::content of its multiplexor; -1: none, or not known yet
+    double initial = 0.0;        // raw, before anybody has written
     QMap<qint64, QString> valueNames;
 
     bool isFloat() const { return kind == Float32 || kind == Float64; }
-    /// Whether a frame can hold both, with a bit in common.
-    bool overlaps(const DbcSignal &other) const;
+    bool isMultiplexed() const { return !pages.isEmpty(); }
+    /// Whether it is in the frame with this value of its multiplexor.
+    bool isOnPage(quint64 value) const noexcept;
+    /// The bits of a frame that it takes. \pre neededBytes() <= 64
+    Bits places() const;
     /// Of the bits, and of what the file says.
     RawNumber::Limits limits() const;
     /// Bytes that a frame needs to hold the value.

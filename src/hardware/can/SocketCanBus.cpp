@@ -47,6 +47,14 @@ can_filter filterFor(quint32 key)
     return filter;
 }
 
+can_filter filterForGroup(quint32 group)
+{
+    can_filter filter;
+    filter.can_id = group << 8 | CAN_EFF_FLAG;
+    filter.can_mask = CAN_EFF_FLAG | (CanFrame::isForOneNode(group) ? 0x3FF0000U : 0x3FFFF00U);
+    return filter;
+}
+
 canfd_frame kernelFrame(const CanFrame &frame)
 {
     canfd_frame result;
@@ -251,6 +259,8 @@ private:
             filters.push_back(filterFor(key));
         for (const quint32 key : options.keys)
             filters.push_back(filterFor(key));
+        for (const quint32 group : options.groups)
+            filters.push_back(filterForGroup(group));
         if (options.receivesAll || filters.size() > CAN_RAW_FILTER_MAX) {
             const can_filter all{0, 0};
             return setOption(SOL_CAN_RAW, CAN_RAW_FILTER, &all, sizeof all, "filters");

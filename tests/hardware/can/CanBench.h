@@ -12,8 +12,10 @@ class CanBench
 {
 public:
     /// \param keys  of the driver, without the device
-    explicit CanBench(const QByteArray &keys)
-        : driver("can", "device = fake:bench\n" + keys, m_devices.path(QStringLiteral("bench.ini")))
+    /// \param files  name and content, beside the configuration
+    explicit CanBench(const QByteArray &keys, const QVector<QPair<QString, QByteArray>> &files = {})
+        : m_hasFiles(writeFiles(files))
+        , driver("can", "device = fake:bench\n" + keys, m_devices.path(QStringLiteral("bench.ini")))
         , m_clock(driver)
         , m_partner(QStringLiteral("bench"), m_clock)
     {
@@ -86,7 +88,18 @@ private:
         const DriverBench &m_bench;
     };
 
+    bool writeFiles(const QVector<QPair<QString, QByteArray>> &files) const
+    {
+        for (const auto &one : files) {
+            QFile file(filePath(one.first));
+            if (!file.open(QIODevice::WriteOnly) || file.write(one.second) != one.second.size())
+                qFatal("cannot write %s", qPrintable(file.fileName()));
+        }
+        return true;
+    }
+
     const FakeDevices m_devices;
+    const bool m_hasFiles;  // before the driver reads them
 
 public:
     DriverBench driver;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <QtCore/QByteArray>
+#include <QtCore/QByteArrayList>
 #include <QtCore/QRandomGenerator>
 #include <QtCore/QVector>
 
@@ -21,7 +21,9 @@ public:
         bool isFloat = false;
         int page = -1;  // -1: on all
         bool isMultiplexor = false;
-        QByteArray scale;  // "(factor,offset)"
+        QByteArray scale;        // "(factor,offset)"
+        QByteArray multiplexor;  // name, of extended multiplexing: with the ranges
+        QByteArray ranges;       // "0-3, 5-5"
     };
     struct Message
     {
@@ -46,21 +48,42 @@ public:
         return messages;
     }
 
-    static QByteArray text(const QVector<Message> &messages)
+    /// Messages of J1939 with extended multiplexing: a multiplexor, others on some of its pages,
+    /// and signals on ranges of pages of all of them.
+    QVector<Message> networkMessages(int count)
     {
+        QVector<Message> messages;
+        for (int i = 0; i < count; ++i)
+            messages.append(networkMessage(i));
+        return messages;
+    }
+
+    /// \param isNetwork  of J1939
+    static QByteArray text(const QVector<Message> &messages, bool isNetwork = false)
+    {
+        QByteArray attributes;
+        if (isNetwork)
+            attributes = "BA_DEF_ BO_ \"VFrameFormat\" ENUM \"StandardCAN\",\"ExtendedCAN\",\"reserved\","
+                         "\"J1939PG\";\nBA_DEF_DEF_ \"VFrameFormat\" \"J1939PG\";\n";
         QByteArray text = "VERSION \"\"\n\nNS_ :\n\nBS_:\n\nBU_: A B\n\n";
         QByteArray kinds;
+        QByteArray ranges;
         for (const Message &message : messages) {
             const QByteArray id = QByteArray::number(message.id);
             text += "BO_ " + id + ' ' + message.name + ": " + QByteArray::number(message.size) + " A\n";
             for (const Signal &signal : message.content) {
                 text += line(signal);
+                if (!signal.ranges.isEmpty())
+                    ranges += "SG_MUL_VAL_ " + id + ' ' + signal.name + ' ' + signal.multiplexor + ' ' + signal.ranges
+                        + ";\n";
                 if (signal.isFloat)
                     kinds += "SIG_VALTYPE_ " + id + ' ' + signal.name + (signal.length == 32 ? " : 1;\n" : " : 2;\n");
             }
+            if (isNetwork)
+                attributes += "BA_ \"VFrameFormat\" BO_ " + id + " 3;\n";
             text += '\n';
         }
-        return text + kinds;
+        return text + attributes + kinds + ranges;
     }
 
     quint64 bits() { return m_random.generate64(); }
@@ -71,9 +94,12 @@ private:
 
     static QByteArray line(const Signal &signal)
     {
-        const QByteArray role = signal.isMultiplexor ? " M"
-            : signal.page >= 0                       ? " m" + QByteArray::number(signal.page)
-                                                     : "";
+        const QByteArray page = !signal.ranges.isEmpty() ? signal.ranges.left(signal.ranges.indexOf('-'))
+            : signal.page >= 0                           ? QByteArray::number(signal.page)
+                                                         : QByteArray();
+        const QByteArray prefix
+            = page.isEmpty() ? (signal.isMultiplexor ? QByteArray(" ") : QByteArray()) : " m" + page;
+        const QByteArray role = prefix + (signal.isMultiplexor ? "M" : "");
         return " SG_ " + signal.name + role + " : " + QByteArray::number(signal.start) + '|'
             + QByteArray::number(signal.length) + (signal.isIntel ? "@1" : "@0")
             + (signal.isSigned || signal.isFloat ? "- " : "+ ") + signal.scale + " [0|0] \"\" B\n";
@@ -100,6 +126,73 @@ private:
         return message;
     }
 
+    Message networkMessage(int number)
+    {
+        Message message;
+        message.name = "N" + QByteArray::number(number);
+        // Every third group is for one node (PDU1): its id has a destination.
+        const quint32 group = number % 3 == 0 ? quint32(number % 200) << 8 | 0x00FF : 0xF000U + quint32(number) * 7;
+        message.id = 0x80000000U | quint32(below(8)) << 26 | quint32(number % 2) << 24 | group << 8 | 0xFE;
+        Bits common;
+        const QByteArray root = addSelector(&message, {}, {}, 4, &common);
+        addSignal(&message, -1, &common, 8);
+        for (const QByteArray &ranges : deal(16, 3)) {
+            Bits used = common;
+            if (below(2) == 0) {
+                const QByteArray sub = addSelector(&message, root, ranges, 3, &used);
+                for (const QByteArray &subRanges : deal(8, 2)) {
+                    Bits usedThere = used;
+                    addSignalOn(&message, sub, subRanges, &usedThere);
+                }
+            }
+            for (int i = below(2); i >= 0 && used.count() < 40; --i)
+                addSignalOn(&message, root, ranges, &used);
+        }
+        return message;
+    }
+
+    // Gives each of so many pages to one of the groups. Returns the ranges of each group with any.
+    QVector<QByteArray> deal(int pages, int groups)
+    {
+        QVector<QByteArrayList> ranges(groups);
+        for (int page = 0; page < pages;) {
+            const int last = qMin(pages - 1, page + below(4));
+            ranges[below(groups)] << QByteArray::number(page) + '-' + QByteArray::number(last);
+            page = last + 1;
+        }
+        QVector<QByteArray> texts;
+        for (const QByteArrayList &list : qAsConst(ranges)) {
+            if (!list.isEmpty())
+                texts << list.join(", ");
+        }
+        return texts;
+    }
+
+    QByteArray addSelector(Message *message, const QByteArray &multiplexor, const QByteArray &ranges, int length,
+                           Bits *used)
+    {
+        for (;;) {
+            Signal signal = place(message->size, length);
+            signal.isMultiplexor = true;
+            signal.isSigned = false;
+            signal.scale = "(1,0)";
+            signal.multiplexor = multiplexor;
+            signal.ranges = ranges;
+            if (put(message, signal, used))
+                return message->content.constLast().name;
+        }
+    }
+
+    void addSignalOn(Message *message, const QByteArray &multiplexor, const QByteArray &ranges, Bits *used)
+    {
+        const int before = message->content.size();
+        addSignal(message, -1, used, 32);
+        for (int i = before; i < message->content.size(); ++i) {
+            message->content[i].multiplexor = multiplexor;
+            message->content[i].ranges = ranges;
+        }
+    }
+
     void addMultiplexor(Message *message, Bits *used)
     {
         Signal signal = place(message->size, 1 + below(8));
@@ -110,10 +203,10 @@ private:
             message->pages = 2 + (signal.length > 1 ? below(2) : 0);
     }
 
-    void addSignal(Message *message, int page, Bits *used)
+    void addSignal(Message *message, int page, Bits *used, int longest = 64)
     {
         for (int attempt = 0; attempt < 20; ++attempt) {
-            Signal signal = place(message->size, below(4) == 0 ? 64 - below(8) : 1 + below(64));
+            Signal signal = place(message->size, longest == 64 && below(4) == 0 ? 64 - below(8) : 1 + below(longest));
             signal.isFloat = (signal.length == 32 || signal.length == 64) && below(2) == 0;
             signal.page = page;
             if (put(message, signal, used))

@@ -7,7 +7,8 @@ usage: canmatrix_oracle.py FILE.dbc < QUESTIONS > ANSWERS
 A question is a line of JSON: {"frame": NAME, "raw": {SIGNAL: TEXT, ...}}, an answer {"bytes": HEX,
 "raw": {SIGNAL: TEXT, ...}, "physical": {SIGNAL: TEXT, ...}}, of the signals that canmatrix finds in
 the bytes. A raw value is a decimal integer; that of a float is "f" and the number as Python writes
-it. Exit code 77: there is no canmatrix.
+it. Another question is {"id": NUMBER, "bytes": HEX}, of an extended frame on a network of J1939;
+its answer has the "frame" of the file in addition. Exit code 77: there is no canmatrix.
 """
 import json
 import logging
@@ -27,6 +28,20 @@ def text_of(signal, raw):
     return "f" + repr(float(raw)) if signal.is_float else str(raw)
 
 
+def texts_of(decoded):
+    return {
+        "raw": {name: text_of(one.signal, one.raw_value) for name, one in decoded.items()},
+        "physical": {name: repr(float(one.phys_value)) for name, one in decoded.items()},
+    }
+
+
+def answer_frame(matrix, question):
+    arbitration = canmatrix.ArbitrationId(question["id"], extended=True)
+    frame = matrix.frame_by_id(arbitration) or matrix.frame_by_pgn(arbitration.pgn)
+    decoded = matrix.decode(arbitration, bytes.fromhex(question["bytes"]))
+    return {"frame": frame.name if frame else "", **texts_of(decoded)}
+
+
 def answer(frame, question):
     signals = {name: frame.signal_by_name(name) for name in question["raw"]}
     values = {}
@@ -36,12 +51,7 @@ def answer(frame, question):
         # Integers go through their physical value and back.
         values[name] = raw if signal.is_float else signal.phys2raw(signal.raw2phys(raw))
     data = bytes(frame.encode(values))
-    decoded = frame.decode(data)
-    return {
-        "bytes": data.hex(),
-        "raw": {name: text_of(one.signal, one.raw_value) for name, one in decoded.items()},
-        "physical": {name: repr(float(one.phys_value)) for name, one in decoded.items()},
-    }
+    return {"bytes": data.hex(), **texts_of(frame.decode(data))}
 
 
 def main():
@@ -50,7 +60,10 @@ def main():
     frames = {frame.name: frame for frame in matrix.frames}
     for line in sys.stdin:
         question = json.loads(line)
-        print(json.dumps(answer(frames[question["frame"]], question)))
+        if "id" in question:
+            print(json.dumps(answer_frame(matrix, question)))
+        else:
+            print(json.dumps(answer(frames[question["frame"]], question)))
 
 
 main()

@@ -206,6 +206,8 @@ private Q_SLOTS:
     void errorFramesSetTheControllerState();
     void overflowOfTheControllerIsALoss_data() { addBuses(); }
     void overflowOfTheControllerIsALoss();
+    void framesOfTheBusAreConfirmed_data() { addBuses(); }
+    void framesOfTheBusAreConfirmed();
     void busHoldsBackUntilFramesAreConfirmed();
     void framesOfOneTurnDoNotWaitForEachOther();
     void busWithoutSentKeysHoldsNothingBack();
@@ -475,6 +477,22 @@ void tst_CanBus::overflowOfTheControllerIsALoss()
 }
 
 // ---- confirmations ----
+
+// A vcan confirms if it was loaded with echo=1; without, nothing is ever unconfirmed.
+void tst_CanBus::framesOfTheBusAreConfirmed()
+{
+    QFETCH(QString, device);
+    const auto a = join(device, sends(5));
+    const auto b = join(device);
+    const CanFrame frame = frameOf(5);
+    for (int i = 0; i < 20; ++i) {
+        QCOMPARE(a->send(&frame, 1), 1);
+        QCOMPARE(receive(*b, 1).size(), std::size_t(1));
+        QTRY_COMPARE((receiveAll(*a), a->unconfirmed()), 0);
+    }
+    QCOMPARE(a->counters().received, quint64(0));
+    QCOMPARE(a->counters().unsent, quint64(0));
+}
 
 void tst_CanBus::busHoldsBackUntilFramesAreConfirmed()
 {

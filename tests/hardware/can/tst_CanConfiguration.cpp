@@ -3,6 +3,15 @@
 
 #include <QtTest/QtTest>
 
+namespace {
+
+QString text(const char *latin1)
+{
+    return QString::fromLatin1(latin1);
+}
+
+}  // namespace
+
 class tst_CanConfiguration : public QObject
 {
     Q_OBJECT
@@ -19,6 +28,8 @@ private Q_SLOTS:
     void unknownChannelsAreRefused_data();
     void unknownChannelsAreRefused();
     void unsupportedMessageIsRefusedWithTheReason();
+    void signalsThatOverlapAreWarnedOf_data();
+    void signalsThatOverlapAreWarnedOf();
     void channelMayBeWiredTwice();
 };
 
@@ -30,6 +41,11 @@ void tst_CanConfiguration::validKeysAreAccepted_data()
           "frame.A = 0x18FEDFFE, 64 bytes, fd, no bit rate switch", "frame.A = 5, 0 bytes, extended",
           "frame.A = 1, 8 bytes\nsignal.A.S = 0|16@1- (0.1,0)",
           "frame.A = 1, 8 bytes\nsignal.A.M = M 0|8@1+\nsignal.A.S = m1 8|16@0+",
+          "frame.A = 1, 8 bytes\nsignal.A.M = M 0|8@1+\nsignal.A.S = m1 8|8@1+\nsignal.A.T = m2 8|16@1+",
+          "frame.A = 1, 8 bytes\nsend.A = on change, every 100 ms, at most every 20 ms",
+          "frame.A = 1, 8 bytes\nsignal.A.C = 8|4@1+\ncounter.A = C, up to 14",
+          "frame.A = 1, 8 bytes\nsignal.A.C = 15|8@0+\nchecksum.A = C, crc8, polynomial 0x2F, prefix 0a 1b",
+          "frame.A = 0x18FEF1FE, 8 bytes, j1939\nsource.A = 0x21", "frame.A = 0x100, 8 bytes, j1939",
           "frame.A = 1, 8 bytes\nsend.A = every cycle",
           "frame.A = 1, 8 bytes\nsend.A = every 10 ms, on change, on request",
           "frame.A = 1, 8 bytes\nsend.A = every 250us\ntimeout.A = 20 ms"})
@@ -47,8 +63,8 @@ void tst_CanConfiguration::invalidKeysAreReported_data()
 {
     QTest::addColumn<QByteArray>("keys");
     QTest::addColumn<QString>("error");
-    const auto row = [](const char *keys, const char *error) {
-        QTest::newRow(QByteArray(keys).replace("\n", " / ")) << QByteArray(keys) + '\n' << QString::fromLatin1(error);
+    const auto row = [](const QByteArray &keys, const char *error) {
+        QTest::newRow(QByteArray(keys).replace("\n", " / ")) << keys + '\n' << QString::fromLatin1(error);
     };
     row("frame.A = 0x123", "'0x123' is not a frame; write frame.A = 0x123, 8 bytes");
     row("frame.A = 0x20000000, 8 bytes", "is not a frame");
@@ -59,6 +75,39 @@ void tst_CanConfiguration::invalidKeysAreReported_data()
     row("frame.A = 1, 9 bytes", "no frame has 9 bytes");
     row("frame.A = 1, 65 bytes", "no frame has 65 bytes");
     row("frame.A = 1, 8 bytes\nframe.B = 1, 4 bytes", "frame 'B' has the id of message 'A'");
+    row("frame.A = 1, 8 bytes\nsignal.A.M = M 0|8@1+\nsignal.A.S = m1 8|8@1+\nframe.B = 1, 4 bytes",
+        "frame 'B' has the id of message 'A'; give each its own, or a multiplexor (M)");
+    row("frame.A = 0x18FEF101, 8 bytes, j1939\nframe.B = 0x0CFEF101, 4 bytes, j1939",
+        "frame 'B' has the id of message 'A'");
+    row("frame.A = 0x18FEF1FE, 39 bytes, j1939",
+        "it has 39 bytes, which J1939 sends in several frames (transport protocol, TP)");
+    row("frame.A = 0x18FEF1FE, 8 bytes\nsource.A = 1", "message 'A' is not one of J1939");
+    row("frame.A = 0x18FEF1FE, 8 bytes, j1939\nsource.A = 254", "is not a whole number from 0 to 253");
+    row("frame.A = 0x18FEF101, 8 bytes, j1939\nsend.A = on request", "which has no remote frames");
+    row("frame.A = 1, 8 bytes\nsend.A = every 10 ms, at most every 20 ms",
+        "at most every 20 ms is less often than every 10 ms");
+    row("frame.A = 1, 8 bytes\nsend.A = at most 20 ms", "does not say when to send");
+    const char *const protections[][2]{
+        {"counter.A = T", "message 'A' has no signal 'T'"},
+        {"counter.A = S, up to 16",
+         "'S, up to 16' is not an alive counter; write the name of its signal, and 'up to 14' "
+         "if it does not count to 15"},
+        {"counter.A = S, up to 0", "is not an alive counter"},
+        {"counter.A = M", "signal 'M' of message 'A' has to be unsigned, and in each frame"},
+        {"checksum.A = S, crc8", "signal 'S' of message 'A' is not one whole byte"},
+        {"checksum.A = B", "'B' is not a checksum; write SIGNAL, crc8 (or xor, or sum)"},
+        {"checksum.A = B, crc16", "is not a checksum"},
+        {"checksum.A = B, xor, polynomial 7", "is not a checksum"},
+        {"checksum.A = B, crc8, initial 256", "is not a checksum"},
+        {"checksum.A = B, crc8, prefix 1g", "is not a checksum"},
+        {"counter.B = S", "there is no message 'B'"},
+    };
+    for (const auto &protection : protections)
+        row(QByteArray("frame.A = 1, 8 bytes\nsignal.A.S = 0|4@1+\nsignal.A.M = M 8|8@1+\nsignal.A.B = 16|8@1+\n")
+                + protection[0],
+            protection[1]);
+    row("source.A = 1", "there is no message 'A'");
+    row("frame.A = 1, 8 bytes\nsignal.A.S = m1M 0|8@1+", "write a frame of the same id for each");
     row("signal.A.S = 0|8@1+", "there is no frame 'A'; write a line frame.A");
     row("frame.A = 1, 8 bytes\nsignal.A.S = 0|8",
         "'0|8' is not the place of a signal: the end of the file instead of '@'");
@@ -166,6 +215,43 @@ void tst_CanConfiguration::unsupportedMessageIsRefusedWithTheReason()
     QCOMPARE(bench.driver.errors(), QString());
     QCOMPARE(bench.driver.wireRead(QStringLiteral("A.S")),
              QStringLiteral("message 'A' cannot be used: it has multiplexed signals and no multiplexor (M)"));
+}
+
+void tst_CanConfiguration::signalsThatOverlapAreWarnedOf_data()
+{
+    QTest::addColumn<QByteArray>("keys");
+    QTest::addColumn<QStringList>("warnings");
+    const auto row = [](const QByteArray &keys, const QStringList &warnings) {
+        QTest::newRow(QByteArray(keys).replace("\n", " / ")) << keys + '\n' << warnings;
+    };
+    const QByteArray frame = "frame.A = 1, 8 bytes\n";
+    row(frame + "signal.A.S = 0|16@1+\nsignal.A.T = 15|2@1+\nsignal.A.U = 12|1@1+",
+        {text("signals 'S' and 'T' of frame 'A'"), text("signals 'S' and 'U' of frame 'A'")});
+    row(frame + "signal.A.S = m1 8|16@1+\nsignal.A.M = M 0|8@1+\nsignal.A.T = m2 8|16@1+", {});
+    row(frame + "signal.A.S = m1 8|16@1+\nsignal.A.M = M 0|8@1+\nsignal.A.T = m1 16|16@1+",
+        {text("signals 'S' and 'T' of frame 'A'")});
+    row(frame + "signal.A.S = m1 0|16@1+\nsignal.A.M = M 0|8@1+", {text("signals 'S' and 'M' of frame 'A'")});
+    row("dbc = a.dbc", {text("signals 'S' and 'T' of message 'Same'")});
+}
+
+// In a DBC file each message once, and pages apart.
+void tst_CanConfiguration::signalsThatOverlapAreWarnedOf()
+{
+    QFETCH(QByteArray, keys);
+    QFETCH(QStringList, warnings);
+    const auto signal = [](const char *name, const char *place) {
+        return QByteArray(" SG_ ") + name + " : " + place + "@1+ (1,0) [0|0] \"\" X\n";
+    };
+    const QByteArray dbc = "BO_ 5 Same: 8 X\n" + signal("S", "0|8") + signal("T", "4|8") + signal("U", "4|2")
+        + "BO_ 6 Pages: 8 X\n" + signal("M M", "0|8") + signal("S m1", "8|8") + signal("T m2", "8|8")
+        + signal("N m3M", "8|8") + signal("V m0", "16|8") + signal("W m1", "16|8")
+        + "SG_MUL_VAL_ 6 S M 1-1;\nSG_MUL_VAL_ 6 T M 2-2;\nSG_MUL_VAL_ 6 V N 0-4;\nSG_MUL_VAL_ 6 W N 5-9;\n";
+    CanBench bench(keys, {{text("a.dbc"), dbc}});
+    QCOMPARE(bench.driver.errors(), QString());
+    const QVector<QPlcParseError> told = bench.driver.warnings();
+    QCOMPARE(told.size(), warnings.size());
+    for (int i = 0; i < told.size(); ++i)
+        QVERIFY2(told.at(i).message.startsWith(warnings.at(i)), qPrintable(told.at(i).message));
 }
 
 void tst_CanConfiguration::channelMayBeWiredTwice()

@@ -33,6 +33,14 @@ private Q_SLOTS:
     void messageWithoutCycleTimeHasTheTimeoutOfTheDriver();
     void ageAndFrameCountIncrease();
     void multiplexedValueIsReadFromItsPage();
+    void nestedMultiplexorIsFollowed();
+    void framesOfOneIdAreToldApartByTheirMultiplexors();
+    void groupOfJ1939ComesFromAnySource();
+    void groupForOneNodeGoesToAnyDestination();
+    void sourceSelectsTheSender();
+    void messagesOfOneGroupAreToldApartByTheirSources();
+    void frameWithAWrongChecksumIsIgnored();
+    void frameWithTheSameAliveCounterIsIgnored();
     void otherMessagesChangeNoValue();
     void tooShortFramesAreCounted();
     void floodOfFramesIsReadInOrder();
@@ -159,6 +167,142 @@ void tst_CanDriver::multiplexedValueIsReadFromItsPage()
     QCOMPARE(bench.driver.value(text("T.Motor")), 7.0);
     QCOMPARE(bench.driver.value(text("T.Inverter")), 9.0);
     QCOMPARE(bench.driver.value(text("T.Page")), 2.0);
+}
+
+void tst_CanDriver::nestedMultiplexorIsFollowed()
+{
+    const QByteArray dbc = "BO_ 5 T: 3 X\n SG_ Page M : 0|8@1+ (1,0) [0|0] \"\" X\n"
+                           " SG_ Sub m0M : 8|8@1+ (1,0) [0|0] \"\" X\n SG_ A m1 : 16|8@1+ (1,0) [0|0] \"\" X\n"
+                           " SG_ B m1 : 16|8@1+ (1,0) [0|0] \"\" X\n"
+                           "SG_MUL_VAL_ 5 Sub Page 0-0;\nSG_MUL_VAL_ 5 A Sub 1-3;\nSG_MUL_VAL_ 5 B Page 1-2;\n";
+    CanBench bench("dbc = t.dbc\n", {{QStringLiteral("t.dbc"), dbc}});
+    for (const char *name : {"T.Sub", "T.A", "T.B"})
+        QCOMPARE(bench.driver.wireRead(text(name)), QString());
+    QVERIFY2(bench.open(), qPrintable(bench.driver.errorString()));
+    bench.send(5, "000207");
+    bench.send(5, "000409");  // A is not there
+    QVERIFY(bench.cycle());
+    QCOMPARE(bench.driver.value(text("T.A")), 7.0);
+    QCOMPARE(bench.driver.value(text("T.Sub")), 4.0);
+    QVERIFY(!bench.driver.isFresh(text("T.B")));
+    bench.send(5, "02020b");
+    QVERIFY(bench.cycle());
+    QCOMPARE(bench.driver.value(text("T.A")), 7.0);
+    QCOMPARE(bench.driver.value(text("T.Sub")), 4.0);
+    QCOMPARE(bench.driver.value(text("T.B")), 11.0);
+}
+
+void tst_CanDriver::framesOfOneIdAreToldApartByTheirMultiplexors()
+{
+    CanBench bench("frame.A = 5, 3 bytes\nsignal.A.Page = M 0|8@1+\nsignal.A.S = m1 8|8@1+\n"
+                   "frame.B = 5, 3 bytes\nsignal.B.Page = M 8|8@1+\nsignal.B.S = m7 16|8@1+\n");
+    QCOMPARE(bench.driver.errors(), QString());
+    for (const char *name : {"A.S", "A.@count", "B.S", "B.@count"})
+        QCOMPARE(bench.driver.wireRead(text(name)), QString());
+    QVERIFY(bench.open());
+    bench.send(5, "010203");
+    bench.send(5, "010400");
+    bench.send(5, "000709");
+    bench.send(5, "000000");  // of neither
+    QVERIFY(bench.cycle());
+    QCOMPARE(bench.driver.value(text("A.S")), 4.0);
+    QCOMPARE(bench.driver.value(text("A.@count")), 2.0);
+    QCOMPARE(bench.driver.value(text("B.S")), 9.0);
+    QCOMPARE(bench.driver.value(text("B.@count")), 1.0);
+}
+
+void tst_CanDriver::groupOfJ1939ComesFromAnySource()
+{
+    CanBench bench("frame.Speed = 0x18FEF1FE, 2 bytes, j1939\nsignal.Speed.S = 0|8@1+\n");
+    QCOMPARE(bench.driver.errors(), QString());
+    bench.driver.wireRead(text("Speed.S"));
+    bench.driver.wireRead(text("Speed.@count"));
+    QVERIFY(bench.open());
+    bench.send(0x18FEF117, "0500", CanFrame::Extended);
+    bench.send(0x0CFEF100, "0600", CanFrame::Extended);  // another priority
+    bench.send(0x18FEF217, "0700", CanFrame::Extended);  // another group
+    bench.send(0x19FEF117, "0800", CanFrame::Extended);  // of another data page
+    QVERIFY(bench.cycle());
+    QCOMPARE(bench.driver.value(text("Speed.S")), 6.0);
+    QCOMPARE(bench.driver.value(text("Speed.@count")), 2.0);
+}
+
+void tst_CanDriver::groupForOneNodeGoesToAnyDestination()
+{
+    CanBench bench("frame.Torque = 0x0C00FFFE, 1 byte, j1939\nsignal.Torque.S = 0|8@1+\n");
+    bench.driver.wireRead(text("Torque.S"));
+    bench.driver.wireRead(text("Torque.@count"));
+    QVERIFY(bench.open());
+    bench.send(0x0C000003, "01", CanFrame::Extended);
+    bench.send(0x0C000F21, "02", CanFrame::Extended);
+    bench.send(0x0C010003, "03", CanFrame::Extended);  // another group
+    QVERIFY(bench.cycle());
+    QCOMPARE(bench.driver.value(text("Torque.S")), 2.0);
+    QCOMPARE(bench.driver.value(text("Torque.@count")), 2.0);
+}
+
+void tst_CanDriver::sourceSelectsTheSender()
+{
+    CanBench bench("frame.Speed = 0x18FEF1FE, 1 byte, j1939\nsignal.Speed.S = 0|8@1+\nsource.Speed = 0x17\n");
+    bench.driver.wireRead(text("Speed.S"));
+    QVERIFY(bench.open());
+    bench.send(0x18FEF117, "05", CanFrame::Extended);
+    bench.send(0x18FEF118, "06", CanFrame::Extended);
+    QVERIFY(bench.cycle());
+    QCOMPARE(bench.driver.value(text("Speed.S")), 5.0);
+}
+
+void tst_CanDriver::messagesOfOneGroupAreToldApartByTheirSources()
+{
+    CanBench bench("frame.Left = 0x18FEF101, 1 byte, j1939\nsignal.Left.S = 0|8@1+\n"
+                   "frame.Right = 0x18FEF102, 1 byte, j1939\nsignal.Right.S = 0|8@1+\n");
+    QCOMPARE(bench.driver.errors(), QString());
+    bench.driver.wireRead(text("Left.S"));
+    bench.driver.wireRead(text("Right.S"));
+    QVERIFY(bench.open());
+    bench.send(0x18FEF101, "05", CanFrame::Extended);
+    bench.send(0x18FEF102, "06", CanFrame::Extended);
+    bench.send(0x18FEF103, "07", CanFrame::Extended);
+    QVERIFY(bench.cycle());
+    QCOMPARE(bench.driver.value(text("Left.S")), 5.0);
+    QCOMPARE(bench.driver.value(text("Right.S")), 6.0);
+}
+
+void tst_CanDriver::frameWithAWrongChecksumIsIgnored()
+{
+    CanBench bench("frame.S = 5, 3 bytes\nsignal.S.V = 0|8@1+\nsignal.S.Check = 16|8@1+\nchecksum.S = Check, xor\n");
+    QCOMPARE(bench.driver.errors(), QString());
+    for (const char *name : {"S.V", "S.@count", "@corrupt"})
+        bench.driver.wireRead(text(name));
+    QVERIFY(bench.open());
+    bench.send(5, "0a0309");
+    bench.send(5, "0b0309");
+    QVERIFY(bench.cycle());
+    QCOMPARE(bench.driver.value(text("S.V")), 10.0);
+    QCOMPARE(bench.driver.value(text("S.@count")), 1.0);
+    QCOMPARE(bench.driver.value(text("@corrupt")), 1.0);
+}
+
+// A sender that hangs while its controller goes on: the value is not fresh for ever.
+void tst_CanDriver::frameWithTheSameAliveCounterIsIgnored()
+{
+    CanBench bench("frame.S = 5, 2 bytes, every 10 ms\nsignal.S.V = 0|8@1+\nsignal.S.Alive = 8|4@1+\n"
+                   "counter.S = Alive\n");
+    QCOMPARE(bench.driver.errors(), QString());
+    for (const char *name : {"S.V", "@corrupt"})
+        bench.driver.wireRead(text(name));
+    QVERIFY(bench.open());
+    bench.send(5, "0a0f");
+    bench.send(5, "0b00");
+    bench.send(5, "0c05");  // frames were lost: the value counts
+    QVERIFY(bench.cycle());
+    QCOMPARE(bench.driver.value(text("S.V")), 12.0);
+    for (int i = 0; i < 4; ++i) {
+        bench.send(5, "0d05");
+        QVERIFY(bench.cycle(10ms));
+    }
+    QVERIFY(!bench.driver.isFresh(text("S.V")));
+    QCOMPARE(bench.driver.value(text("@corrupt")), 4.0);
 }
 
 void tst_CanDriver::otherMessagesChangeNoValue()

@@ -22,6 +22,18 @@ QByteArray commandSent(const QByteArray &rule)
         + (rule.isEmpty() ? QByteArray() : "send.Command = " + rule + "\n");
 }
 
+// Root selects Sub and C, and Sub selects A and B.
+QByteArray nestedMessage()
+{
+    const auto signal = [](const char *name, const char *place) {
+        return QByteArray(" SG_ ") + name + " : " + place + "|8@1+ (1,0) [0|0] \"\" X\n";
+    };
+    return "BO_ 768 P: 3 X\n" + signal("B m2", "16") + signal("A m1", "16") + signal("Sub m0M", "8")
+        + signal("Root M", "0") + signal("C m1", "8")
+        + "SG_MUL_VAL_ 768 A Sub 1-1;\nSG_MUL_VAL_ 768 B Sub 2-2;\nSG_MUL_VAL_ 768 Sub Root 0-0;\n"
+          "SG_MUL_VAL_ 768 C Root 1-1;\n";
+}
+
 const QString benchBus = QStringLiteral("bench");
 const QString count = QStringLiteral("Counting.Count");
 
@@ -65,6 +77,14 @@ private Q_SLOTS:
     void skippedSendTimesAreNotRepeated();
     void onChangeSendsWhenBytesChange();
     void onChangeAndPeriodCanBeCombined();
+    void changesKeepTheSmallestGap();
+    void gapIsThatOfTheDbcFile();
+    void safeValuesKeepNoGap();
+    void aliveCounterCountsFramesThatAreSent();
+    void aliveCounterBeginsAgain();
+    void checksumIsThatOfTheBytes_data();
+    void checksumIsThatOfTheBytes();
+    void protectedSignalsAreNotWritten();
     void remoteRequestIsAnswered();
     void requestsForOtherMessagesAreIgnored();
     void safeValuesAreSentInTheSameCycle_data();
@@ -73,6 +93,12 @@ private Q_SLOTS:
     void multiplexedPagesAreAllSent();
     void wiredMultiplexorChoosesThePage();
     void multiplexorAloneIsSent();
+    void rangeIsSentOnThePageOfTheOthers_data();
+    void rangeIsSentOnThePageOfTheOthers();
+    void nestedPagesAreAllSent();
+    void wiredNestedMultiplexorChoosesThePage();
+    void framesOfOneIdAreAllSent();
+    void j1939IsSentWithTheSourceOfTheKey();
     void saturationIsCounted();
     void messagesKeepTheOrderOfTheWires();
     void longMessageIsSentAsFdFrame();
@@ -201,6 +227,131 @@ void tst_CanSending::onChangeAndPeriodCanBeCombined()
     QCOMPARE(bench.framesIn(10), 1);
 }
 
+void tst_CanSending::changesKeepTheSmallestGap()
+{
+    CanBench bench(commandSent("on change, at most every 20 ms"));
+    QCOMPARE(bench.driver.errors(), QString());
+    bench.driver.wireWrite(speed);
+    QVERIFY(bench.open());
+    QByteArrayList sent;
+    for (int i = 1; i <= 50; ++i) {
+        bench.driver.set(speed, i);
+        bench.cycle();
+        const QByteArray received = bench.received();
+        if (!received.isEmpty())
+            sent << received;
+    }
+    QCOMPARE(sent.join(' '), QByteArray("200#0100 200#1500 200#2900"));  // 1, 21 and 41
+    QCOMPARE(bench.framesIn(30), 1);                                     // the last change is not lost
+    QCOMPARE(bench.framesIn(30), 0);
+    bench.driver.set(speed, 7.0);
+    QCOMPARE(bench.framesIn(1), 1);
+}
+
+void tst_CanSending::gapIsThatOfTheDbcFile()
+{
+    CanBench bench("dbc = a.dbc\nsend.Command = on change\n",
+                   {{text("a.dbc"),
+                     "BO_ 512 Command: 2 X\n SG_ Speed : 0|8@1- (1,0) [0|0] \"\" X\n"
+                     "BA_DEF_DEF_ \"GenMsgDelayTime\" 0;\nBA_ \"GenMsgDelayTime\" BO_ 512 5;\n"}});
+    QCOMPARE(bench.driver.errors(), QString());
+    bench.driver.wireWrite(speed);
+    QVERIFY(bench.open());
+    int frames = 0;
+    for (int i = 0; i < 50; ++i) {
+        bench.driver.set(speed, i);
+        frames += bench.framesIn(1);
+    }
+    QCOMPARE(frames, 10);
+}
+
+void tst_CanSending::safeValuesKeepNoGap()
+{
+    CanBench bench(commandSent("on change, at most every 1 s"));
+    bench.driver.wireWrite(speed);
+    QVERIFY(bench.open());
+    bench.driver.set(speed, 1.0);
+    QCOMPARE(bench.framesIn(1), 1);
+    bench.driver.set(speed, 0.0, true);
+    bench.cycle();
+    QCOMPARE(bench.received(), QByteArray("200#0000"));
+}
+
+void tst_CanSending::aliveCounterCountsFramesThatAreSent()
+{
+    CanBench bench(commandSent("every 10 ms") + "counter.Command = Other\n");
+    QCOMPARE(bench.driver.errors(), QString());
+    bench.driver.wireWrite(speed);
+    QVERIFY(bench.open());
+    bench.driver.set(speed, 1.0);
+    for (int i = 0; i < 30; ++i)
+        bench.cycle();
+    QCOMPARE(bench.received(), QByteArray("200#0100 200#0101 200#0102"));
+    QVERIFY(FakeCanBus::setAcknowledged(benchBus, false));
+    for (int i = 0; i < 50; ++i)
+        bench.cycle();
+    QVERIFY(FakeCanBus::setAcknowledged(benchBus, true));
+    for (int i = 0; i < 10; ++i)
+        bench.cycle();
+    QVERIFY2(bench.received().startsWith("200#0103 200#0104"), "frames that were held back do not count");
+}
+
+void tst_CanSending::aliveCounterBeginsAgain()
+{
+    CanBench bench("frame.C = 1, 1 byte\nsignal.C.Alive = 4|4@1+\nsignal.C.S = 0|4@1+\ncounter.C = Alive, up to 2\n"
+                   "send.C = on change\n");
+    QCOMPARE(bench.driver.errors(), QString());
+    bench.driver.wireWrite(text("C.S"));
+    QVERIFY(bench.open());
+    for (int i = 0; i < 5; ++i) {
+        bench.driver.set(text("C.S"), i);
+        bench.cycle();
+        bench.cycle();  // the counter alone is no change
+    }
+    QCOMPARE(bench.received(), QByteArray("1#00 1#11 1#22 1#03 1#14"));
+}
+
+void tst_CanSending::checksumIsThatOfTheBytes_data()
+{
+    QTest::addColumn<QByteArray>("method");
+    QTest::addColumn<QByteArray>("frame");
+    // The check values of the catalogue of CRCs, of "123456789": the first two bytes are a prefix.
+    const auto row = [](const char *method, const char *checksum) {
+        QTest::newRow(method) << QByteArray(method) << QByteArray("1#") + checksum + "33343536373839";
+    };
+    row("crc8, prefix 31 32", "4b");                                         // SAE J1850
+    row("crc8, polynomial 0x2F, prefix 31 32", "df");                        // AUTOSAR, 0x2F
+    row("crc8, polynomial 0x07, initial 0, final 0, prefix 3132", "f4");     // SMBus
+    row("crc8, polynomial 0x07, initial 0, final 0x55, prefix 3132", "a1");  // ITU
+    row("sum, prefix 31 32", "dd");
+    row("xor, prefix 31 32", "31");
+    row("xor", "32");
+}
+
+void tst_CanSending::checksumIsThatOfTheBytes()
+{
+    QFETCH(QByteArray, method);
+    QFETCH(QByteArray, frame);
+    CanBench bench("frame.C = 1, 8 bytes\nsignal.C.Check = 0|8@1+\nsignal.C.A = 15|24@0+\nsignal.C.B = 39|32@0+\n"
+                   "checksum.C = Check, "
+                   + method + "\n");
+    QCOMPARE(bench.driver.errors(), QString());
+    bench.driver.wireWrite(text("C.A"));
+    bench.driver.wireWrite(text("C.B"));
+    QVERIFY(bench.open());
+    bench.driver.set(text("C.A"), 0x333435);
+    bench.driver.set(text("C.B"), 0x36373839);
+    bench.cycle();
+    QCOMPARE(bench.received(), frame);
+}
+
+void tst_CanSending::protectedSignalsAreNotWritten()
+{
+    CanBench bench(commandSent("every cycle") + "counter.Command = Other\n");
+    QVERIFY(bench.driver.wireWrite(text("Command.Other")).startsWith(text("the driver writes signal 'Other'")));
+    QCOMPARE(bench.driver.wireRead(text("Command.Other")), QString());
+}
+
 void tst_CanSending::remoteRequestIsAnswered()
 {
     CanBench bench(commandSent("on request"));
@@ -313,6 +464,98 @@ void tst_CanSending::multiplexorAloneIsSent()
     bench.driver.set(text("P.Page"), 4.0);
     QVERIFY(bench.cycle());
     QCOMPARE(bench.received(), QByteArray("300#0400"));
+}
+
+void tst_CanSending::rangeIsSentOnThePageOfTheOthers_data()
+{
+    QTest::addColumn<QByteArrayList>("wired");
+    QTest::addColumn<QByteArray>("sent");
+    QTest::newRow("alone") << QByteArrayList{"P.Range"} << QByteArray("300#030009");
+    QTest::newRow("with one of its pages") << QByteArrayList{"P.Range", "P.Five"} << QByteArray("300#050909");
+    QTest::newRow("with two") << QByteArrayList{"P.Five", "P.Range", "P.Four"} << QByteArray("300#040909 300#050909");
+    QTest::newRow("with another one") << QByteArrayList{"P.Range", "P.One"} << QByteArray("300#010900 300#030009");
+}
+
+void tst_CanSending::rangeIsSentOnThePageOfTheOthers()
+{
+    QFETCH(QByteArrayList, wired);
+    QFETCH(QByteArray, sent);
+    const auto signal = [](const char *name, const char *place) {
+        return QByteArray(" SG_ ") + name + " : " + place + "|8@1+ (1,0) [0|0] \"\" X\n";
+    };
+    CanBench bench("dbc = p.dbc\n",
+                   {{text("p.dbc"),
+                     "BO_ 768 P: 3 X\n" + signal("Page M", "0") + signal("One m1", "8") + signal("Four m4", "8")
+                         + signal("Five m5", "8") + signal("Range m3", "16") + "SG_MUL_VAL_ 768 Range Page 3-6;\n"}});
+    QCOMPARE(bench.driver.errors(), QString());
+    for (const QByteArray &name : qAsConst(wired))
+        QCOMPARE(bench.driver.wireWrite(QString::fromLatin1(name)), QString());
+    QVERIFY(bench.open());
+    for (const QByteArray &name : qAsConst(wired))
+        bench.driver.set(QString::fromLatin1(name), 9.0);
+    QVERIFY(bench.cycle());
+    QCOMPARE(bench.received(), sent);
+}
+
+void tst_CanSending::nestedPagesAreAllSent()
+{
+    CanBench bench("dbc = p.dbc\n", {{text("p.dbc"), nestedMessage()}});
+    for (const char *name : {"P.C", "P.B", "P.A"})
+        QCOMPARE(bench.driver.wireWrite(text(name)), QString());
+    QVERIFY(bench.open());
+    bench.driver.set(text("P.A"), 1.0);
+    bench.driver.set(text("P.B"), 2.0);
+    bench.driver.set(text("P.C"), 3.0);
+    QVERIFY(bench.cycle());
+    QCOMPARE(bench.received(), QByteArray("300#000101 300#000202 300#010300"));
+}
+
+void tst_CanSending::wiredNestedMultiplexorChoosesThePage()
+{
+    CanBench bench("dbc = p.dbc\n", {{text("p.dbc"), nestedMessage()}});
+    for (const char *name : {"P.A", "P.Sub", "P.B", "P.Root", "P.C"})
+        QCOMPARE(bench.driver.wireWrite(text(name)), QString());
+    QVERIFY(bench.open());
+    for (const char *name : {"P.A", "P.B", "P.C"})
+        bench.driver.set(text(name), name[2] - 'A' + 1);
+    const auto sentWith = [&bench](double root, double sub) {
+        bench.driver.set(text("P.Root"), root);
+        bench.driver.set(text("P.Sub"), sub);
+        bench.cycle();
+        return bench.received();
+    };
+    QCOMPARE(sentWith(0.0, 1.0), QByteArray("300#000101"));
+    QCOMPARE(sentWith(0.0, 2.0), QByteArray("300#000202"));
+    QCOMPARE(sentWith(0.0, 3.0), QByteArray());  // there is no such page
+    QCOMPARE(sentWith(1.0, 2.0), QByteArray("300#010300"));
+}
+
+void tst_CanSending::framesOfOneIdAreAllSent()
+{
+    CanBench bench("frame.A = 5, 2 bytes\nsignal.A.Page = M 0|8@1+\nsignal.A.S = m1 8|8@1+\n"
+                   "frame.B = 5, 3 bytes\nsignal.B.Page = M 0|8@1+\nsignal.B.S = m2 8|16@1+\n");
+    QCOMPARE(bench.driver.wireWrite(text("A.S")), QString());
+    QCOMPARE(bench.driver.wireWrite(text("B.S")), QString());
+    QVERIFY(bench.open());
+    bench.driver.set(text("A.S"), 3.0);
+    bench.driver.set(text("B.S"), 4.0);
+    QVERIFY(bench.cycle());
+    QCOMPARE(bench.received(), QByteArray("5#0103 5#020400"));
+}
+
+void tst_CanSending::j1939IsSentWithTheSourceOfTheKey()
+{
+    const QByteArray keys = "frame.Torque = 0x0C0003FE, 1 byte, j1939\nsignal.Torque.S = 0|8@1+\n";
+    CanBench nameless(keys);
+    QCOMPARE(nameless.driver.wireWrite(text("Torque.S")),
+             QStringLiteral("message 'Torque' has no source address (the last byte of its id is 0xfe); write "
+                            "source.Torque = address of this node, 0 ... 253"));
+    CanBench bench(keys + "source.Torque = 0x21\n");
+    QCOMPARE(bench.driver.wireWrite(text("Torque.S")), QString());
+    QVERIFY(bench.open());
+    bench.driver.set(text("Torque.S"), 3.0);
+    QVERIFY(bench.cycle());
+    QCOMPARE(bench.received(), QByteArray("c000321#03"));
 }
 
 void tst_CanSending::saturationIsCounted()

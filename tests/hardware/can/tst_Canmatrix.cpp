@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "RandomDbc.h"
+#include "hardware/can/CanFrame.h"
 #include "hardware/can/DbcFile.h"
 
 #include <QtTest/QtTest>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -45,6 +47,7 @@ private Q_SLOTS:
     void rawValuesMatchCanmatrix();
     void physicalValuesMatchCanmatrix();
     void encodedPhysicalValuesMatchCanmatrix();
+    void framesOfANetworkMatchCanmatrix();
 
 private:
     struct Frame
@@ -59,6 +62,8 @@ private:
     void ask(const QVector<RandomDbc::Message> &messages, RandomDbc *random);
     QByteArray question(const RandomDbc::Message &message, int page, RandomDbc *random, Frame *frame);
     bool answer(const QByteArray &questions);
+    bool consult(const QString &file, const QByteArray &questions, int count, QList<QByteArray> *answers) const;
+    void compareFrame(const DbcFile &file, quint32 id, const QByteArray &bytes, const QJsonObject &answer, int *values);
 
     QTemporaryDir m_folder;
     DbcFile m_file;
@@ -135,10 +140,25 @@ QByteArray tst_Canmatrix::question(const RandomDbc::Message &message, int page, 
 
 bool tst_Canmatrix::answer(const QByteArray &questions)
 {
+    QList<QByteArray> lines;
+    if (!consult(QStringLiteral("random.dbc"), questions, m_frames.size(), &lines))
+        return false;
+    for (int i = 0; i < m_frames.size(); ++i) {
+        const QJsonObject object = QJsonDocument::fromJson(lines.at(i)).object();
+        m_frames[i].bytes = QByteArray::fromHex(object.value(QLatin1String("bytes")).toString().toLatin1());
+        m_frames[i].rawAnswer = object.value(QLatin1String("raw")).toObject();
+        m_frames[i].physical = object.value(QLatin1String("physical")).toObject();
+    }
+    return true;
+}
+
+// Returns false if there is no canmatrix.
+bool tst_Canmatrix::consult(const QString &file, const QByteArray &questions, int count,
+                            QList<QByteArray> *answers) const
+{
     QProcess oracle;
-    oracle.start(
-        QStringLiteral("/usr/bin/python3"),
-        {QStringLiteral("-B"), QStringLiteral(CANMATRIX_ORACLE), m_folder.filePath(QStringLiteral("random.dbc"))});
+    oracle.start(QStringLiteral("/usr/bin/python3"),
+                 {QStringLiteral("-B"), QStringLiteral(CANMATRIX_ORACLE), m_folder.filePath(file)});
     if (!oracle.waitForStarted())
         return false;
     oracle.write(questions);
@@ -147,16 +167,10 @@ bool tst_Canmatrix::answer(const QByteArray &questions)
         qFatal("canmatrix takes more than 200 s");
     if (oracle.exitCode() == 77)
         return false;
-    const QList<QByteArray> lines = oracle.readAllStandardOutput().split('\n');
-    if (oracle.exitCode() != 0 || lines.size() != m_frames.size() + 1)
-        qFatal("canmatrix gave %d answers to %d questions, and exit code %d: %s", int(lines.size()) - 1,
-               int(m_frames.size()), oracle.exitCode(), oracle.readAllStandardError().constData());
-    for (int i = 0; i < m_frames.size(); ++i) {
-        const QJsonObject object = QJsonDocument::fromJson(lines.at(i)).object();
-        m_frames[i].bytes = QByteArray::fromHex(object.value(QLatin1String("bytes")).toString().toLatin1());
-        m_frames[i].rawAnswer = object.value(QLatin1String("raw")).toObject();
-        m_frames[i].physical = object.value(QLatin1String("physical")).toObject();
-    }
+    *answers = oracle.readAllStandardOutput().split('\n');
+    if (oracle.exitCode() != 0 || answers->size() != count + 1)
+        qFatal("canmatrix gave %d answers to %d questions, and exit code %d: %s", int(answers->size()) - 1, count,
+               oracle.exitCode(), oracle.readAllStandardError().constData());
     return true;
 }
 
@@ -170,7 +184,7 @@ void tst_Canmatrix::testFileCoversAllSignalLayouts()
         QCOMPARE(message.unsupported, QString());
         for (const DbcSignal &signal : message.content) {
             kinds.insert(signal.length * 4 + signal.byteOrder * 2 + (signal.kind == DbcSignal::Signed ? 1 : 0));
-            multiplexed += signal.role == DbcSignal::Multiplexed ? 1 : 0;
+            multiplexed += signal.isMultiplexed() ? 1 : 0;
             floats += signal.isFloat() ? 1 : 0;
         }
     }
@@ -251,6 +265,78 @@ void tst_Canmatrix::encodedPhysicalValuesMatchCanmatrix()
         }
     }
     QVERIFY2(count > fewestSignals / 2, qPrintable(QString::number(count)));
+}
+
+// Frames of random bytes and sources, of J1939 with extended multiplexing.
+void tst_Canmatrix::framesOfANetworkMatchCanmatrix()
+{
+    constexpr int messageCount = 120;
+    constexpr int framesOfEach = 30;
+    RandomDbc random(seed + 1);
+    const QByteArray text = RandomDbc::text(random.networkMessages(messageCount), true);
+    QFile file(m_folder.filePath(QStringLiteral("network.dbc")));
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    file.write(text);
+    file.close();
+    QVector<QPlcParseError> errors;
+    const DbcFile ours = DbcFile::fromText(text, file.fileName(), &errors);
+    QVERIFY2(errors.isEmpty(), qPrintable(QPlcParseError::toString(errors)));
+    QCOMPARE(ours.messages().size(), messageCount);
+
+    QVector<QPair<quint32, QByteArray>> frames;
+    QByteArray questions;
+    for (const DbcMessage &message : ours.messages()) {
+        QVERIFY2(message.isJ1939 && message.unsupported.isEmpty(), qPrintable(message.unsupported));
+        for (int i = 0; i < framesOfEach; ++i) {
+            const quint64 data = random.bits();
+            const quint32 destination = CanFrame::isForOneNode(CanFrame::groupOf(message.id)) ? 0xFF00 : 0;
+            const quint32 changed = 0x1C0000FF | destination;  // priority, source
+            const quint32 id = (message.id & ~changed) | (quint32(random.bits()) & changed);
+            const QByteArray bytes(reinterpret_cast<const char *>(&data), 8);
+            frames.append({id, bytes});
+            questions += "{\"id\": " + QByteArray::number(id) + ", \"bytes\": \"" + bytes.toHex() + "\"}\n";
+        }
+    }
+    QList<QByteArray> answers;
+    QVERIFY(consult(QStringLiteral("network.dbc"), questions, frames.size(), &answers));
+    int values = 0;
+    for (int i = 0; i < frames.size(); ++i)
+        compareFrame(ours, frames.at(i).first, frames.at(i).second, QJsonDocument::fromJson(answers.at(i)).object(),
+                     &values);
+    QVERIFY2(values >= fewestSignals, qPrintable(QString::number(values)));
+    qInfo("%d values in %d frames", values, int(frames.size()));
+}
+
+void tst_Canmatrix::compareFrame(const DbcFile &file, quint32 id, const QByteArray &bytes, const QJsonObject &answer,
+                                 int *values)
+{
+    constexpr double rounding = 3 * std::numeric_limits<double>::epsilon();
+    const auto *data = reinterpret_cast<const quint8 *>(bytes.constData());
+    const auto isOfGroup
+        = [id](const DbcMessage &message) { return CanFrame::groupOf(message.id) == CanFrame::groupOf(id); };
+    const auto message = std::find_if(file.messages().cbegin(), file.messages().cend(), isOfGroup);
+    QVERIFY(message != file.messages().cend());
+    QCOMPARE(message->name, answer.value(QLatin1String("frame")).toString());
+    const QJsonObject raw = answer.value(QLatin1String("raw")).toObject();
+    const QJsonObject physical = answer.value(QLatin1String("physical")).toObject();
+    for (const DbcSignal &signal : message->content) {
+        const QString place = QStringLiteral("%1.%2 in %3").arg(message->name, signal.name, QString(bytes.toHex()));
+        QVERIFY2(message->isThere(signal, data) == raw.contains(signal.name), qPrintable(place));
+        if (!message->isThere(signal, data))
+            continue;
+        ++*values;
+        const double expected = numberOf(physical.value(signal.name).toString());
+        const double largest = std::max(std::abs(expected), std::abs(signal.offset));
+        const double ours = signal.decode(data);
+        QVERIFY2((std::isnan(ours) && std::isnan(expected)) || ours == expected
+                     || std::abs(ours - expected) <= rounding * largest,
+                 qPrintable(place));
+        if (!signal.isFloat())
+            QVERIFY2((signal.kind == DbcSignal::Signed ? QString::number(signal.signedRaw(data))
+                                                       : QString::number(signal.bits(data)))
+                         == raw.value(signal.name).toString(),
+                     qPrintable(place));
+    }
 }
 
 QTEST_GUILESS_MAIN(tst_Canmatrix)

@@ -50,8 +50,19 @@ void tst_DbcErrors::errorNamesPlaceAndRemedy_data()
     row("strange role", head + " SG_ S n1 : 0|8@1+ (1,0) [0|0] \"\" X\n", ":2:8: 'n1' behind the name of signal 'S'");
     row("role without number", head + " SG_ S m : 0|8@1+ (1,0) [0|0] \"\" X\n",
         ":2:8: 'm' behind the name of signal 'S'");
-    row("start too large", head + " SG_ S : 512|8@1+ (1,0) [0|0] \"\" X\n",
-        ":2:10: the start bit of the signal is 512; it has to be 0 ... 511");
+    row("start too large", head + " SG_ S : 14280|8@1+ (1,0) [0|0] \"\" X\n",
+        ":2:10: the start bit of the signal is 14280; it has to be 0 ... 14279");
+    row("range of a signal that is no multiplexor",
+        head + " SG_ S : 0|8@1+ (1,0) [0|0] \"\" X\n SG_ T m0 : 8|8@1+ (1,0) [0|0] \"\" X\nSG_MUL_VAL_ 1 T S 0-0;\n",
+        ":4:17: signal 'S' of message 'A' is not a multiplexor (M)");
+    row("range backwards",
+        head + " SG_ S M : 0|8@1+ (1,0) [0|0] \"\" X\n SG_ T m0 : 8|8@1+ (1,0) [0|0] \"\" X\nSG_MUL_VAL_ 1 T S 3-2;\n",
+        ":4:19: the range 3-2 is empty");
+    row("range without an end",
+        head + " SG_ S M : 0|8@1+ (1,0) [0|0] \"\" X\n SG_ T m0 : 8|8@1+ (1,0) [0|0] \"\" X\nSG_MUL_VAL_ 1 T S 3;\n",
+        ":4:20: ';' instead of the last value of the range");
+    row("range of no multiplexor", head + " SG_ T m0 : 8|8@1+ (1,0) [0|0] \"\" X\nSG_MUL_VAL_ 1 T S 3-3;\n",
+        ":3:17: message 'A' has no signal 'S'");
     row("length 0", head + " SG_ S : 0|0@1+ (1,0) [0|0] \"\" X\n",
         ":2:12: the length of the signal in bits is 0; it has to be 1 ... 64");
     row("length 65", head + " SG_ S : 0|65@1+ (1,0) [0|0] \"\" X\n", ":2:12: the length of the signal in bits is 65");
