@@ -15,6 +15,7 @@ constexpr double Right = 10.0;
 constexpr double Top = 8.0;
 constexpr double Bottom = 26.0;
 constexpr double CountHeight = 12.0;  // of the count above a bar
+constexpr double BorderWidth = 76.0;  // of a border below the bars, with some room
 constexpr int Curves = 6;             // colours
 
 /// A round distance of some \a count ticks.
@@ -194,8 +195,11 @@ QByteArray drawingOf(const LatenessHistogram &histogram)
     QByteArray labels = "<g class=\"label\">";
     for (int range = first; range <= last; ++range) {
         const double x = Left + (range - first) * width;
-        if (range % LatenessHistogram::RangesOfADecade == 0 || range == first)
-            labels += text(x, Height - Bottom + 19, "start", shortDuration(1e-9 * LatenessHistogram::border(range)));
+        const int behindDecade = range % LatenessHistogram::RangesOfADecade;
+        const bool hasRoom = (LatenessHistogram::RangesOfADecade - behindDecade) * width >= BorderWidth;
+        if (behindDecade == 0 || (range == first && hasRoom))
+            labels += text(x, Height - Bottom + 19, x + BorderWidth > Width ? "end" : "start",
+                           shortDuration(1e-9 * LatenessHistogram::border(range)));
         if (histogram.counts[range] == 0)
             continue;
         const double y = std::max(1.0, (std::log10(double(histogram.counts[range])) + 0.3) / high * highest);

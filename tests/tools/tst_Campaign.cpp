@@ -33,6 +33,8 @@ private Q_SLOTS:
     void everyCaseIsALineOfNumbers();
     void pageEscapesWhatIsFound();
     void countsOfAHistogramAreInsideOfIt();
+    void bordersOfAHistogramHaveRoom_data();
+    void bordersOfAHistogramHaveRoom();
     void computerIsNamedByItsModel();
     void fileSaysWhyItCannotBeWritten_data();
     void fileSaysWhyItCannotBeWritten();
@@ -173,6 +175,39 @@ void tst_Campaign::countsOfAHistogramAreInsideOfIt()
     auto texts = QRegularExpression("<text x=\"[^\"]+\" y=\"([^\"]+)\"[^>]*>1000000</text>").globalMatch(drawing);
     QVERIFY2(texts.hasNext(), qPrintable(drawing));
     QVERIFY2(texts.next().captured(1).toDouble() >= 14.0, qPrintable(drawing));  // the height of the digits
+}
+
+void tst_Campaign::bordersOfAHistogramHaveRoom_data()
+{
+    QTest::addColumn<qint64>("least");
+    QTest::addColumn<qint64>("most");
+    QTest::newRow("one range") << qint64(500'000) << qint64(500'000);
+    QTest::newRow("a first border right before a decade") << qint64(700) << qint64(3'000'000);
+    QTest::newRow("a first border far before a decade") << qint64(200) << qint64(3'000'000);
+    QTest::newRow("a decade that begins at the right edge") << qint64(700) << qint64(10'000'000);
+    QTest::newRow("all ranges") << qint64(100) << qint64(9'000'000'000);
+}
+
+void tst_Campaign::bordersOfAHistogramHaveRoom()
+{
+    QFETCH(qint64, least);
+    QFETCH(qint64, most);
+    qplc::LatenessHistogram histogram;
+    histogram.add(least);
+    histogram.add(most);
+    const QString drawing = QString::fromUtf8(qplc::drawingOf(histogram));
+    auto texts = QRegularExpression("<text x=\"([^\"]+)\"[^>]* text-anchor=\"(\\w+)\">[^<]* [mun]?s</text>")
+                     .globalMatch(drawing);
+    QVERIFY2(texts.hasNext(), qPrintable(drawing));
+    constexpr double width = 62.0;  // of "0.631 us", the longest one
+    double end = 0.0;
+    while (texts.hasNext()) {
+        const QRegularExpressionMatch text = texts.next();
+        const double begin = text.captured(1).toDouble() - (text.captured(2) == "end" ? width : 0.0);
+        QVERIFY2(begin >= end, qPrintable(drawing));
+        end = begin + width;
+    }
+    QVERIFY2(end <= 720.0, qPrintable(drawing));
 }
 
 void tst_Campaign::computerIsNamedByItsModel()
