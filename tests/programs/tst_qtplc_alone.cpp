@@ -272,9 +272,9 @@ void tst_qtplc_alone::campaignRefusesWhatItCannotMeasure_data()
     QTest::addColumn<QString>("error");
     QTest::newRow("no folder") << ""
                                << "use --output FOLDER";
-    QTest::newRow("a folder that cannot be made") << "-o /proc/jitter"
+    QTest::newRow("a folder that cannot be made") << "-o /proc/jitter --loads idle"
                                                   << "cannot make the folder '/proc/jitter'";
-    QTest::newRow("a file") << "-o /dev/null"
+    QTest::newRow("a file") << "-o /dev/null --loads idle"
                             << "cannot make the folder '/dev/null'";
     QTest::newRow("no time") << "-o NEW --for 0"
                              << "for";
@@ -286,13 +286,13 @@ void tst_qtplc_alone::campaignRefusesWhatItCannotMeasure_data()
                              << "--loads names nothing";
     QTest::newRow("an empty load") << "-o NEW --command="
                                    << "--command is empty";
-    QTest::newRow("another policy") << "-o NEW --policies rr"
+    QTest::newRow("another policy") << "-o NEW --policies rr --loads idle"
                                     << "--policies: there is no 'rr'";
-    QTest::newRow("another transport") << "-o NEW --transports can"
+    QTest::newRow("another transport") << "-o NEW --transports can --loads idle"
                                        << "--transports: there is no 'can'";
-    QTest::newRow("a period without a unit") << "-o NEW --periods 10"
+    QTest::newRow("a period without a unit") << "-o NEW --periods 10 --loads idle"
                                              << "'10' is not a period";
-    QTest::newRow("a short period") << "-o NEW --periods 99us"
+    QTest::newRow("a short period") << "-o NEW --periods 99us --loads idle"
                                     << "'99us' is not a period";
     QTest::newRow("no processor") << "-o NEW --cpu 1023 --loads idle"
                                   << "cpu: wanted 1023";
