@@ -278,13 +278,15 @@ def main():
         sudo.chmod(0o755)
         (home / "etc" / "build" / "board" / "usr" / "bin").mkdir(parents=True)
         (home / "etc" / "build" / "board" / "usr" / "bin" / "qtplc").touch()
-        checks = page.checks()
+        checks, expected = page.checks(), page.expected()
         for block in blocks(howto):
             for line in map(without_comment, commands(block["text"])) if block["language"] == "sh" else ():
                 if re.match(r"[A-Z_]+_OPTIONS=", line):
                     checks[line] = page.service_options
                 said = output("bash", "-n", "-c", line)
                 require(said == "", f"'{line}': {said}")
+                # A command that nobody has looked at may do anything to this computer.
+                require({line} & {*checks, *expected, *NOT_TYPED}, f"'{line}' has no row in {Path(__file__).name}")
                 if line in checks:
                     print(f"checked: {line}")
                     checks[line](line)
@@ -292,7 +294,7 @@ def main():
         try:
             terminal.type("cd ~/etc")
             not_typed = {**NOT_TYPED, **{line: "is checked above" for line in checks}}
-            Reader(howto, home / "etc", terminal, page.expected(), not_typed, page.file).follow()
+            Reader(howto, home / "etc", terminal, expected, not_typed, page.file).follow()
         finally:
             terminal.close()
     print("the commands for a board are as far in order as a computer without one can tell")
