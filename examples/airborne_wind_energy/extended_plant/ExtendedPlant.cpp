@@ -16,7 +16,7 @@ constexpr double longestSubstepLength = 75.0;  // of a segment in a step of a wh
 constexpr int machineSubsteps = 5;
 constexpr int driveStepsInCycle = 10;
 constexpr double dockingDistance = 0.3;  // the wing docks up to this far beyond the mast's top [m]
-constexpr double mastClearance = 1.0;    // further out it has left the mast, further in it hit it [m]
+constexpr double mastClearance = 1.0;    // further in it hit the mast [m]
 
 }  // namespace
 
@@ -326,11 +326,10 @@ void ExtendedPlant::noticeMast(bool release)
     const MastParameters &mast = m_options.mast;
     const Eigen::Vector3d wing = pointIn(m_state, m_points);
     const double distance = wing.norm();
-    m_hasLeftMast = m_hasLeftMast || distance > mast.distance + mastClearance;
     if (distance < mast.distance - mastClearance)
         return crash();
     const bool isThere = distance <= mast.distance + dockingDistance && (wing - mast.top()).norm() <= mast.reach;
-    if (release || !m_hasLeftMast || !isThere)
+    if (release || !isThere)
         return;
     ++m_dockings;
     m_dockingSpeed = velocityIn(m_state, m_points).norm();
@@ -340,7 +339,6 @@ void ExtendedPlant::noticeMast(bool release)
 void ExtendedPlant::hangOnMast()
 {
     m_isDocked = true;
-    m_hasLeftMast = false;
     for (int point = 1; point <= m_points; ++point)
         setPoint(point, double(point) / m_points * m_options.mast.top(), Eigen::Vector3d::Zero());
     const PlantState atRest = PlantParameters::stateAtRest(m_options.mast.elevation, m_options.mast.azimuth, 1.0);

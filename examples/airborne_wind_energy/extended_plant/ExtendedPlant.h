@@ -174,7 +174,6 @@ private:
     State m_state;
     bool m_crashed = false;
     bool m_isDocked = false;
-    bool m_hasLeftMast = false;  // far enough to come back
     int m_dockings = 0;
     double m_dockingSpeed = 0.0;  // [m/s]
 };

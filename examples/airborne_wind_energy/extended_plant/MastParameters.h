@@ -10,7 +10,7 @@ namespace awe {
 /// A mast that carries the wing before its flight and after it. Its top stands downwind of the
 /// winch.
 ///
-///     docks    |r - top| <= reach and |r| <= distance + 0.3 m, after the wing was 1 m further out than the top
+///     docks    |r - top| <= reach and |r| <= distance + 0.3 m, while the mast does not let it go
 ///     crashes  |r| < distance - 1 m: the wing hit the mast
 struct MastParameters
 {

@@ -73,7 +73,9 @@ bool MastController::wantsToLand(FlightRequest request) const
 void MastController::chooseNext(const FlightMeasurements &measurements, FlightPhase cyclePhase)
 {
     if (m_stage == Stage::Docked) {
-        if (wantsToFly(measurements.request))
+        if (!measurements.isDocked)
+            enter(Stage::Descend);
+        else if (wantsToFly(measurements.request))
             enter(Stage::Ascend);
         return;
     }
@@ -82,9 +84,10 @@ void MastController::chooseNext(const FlightMeasurements &measurements, FlightPh
             enter(Stage::Docked);
         return;
     }
-    const bool isTurning = m_stage == Stage::Cycle && !isLull()
-        && (cyclePhase == FlightPhase::Retract || cyclePhase == FlightPhase::Recover);
-    if (wantsToLand(measurements.request) && !isTurning)
+    const bool isTurning
+        = m_stage == Stage::Cycle && (cyclePhase == FlightPhase::Retract || cyclePhase == FlightPhase::Recover);
+    const bool isLeaving = m_stage == Stage::Ascend && m_stageTime < m_mast.startTime;
+    if (wantsToLand(measurements.request) && (isLull() || (!isTurning && !isLeaving)))
         enter(Stage::Descend);
     else if (m_stage == Stage::Ascend && measurements.tetherLength >= m_mast.parkTether)
         enter(Stage::Park);
@@ -97,12 +100,17 @@ MastController::Flow MastController::flowAt(const FlightMeasurements &measuremen
     const Eigen::Vector3d relativeWind = measurements.windVelocity - measurements.velocity;
     const Sphere sphere(measurements.position);
     return {relativeWind.dot(sphere.outwards()), relativeWind.dot(sphere.zenithwards()),
-            relativeWind.dot(sphere.azimuthwards()), relativeWind.norm()};
+            relativeWind.dot(sphere.azimuthwards()), relativeWind.norm(), measurements.velocity.dot(sphere.outwards())};
 }
 
 double MastController::dynamicForce(const Flow &flow) const
 {
     return 0.5 * m_mast.density * m_mast.area * flow.speed * flow.speed;
+}
+
+Aerodynamics::Coefficients MastController::coefficientsAt(double angleOfAttack) const
+{
+    return m_aerodynamics.coefficients(std::clamp(angleOfAttack, lowestKnownAngle, highestKnownAngle));
 }
 
 double MastController::yawReference(const Flow &flow, const FlightGeometry &geometry, double angleOfAttack) const
@@ -113,8 +121,7 @@ double MastController::yawReference(const Flow &flow, const FlightGeometry &geom
     const double sideways = geometry.distance * geometry.cosElevation * sine;
     const double speed = -saturate(m_mast.positionGain * sideways, m_mast.fastestDrift);
     const double force = m_mast.mass * m_mast.speedGain * (speed - geometry.azimuthSpeed);
-    const Aerodynamics::Coefficients coefficients
-        = m_aerodynamics.coefficients(std::clamp(angleOfAttack, lowestKnownAngle, highestKnownAngle));
+    const Aerodynamics::Coefficients coefficients = coefficientsAt(angleOfAttack);
     const double pressure = dynamicForce(flow);
     const double drag = pressure * coefficients.drag * flow.azimuthwards / std::max(flow.speed, leastFlow);
     const double along = std::max(leastFlow, std::hypot(flow.outwards, flow.zenithwards));
@@ -123,16 +130,8 @@ double MastController::yawReference(const Flow &flow, const FlightGeometry &geom
     return std::asin(saturate((drag - force) / lift, largest)) * degreesPerRadian;
 }
 
-double MastController::angleOfAttackReference(const Flow &flow, const FlightGeometry &geometry) const
+double MastController::angleOfAttackFor(double force, double lift, double drag) const
 {
-    const double missing = m_mast.elevation * radiansPerDegree - geometry.elevation;
-    const double speed = saturate(m_mast.positionGain * geometry.distance * missing, m_mast.fastestDrift);
-    const double force
-        = m_mast.mass * (m_mast.speedGain * (speed - geometry.zenithSpeed) + m_mast.gravity * geometry.cosElevation);
-    const double pressure = dynamicForce(flow);
-    const double lift = pressure * flow.outwards * std::cos(geometry.heading * radiansPerDegree)
-        / std::max(leastFlow, std::hypot(flow.outwards, flow.zenithwards));
-    const double drag = pressure * flow.zenithwards / std::max(flow.speed, leastFlow);
     double low = m_mast.lowestAngleOfAttack, high = m_mast.highestAngleOfAttack;
     for (int i = 0; i < bisections; ++i) {
         const double middle = 0.5 * (low + high);
@@ -140,6 +139,41 @@ double MastController::angleOfAttackReference(const Flow &flow, const FlightGeom
         (lift * coefficients.lift + drag * coefficients.drag < force ? low : high) = middle;
     }
     return 0.5 * (low + high);
+}
+
+double MastController::zenithForce(const FlightGeometry &geometry) const
+{
+    const double missing = m_mast.elevation * radiansPerDegree - geometry.elevation;
+    const double speed = saturate(m_mast.positionGain * geometry.distance * missing, m_mast.fastestDrift);
+    return m_mast.mass * (m_mast.speedGain * (speed - geometry.zenithSpeed) + m_mast.gravity * geometry.cosElevation);
+}
+
+double MastController::outwardForce(const FlightGeometry &geometry) const
+{
+    return m_mast.leastTension + m_mast.mass * m_mast.gravity * std::sin(geometry.elevation);
+}
+
+double MastController::angleOfAttackReference(const Flow &flow, const FlightGeometry &geometry,
+                                              double tetherSpeed) const
+{
+    const double pressure = dynamicForce(flow);
+    const double speed = std::max(flow.speed, leastFlow);
+    const double lift = pressure * std::cos(geometry.heading * radiansPerDegree)
+        / std::max(leastFlow, std::hypot(flow.outwards, flow.zenithwards));
+    const double angle
+        = angleOfAttackFor(zenithForce(geometry), lift * flow.outwards, pressure * flow.zenithwards / speed);
+    if (isLull() || flow.zenithwards >= 0.0)  // lift would pull over the mast, or towards the winch
+        return angle;
+    const double force = outwardForce(geometry) + m_mast.mass * m_mast.speedGain * (tetherSpeed - flow.outwardSpeed);
+    return std::max(angle, angleOfAttackFor(force, -lift * flow.zenithwards, pressure * flow.outwards / speed));
+}
+
+double MastController::fastestFollow(const Flow &flow, const FlightGeometry &geometry, double angleOfAttack) const
+{
+    const double drag = dynamicForce(flow) * coefficientsAt(angleOfAttack).drag / std::max(flow.speed, leastFlow);
+    const double zenithLift = zenithForce(geometry) - drag * flow.zenithwards;
+    const double outwardLift = std::max(leastLift, outwardForce(geometry) - drag * flow.outwards);
+    return flow.outwardSpeed + flow.outwards + std::min(0.0, flow.zenithwards) * zenithLift / outwardLift;
 }
 
 double MastController::tetherSpeed(const Flow &flow, const FlightGeometry &geometry, double tetherLength) const
@@ -180,11 +214,13 @@ MastController::References MastController::step(const FlightMeasurements &measur
                                                 : FlightPhase::Descend;
     const Flow flow = flowAt(measurements);
     references.yaw = yawReference(flow, geometry, measurements.angleOfAttack);
-    const double turn = angleOfAttackReference(flow, geometry) - measurements.angleOfAttack;
+    const double turn = angleOfAttackReference(flow, geometry, tetherSpeed) - measurements.angleOfAttack;
     references.pitch.angle = std::clamp(measurements.pitchAngle + turn, m_gains.lowestPitch, m_mast.highestPitch);
+    double speed = this->tetherSpeed(flow, geometry, measurements.tetherLength);
+    if (m_stage == Stage::Descend && !isLull())
+        speed = std::max(speed, std::min(0.0, fastestFollow(flow, geometry, measurements.angleOfAttack)));
     const double most = m_gains.winchAcceleration * m_gains.step;
-    references.tetherSpeed = std::clamp(this->tetherSpeed(flow, geometry, measurements.tetherLength),
-                                        tetherSpeed - most, tetherSpeed + most);
+    references.tetherSpeed = std::clamp(speed, tetherSpeed - most, tetherSpeed + most);
     references.release = m_stage == Stage::Ascend && geometry.distance < m_mast.distance + releaseMargin;
     return references;
 }

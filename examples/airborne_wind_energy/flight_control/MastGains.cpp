@@ -18,6 +18,7 @@ void MastGains::check(RangeCheck &check) const
     check.within("mast.lullFilterTime", lullFilterTime, 1e-6, 1e6, "s");
     check.within("mast.leastDockedTime", leastDockedTime, 0.0, 1e6, "s");
     check.within("mast.leastFlightTime", leastFlightTime, 0.0, 1e6, "s");
+    check.within("mast.startTime", startTime, 0.0, 1e6, "s");
     check.within("mast.mass", mass, 1e-3, 1e6, "kg");
     check.within("mast.area", area, 1e-3, 1e6, "m²");
     check.within("mast.density", density, 1e-3, 100.0, "kg/m³");
@@ -31,6 +32,7 @@ void MastGains::check(RangeCheck &check) const
     check.within("mast.crosswindRange", crosswindRange, 0.1, 100.0, "m/s");
     check.within("mast.highestAngleOfAttack", highestAngleOfAttack, lowestAngleOfAttack, 25.0, "deg");
     check.within("mast.highestPitch", highestPitch, -90.0, 90.0, "deg");
+    check.within("mast.leastTension", leastTension, 0.0, 1e6, "N");
     check.within("mast.parkTether", parkTether, distance, 1e5, "m");
     check.within("mast.parkTime", parkTime, 0.0, 1e6, "s");
     check.within("mast.ascentForce", ascentForce, 0.0, 1e6, "N");

@@ -24,6 +24,7 @@ struct MastGains
     double lullFilterTime = 5.0;    // of the short mean [s]
     double leastDockedTime = 60.0;  // before a start without a request [s]
     double leastFlightTime = 60.0;  // before a landing because of the mean wind [s]
+    double startTime = 3.0;         // before any landing: then the wing has left the mast [s]
 
     // The wing, as the controller knows it
     double mass = PlantParameters().mass;           // [kg]
@@ -39,6 +40,7 @@ struct MastGains
     double lowestAngleOfAttack = -5.0;   // nearly no lift: the wing has to lose speed [deg]
     double highestAngleOfAttack = 18.0;  // [deg]
     double highestPitch = 40.0;          // beta_c [deg]
+    double leastTension = 20.0;          // more lift than the place needs keeps the tether this taut [N]
 
     // Winch
     double parkTether = 100.0;       // end of the ascent [m]
