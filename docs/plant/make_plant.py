@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Flies the options of the plant and shows what they cost, for docs/plant.md.
 
-    docs/plant/make_plant.py --fly --bin build/release/bin   flies all of it: flights.json
-    docs/plant/make_plant.py --write                         table and pictures from flights.json
+    docs/plant/make_plant.py --fly --bin build/release/bin   flies the options: flights.json
+    docs/plant/make_plant.py --fly-mast                      flies from and to a mast: mast.json
+    docs/plant/make_plant.py --write                         tables and pictures from both
     docs/plant/make_plant.py --check                         whether they are up to date
 
 The flights run in lockstep, so their figures are the same on every machine.
@@ -24,7 +25,14 @@ import plots
 HERE = Path(__file__).resolve().parent
 PAGE = HERE.parent / "plant.md"
 FLIGHTS = HERE / "flights.json"
+MAST = HERE / "mast.json"
 BEGIN, END = "<!-- flights: made by docs/plant/make_plant.py -->", "<!-- end of the flights -->"
+MAST_BEGIN, MAST_END = "<!-- mast: made by docs/plant/make_plant.py -->", "<!-- end of the mast -->"
+MAST_PLANTS = {
+    "spring": "spring tether, yaw speed as command",
+    "turn-rate": "the same with turn-rate steering",
+    "realistic": "realistic",
+}
 DURATION = 1860  # [s]: a minute that does not count, and half an hour
 THESIS_WIND = (5.0, 3.0, 0.0)  # [m/s]
 SEEDS = range(10, 18)
@@ -72,6 +80,7 @@ class Hangar:
             sys.exit(f"make_plant.py: {error}; remedy: cmake --build --preset release, or --bin FOLDER")
         if done.returncode != 0:
             sys.exit(f"make_plant.py: {program} {' '.join(arguments)} gives {done.returncode}: {done.stderr}")
+        return done.stdout
 
     def fly(self, plant, *arguments, duration=DURATION):
         with tempfile.TemporaryDirectory() as folder:
@@ -136,6 +145,10 @@ def fly_all(programs):
         "turbines": hangar.curves("drag", "turbinePower,turbineCoefficient,tetherLength", 60, 100, 20),
     }
     FLIGHTS.write_text(shown_json(flights))
+
+
+def fly_mast(programs):
+    MAST.write_text(Hangar(programs).run("awe_mast_flights"))
 
 
 def shown_json(flights):
@@ -282,7 +295,85 @@ def draw_turbines(flights):
     )
 
 
+def dockings(mast, plant, is_turbulent):
+    """Of the flights that docked: wind, seed and speed."""
+    return [
+        flight
+        for flight in mast["flights"]
+        if flight["plant"] == plant and (flight["turbulence"] > 0) == is_turbulent and flight["docked"]
+    ]
+
+
+def fastest(flights):
+    """Points (wind, fastest docking)."""
+    winds = sorted({flight["wind"] for flight in flights})
+    return [(wind, max(each["dockingSpeed"] for each in flights if each["wind"] == wind)) for wind in winds]
+
+
+def draw_dockings(mast):
+    lines = [
+        (f"{name}{', turbulent' if is_turbulent else ', calm'}", fastest(dockings(mast, plant, is_turbulent)), dash)
+        for plant, name in (("spring", "spring tether"), ("realistic", "realistic"))
+        for is_turbulent, dash in ((False, ""), (True, "6 3"))
+    ]
+    high = highest(*(points for _, points, _ in lines))
+    return plots.curves(
+        "Fastest docking over the wind", ("wind [m/s]", 6, 12), ("speed [m/s]", 0, high), lines, marks=True
+    )
+
+
+def draw_day(mast):
+    minutes = [(time / 60, wind, length) for time, wind, length in mast["day"]]
+    return plots.curves(
+        "A calm day at the mast",
+        ("time [min]", 0, 40),
+        ("wind [m/s], tether [10 m]", 0, 21),
+        [
+            ("wind", [(time, wind) for time, wind, _ in minutes], ""),
+            ("tether length / 10", [(time, 0.1 * length) for time, _, length in minutes], ""),
+        ],
+    )
+
+
 # ---- table ----
+
+
+def of_all(flights, all_flights):
+    return f"{len(flights)} of {len(all_flights)}"
+
+
+def mast_row(mast, plant, is_turbulent):
+    flown = [
+        flight for flight in mast["flights"] if flight["plant"] == plant and (flight["turbulence"] > 0) == is_turbulent
+    ]
+    docked = dockings(mast, plant, is_turbulent)
+    winds = ", ".join(f"{wind:g}" for wind in sorted({flight["wind"] for flight in flown}))
+    speeds = ", ".join(f"{speed:.2f}" for _, speed in fastest(docked))
+    air = "turbulent" if is_turbulent else "calm"
+    return f"| {MAST_PLANTS[plant]} | {air} | {winds} | {of_all(docked, flown)} | {speeds} |"
+
+
+def mast_table(mast):
+    turbulent = [day for day in mast["days"] if day["turbulence"] > 0]
+    calm = next(day for day in mast["days"] if day["turbulence"] == 0)
+    speeds = [day["dockingSpeed"] for day in turbulent if day["docked"]]
+    cycles = [day["cycles"] for day in turbulent]
+    return "\n".join(
+        [
+            MAST_BEGIN,
+            "",
+            "| plant | air | wind [m/s] | docked | fastest docking at these winds [m/s] |",
+            "|---|---|---|---|---|",
+            *(mast_row(mast, plant, is_turbulent) for plant in MAST_PLANTS for is_turbulent in (False, True)),
+            "",
+            f"A calm day: {calm['cycles']} pumping cycles, {calm['energy'] / 3.6e6:.2f} kWh, docking at "
+            f"{calm['dockingSpeed']:.2f} m/s. Turbulent days:",
+            f"{of_all(speeds, turbulent)} end on the mast, after {min(cycles)} to {max(cycles)} cycles, with dockings "
+            f"at {min(speeds):.2f} to {max(speeds):.2f} m/s.",
+            "",
+            MAST_END,
+        ]
+    )
 
 
 def table(flights):
@@ -329,10 +420,16 @@ def table(flights):
 # ---- files ----
 
 
+def replaced(page, begin, end, text):
+    return page[: page.index(begin)] + text + page[page.index(end) + len(end) :]
+
+
 def made():
     """What each file should hold."""
-    flights = json.loads(FLIGHTS.read_text())
+    flights, mast = json.loads(FLIGHTS.read_text()), json.loads(MAST.read_text())
     files = {
+        "dockings.svg": draw_dockings(mast),
+        "day.svg": draw_day(mast),
         "profile.svg": draw_profile(),
         "cycle.svg": draw_cycle(flights),
         "steering.svg": draw_steering(flights),
@@ -342,28 +439,33 @@ def made():
         "options.svg": draw_options(flights),
         "turbines.svg": draw_turbines(flights),
     }
-    page = PAGE.read_text()
-    before, behind = page.index(BEGIN), page.index(END) + len(END)
-    return {**{HERE / name: text for name, text in files.items()}, PAGE: page[:before] + table(flights) + page[behind:]}
+    page = replaced(PAGE.read_text(), BEGIN, END, table(flights))
+    page = replaced(page, MAST_BEGIN, MAST_END, mast_table(mast))
+    return {**{HERE / name: text for name, text in files.items()}, PAGE: page}
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--fly", action="store_true")
+    parser.add_argument("--fly-mast", action="store_true")
     parser.add_argument("--write", action="store_true")
     parser.add_argument("--check", action="store_true")
     parser.add_argument("--bin", type=Path, default=HERE.parent.parent / "build/release/bin")
     arguments = parser.parse_args()
     if arguments.fly:
         fly_all(arguments.bin)
+    if arguments.fly_mast:
+        fly_mast(arguments.bin)
     if arguments.write:
         for file, text in made().items():
             file.write_text(text)
     if arguments.check:
         stale = [file.name for file, text in made().items() if not file.exists() or file.read_text() != text]
         if stale:
-            sys.exit(f"{', '.join(stale)}: not as flights.json says; remedy: docs/plant/make_plant.py --write")
-    if not (arguments.fly or arguments.write or arguments.check):
+            sys.exit(
+                f"{', '.join(stale)}: not as flights.json and mast.json say; remedy: docs/plant/make_plant.py --write"
+            )
+    if not (arguments.fly or arguments.fly_mast or arguments.write or arguments.check):
         parser.print_help()
 
 

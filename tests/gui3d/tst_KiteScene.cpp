@@ -20,6 +20,7 @@ private Q_SLOTS:
     void aPathBecomesItsJoinedLines();
     void unknownKiteStateDrawsNothing();
     void tetherRunsThroughItsNodes();
+    void mastStandsOnTheGround();
     void forcesKeepTheirScaleUntilALargerOneComes();
     void theModelOfTheKiteIsReadWhole();
 };
@@ -69,6 +70,18 @@ void tst_KiteScene::tetherRunsThroughItsNodes()
     kite.tetherNodes = {QVector3D(20, 0, 15), QVector3D(40, 0, 35)};
     drawTether(&scene, kite, {});
     QCOMPARE(scene.content().lines.lines() - madeUp, 3);
+}
+
+void tst_KiteScene::mastStandsOnTheGround()
+{
+    QPlcScene3D scene;
+    KiteState kite;
+    drawMast(&scene, kite);
+    QCOMPARE(scene.content().lines.lines(), 0);
+    kite.mastTop = QVector3D(4, 0, 11);
+    drawMast(&scene, kite);
+    QCOMPARE(scene.content().lines.lines(), 1);
+    QCOMPARE(scene.content().labels.back().text, QStringLiteral("mast"));
 }
 
 void tst_KiteScene::forcesKeepTheirScaleUntilALargerOneComes()

@@ -18,14 +18,21 @@ AutopilotNode::AutopilotNode(const AutopilotGains &gains, int extraDeadTime)
         m_steering.emplace(this, steeringCommandSignal);
     if (gains.constantTether > 0.0)
         m_turbineCoefficient.emplace(this, turbineCoefficientSignal);
+    if (gains.mast.isPresent) {
+        m_docked.emplace(this, mastDockedSignal);
+        m_request.emplace(this, flightRequestSignal);
+        m_release.emplace(this, mastReleaseSignal);
+    }
 }
 
 void AutopilotNode::reset()
 {
     m_autopilot.reset();
-    std::fill(m_delayed.begin(), m_delayed.end(), AutopilotOutputs());
+    AutopilotOutputs atRest;
+    atRest.phase = m_autopilot.phase();
+    std::fill(m_delayed.begin(), m_delayed.end(), atRest);
     m_oldest = 0;
-    send(AutopilotOutputs());
+    send(atRest);
 }
 
 void AutopilotNode::step(const QPlcCycle &)
@@ -50,6 +57,11 @@ FlightMeasurements AutopilotNode::measurements() const
     measured.tetherForce = m_tetherForce.value().norm();
     measured.airspeed = (m_windVelocity.value() - m_velocity.value()).norm();
     measured.windDirection = std::atan2(m_windVelocity.value().y(), m_windVelocity.value().x()) * degreesPerRadian;
+    measured.windVelocity = m_windVelocity;
+    if (m_docked)
+        measured.isDocked = *m_docked;
+    if (m_request)
+        measured.request = *m_request;
     return measured;
 }
 
@@ -63,6 +75,8 @@ void AutopilotNode::send(const AutopilotOutputs &commands)
         *m_steering = commands.steering;
     if (m_turbineCoefficient)
         *m_turbineCoefficient = commands.turbineCoefficient;
+    if (m_release)
+        *m_release = commands.release;
 }
 
 }  // namespace awe

@@ -16,7 +16,8 @@ class AutopilotNode : public QPlcCompactSlaveNode
     Q_OBJECT
 public:
     /// \param gains  with a turn-rate factor the node writes the steering, with a constant tether
-    ///         the coefficient of the turbines
+    ///         the coefficient of the turbines, with a mast it releases the wing and reads what an
+    ///         operator wants (FlightRequest)
     /// \param extraDeadTime cycles by which the commands are delayed on top of those that the links
     ///         cost
     explicit AutopilotNode(const AutopilotGains &gains, int extraDeadTime = 0);
@@ -35,7 +36,7 @@ private:
 
     QPlcInput<Vector> m_position{this, "bodyPosition_earth"};                // [m]
     QPlcInput<Vector> m_velocity{this, "bodyVelocity_earth"};                // [m/s]
-    QPlcInput<Vector> m_windVelocity{this, "windVelocity_earth"};            // [m/s], only its direction is used
+    QPlcInput<Vector> m_windVelocity{this, "windVelocity_earth"};            // [m/s]
     QPlcInput<Vector> m_controlOrientation{this, "bodyControlOrientation"};  // [deg]
     QPlcInput<double> m_angleOfAttack{this, "angleOfAttack"};                // [deg]
     QPlcInput<Vector> m_tetherForce{this, "tetherForce_earth"};              // [N]
@@ -47,6 +48,10 @@ private:
     QPlcOutput<qint8> m_phase{this, "flightPhase"};
     std::optional<QPlcOutput<double>> m_steering;            // [-], of a wing that the air turns
     std::optional<QPlcOutput<double>> m_turbineCoefficient;  // [-], of turbines on board
+    // Of a mast:
+    std::optional<QPlcInput<bool>> m_docked;
+    std::optional<QPlcInput<FlightRequest>> m_request;
+    std::optional<QPlcOutput<bool>> m_release;
 };
 
 }  // namespace awe

@@ -109,8 +109,9 @@ std::string readPlant(const Options &options, ClosedLoopParameters *parameters)
     QString error;
     if (!PlantConfiguration::read(QString::fromStdString(options.plant), &plant, &error))
         return error.toStdString();
-    if (plant.hasDrive() || plant.options.hasTurbines)
-        return "--plant " + options.plant + ": the search flies pumping cycles without hardware; use another plant";
+    if (plant.hasDrive() || plant.options.hasTurbines || plant.options.mast.isPresent)
+        return "--plant " + options.plant
+            + ": the search flies pumping cycles, without hardware and without a mast; use another plant";
     parameters->plant = plant.kite.plantIn(plant.kite.wind);
     parameters->plant.groundContact = GroundContact::Hold;
     parameters->wind = plant.kite.wind;

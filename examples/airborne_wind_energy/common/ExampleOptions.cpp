@@ -87,13 +87,7 @@ bool addOptionSignals(QPlcCoreApplication &application, const PlantOptions &opti
 {
     if (options.isThesis())
         return true;
-    QStringList wanted;
-    for (const OptionSignal &signal : modelSignals(options))
-        wanted << QString::fromLatin1(signal.name);
-    if (options.steering.kind == SteeringKind::TurnRate)
-        wanted << QString::fromLatin1(steeringCommandSignal);
-    if (options.hasTurbines)
-        wanted << QString::fromLatin1(turbineCoefficientSignal);
+    const QStringList wanted = optionSignalNames(options);
     QVector<QPlcParseError> errors;
     const QPlcSignalTable all = QPlcSignalTable::fromIniFile(builtInOptionSignals(), &errors);
     QString error = QPlcParseError::toString(errors);
@@ -143,7 +137,6 @@ bool readModelOptions(QPlcCoreApplication &application, const PlantConfiguration
     const QString wind = QStringLiteral("wind"), turbulence = QStringLiteral("turbulence"),
                   seed = QStringLiteral("seed");
     const KiteConfiguration &kite = plant.kite;
-    settings->options = plant.options;
     settings->wind = kite.wind;
     qint64 course = 0;
     if ((application.isSet(wind) && !readWind(application, &settings->wind.meanVelocity))
@@ -153,6 +146,7 @@ bool readModelOptions(QPlcCoreApplication &application, const PlantConfiguration
         return false;
     if (application.isSet(seed))
         settings->wind.seed = std::uint64_t(course);
+    settings->options = plant.optionsIn(settings->wind);
     settings->plant = kite.plantIn(settings->wind);
     settings->substeps = kite.substeps;
     return accept(application, settings->wind.validate()) && accept(application, settings->plant.validate());
@@ -163,7 +157,8 @@ void addPlantOptions(QPlcCoreApplication &application)
     add(application, "plant",
         QStringLiteral(
             "File that says what of the plant is hardware ([winch]), and the data of the model ([kite], [wind], "
-            "[tether], [steering], [turbines]), or the name of a plant: %1. Without one all is a model, that of the "
+            "[tether], [steering], [turbines], [mast]), or the name of a plant: %1. Without one all is a model, that "
+            "of the "
             "thesis.")
             .arg(PlantConfiguration::names().join(QStringLiteral(", "))),
         "PLANT", "");
@@ -225,6 +220,7 @@ static bool readGains(QPlcCoreApplication &application, const PlantConfiguration
         gains->constantTether = plant.turbines.tetherLength;
         gains->turbineCoefficient = plant.turbines.coefficient;
     }
+    gains->mast = plant.gainsOfMast();
     return true;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "FlightObserver.h"
 
+#include "OptionSignals.h"
+
 #include <stdexcept>
 
 namespace awe {
@@ -15,6 +17,11 @@ FlightObserver::FlightObserver(const FlightStatisticsParameters &parameters, con
         m_electricalEnergy.emplace(this, "electricalEnergy");
     if (plant.options.hasTurbines)
         m_turbineEnergy.emplace(this, "turbineEnergy");
+    if (plant.options.mast.isPresent) {
+        m_docked.emplace(this, mastDockedSignal);
+        m_dockings.emplace(this, mastDockingsSignal);
+        m_dockingSpeed.emplace(this, mastDockingSpeedSignal);
+    }
 }
 
 void FlightObserver::requireGoodValues() const
@@ -44,6 +51,11 @@ void FlightObserver::step(const QPlcCycle &)
         sample.electricalEnergy = *m_electricalEnergy;
     if (m_turbineEnergy)
         sample.turbineEnergy = *m_turbineEnergy;
+    if (m_docked) {
+        sample.isDocked = *m_docked;
+        sample.dockings = *m_dockings;
+        sample.dockingSpeed = *m_dockingSpeed;
+    }
     sample.flightPhase = m_phase;
     m_statistics.step(sample);
 }

@@ -47,6 +47,10 @@ private:
     QPlcInput<qint8> m_phase{this, "flightPhase"};
     std::optional<QPlcInput<double>> m_electricalEnergy;  // [J], of a machine at the winch
     std::optional<QPlcInput<double>> m_turbineEnergy;     // [J], of turbines on board
+    // Of a mast:
+    std::optional<QPlcInput<bool>> m_docked;
+    std::optional<QPlcInput<qint32>> m_dockings;
+    std::optional<QPlcInput<double>> m_dockingSpeed;  // [m/s]
 };
 
 }  // namespace awe

@@ -63,6 +63,19 @@ QString powerRows(const QJsonObject &report)
     return text;
 }
 
+/// The flights from and to a mast.
+QString mastRow(const QJsonObject &report)
+{
+    const QString end
+        = report.value(QStringLiteral("landed")).toBool() ? QStringLiteral("; on the mast at the end") : QString();
+    return row("mast",
+               QStringLiteral("starts %1, dockings %2, the fastest at %3 m/s%4")
+                   .arg(number(report, "starts"))
+                   .arg(number(report, "dockings"))
+                   .arg(number(report, "docking_speed_m_s"), 0, 'f', 2)
+                   .arg(end));
+}
+
 QString notWritable(const QSaveFile &file)
 {
     return QStringLiteral("cannot write the report %1: %2; choose another file")
@@ -101,6 +114,8 @@ QString summary(const QJsonObject &report)
     text += row(
         "pumping cycles",
         QStringLiteral("%1, recoveries %2").arg(number(report, "pumping_cycles")).arg(number(report, "recoveries")));
+    if (report.contains(QStringLiteral("landed")))
+        text += mastRow(report);
     text += row("lowest altitude", QStringLiteral("%1 m").arg(number(report, "min_altitude_m"), 0, 'f', 1));
     text += row("greatest force", QStringLiteral("%1 N").arg(number(report, "max_tether_force_N"), 0, 'f', 0));
     text += row("control cycles",

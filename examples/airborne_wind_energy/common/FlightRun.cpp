@@ -367,6 +367,14 @@ void FlightRun::reportLinks(QJsonObject *report) const
         report->insert(QStringLiteral("dead_time_cycles"), sensors + actuators);
 }
 
+void FlightRun::reportMast(const FlightReport &flight, QJsonObject *report)
+{
+    report->insert(QStringLiteral("starts"), flight.starts);
+    report->insert(QStringLiteral("dockings"), flight.dockings);
+    report->insert(QStringLiteral("docking_speed_m_s"), flight.dockingSpeed);
+    report->insert(QStringLiteral("landed"), flight.landed);
+}
+
 QJsonObject FlightRun::makeReport() const
 {
     const FlightReport flight = m_observer.report();
@@ -405,6 +413,8 @@ QJsonObject FlightRun::makeReport() const
         report.insert(QStringLiteral("electrical_power_W"), flight.electricalPower);
     if (m_settings.plant.options.hasTurbines)
         report.insert(QStringLiteral("turbine_power_W"), flight.turbinePower);
+    if (m_settings.plant.options.mast.isPresent)
+        reportMast(flight, &report);
     if (flight.crashed)
         report.insert(QStringLiteral("crashed_after_s"), flight.crashTime);
     if (!m_observer.sawKite())

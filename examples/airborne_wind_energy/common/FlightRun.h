@@ -101,6 +101,7 @@ private:
     void fail(int exitCode, const QString &text);
     QJsonObject makeReport() const;
     void reportLinks(QJsonObject *report) const;
+    static void reportMast(const FlightReport &flight, QJsonObject *report);
 
     QPlcMasterNode &m_master;
     RunSettings m_settings;

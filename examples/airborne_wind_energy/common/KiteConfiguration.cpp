@@ -8,6 +8,11 @@
 
 namespace awe {
 
+double downwindAzimuth(const WindParameters &wind)
+{
+    return std::atan2(wind.meanVelocity.y(), wind.meanVelocity.x()) * degreesPerRadian;
+}
+
 QString KiteConfiguration::set(const QString &key, const QString &value)
 {
     SectionKeys keys(QStringLiteral("kite"));
@@ -42,10 +47,8 @@ bool KiteConfiguration::setMode(const QString &word)
 PlantParameters KiteConfiguration::plantIn(const WindParameters &windNow) const
 {
     PlantParameters parameters = plant;
-    const Eigen::Vector3d &mean = windNow.meanVelocity;
-    const double downwind = std::atan2(mean.y(), mean.x()) * degreesPerRadian;
     parameters.initialState
-        = PlantParameters::stateAtRest(elevation, std::isnan(azimuth) ? downwind : azimuth, distance);
+        = PlantParameters::stateAtRest(elevation, std::isnan(azimuth) ? downwindAzimuth(windNow) : azimuth, distance);
     parameters.initialState.velocity = velocity;
     parameters.initialState.pitchAngle = pitchAngle;
     parameters.initialState.yawAngle = yawAngle;

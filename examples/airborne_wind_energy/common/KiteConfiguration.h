@@ -18,6 +18,9 @@ enum class FlightMode {
     Drag      ///< turbines on board generate, and the tether keeps its length
 };
 
+/// Where the mean wind blows to, from x towards y [deg].
+double downwindAzimuth(const WindParameters &wind);
+
 /// The kite that the model computes, its tether, its wind and its start: section [kite] of the file
 /// of --plant. The values here hold without a file.
 struct KiteConfiguration

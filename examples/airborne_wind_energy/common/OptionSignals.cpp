@@ -9,9 +9,14 @@ namespace {
 
 using Signals = std::vector<OptionSignal>;
 
-void add(Signals *all, const char *name, double PlantDetails::*number)
+using Number = OptionSignal::Reader<double>;
+using Vector = OptionSignal::Reader<Eigen::Vector3d>;
+
+template<typename T>
+void add(Signals *all, const char *name, T PlantDetails::*value)
 {
-    all->push_back({name, [number](const KiteDetails &kite) { return kite.plant.*number; }, {}});
+    const OptionSignal::Reader<T> read = [value](const KiteDetails &kite) { return kite.plant.*value; };
+    all->push_back({name, read});
 }
 
 /// Electrical / mechanical power while the winch generates, the inverse while it works.
@@ -27,7 +32,7 @@ double winchEfficiency(const KiteDetails &kite)
 void addAir(const AirParameters &air, Signals *all)
 {
     if (air.profile != WindProfile::Uniform)
-        all->push_back({"windVelocity6m_earth", {}, [](const KiteDetails &kite) { return kite.plant.windAt6m; }});
+        add(all, "windVelocity6m_earth", &PlantDetails::windAt6m);
     if (air.isThinner)
         add(all, "airDensity", &PlantDetails::airDensity);
 }
@@ -36,13 +41,12 @@ void addTether(const TetherParameters &tether, Signals *all)
 {
     if (tether.kind == TetherKind::Spring)
         return;
-    all->push_back({"winchTension", [](const KiteDetails &kite) { return kite.outputs.groundTension; }, {}});
-    all->push_back({"wingTension", [](const KiteDetails &kite) { return kite.outputs.tetherForce.norm(); }, {}});
+    all->push_back({"winchTension", Number([](const KiteDetails &kite) { return kite.outputs.groundTension; })});
+    all->push_back({"wingTension", Number([](const KiteDetails &kite) { return kite.outputs.tetherForce.norm(); })});
     const int nodes = tether.kind == TetherKind::Segments ? tether.segments - 1 : 0;
     for (int node = 0; node < nodes; ++node) {
-        all->push_back({"tetherNode" + QByteArray::number(node + 1) + "_earth", {}, [node](const KiteDetails &kite) {
-                            return kite.nodes[std::size_t(node)];
-                        }});
+        all->push_back({"tetherNode" + QByteArray::number(node + 1) + "_earth",
+                        Vector([node](const KiteDetails &kite) { return kite.nodes[std::size_t(node)]; })});
     }
 }
 
@@ -53,8 +57,9 @@ void addMachine(Signals *all)
     add(all, "machineCurrent", &PlantDetails::machineCurrent);
     add(all, "machinePosition", &PlantDetails::machinePosition);
     add(all, "electricalPower", &PlantDetails::electricalPower);
-    all->push_back({"electricalEnergy", [](const KiteDetails &kite) { return kite.plant.energies.electrical; }, {}});
-    all->push_back({"winchEfficiency", winchEfficiency, {}});
+    all->push_back(
+        {"electricalEnergy", Number([](const KiteDetails &kite) { return kite.plant.energies.electrical; })});
+    all->push_back({"winchEfficiency", Number(winchEfficiency)});
 }
 
 }  // namespace
@@ -72,7 +77,30 @@ std::vector<OptionSignal> modelSignals(const PlantOptions &options)
         add(&all, "turbinePower", &PlantDetails::turbinePower);
         add(&all, "turbineEnergy", &PlantDetails::turbineEnergy);
     }
+    if (options.mast.isPresent) {
+        all.push_back({"mastTop_earth", Vector([top = options.mast.top()](const KiteDetails &) { return top; })});
+        add(&all, mastDockedSignal, &PlantDetails::isDocked);
+        add(&all, mastDockingsSignal, &PlantDetails::dockings);
+        add(&all, mastDockingSpeedSignal, &PlantDetails::dockingSpeed);
+    }
     return all;
+}
+
+QStringList optionSignalNames(const PlantOptions &options)
+{
+    QStringList names;
+    for (const OptionSignal &signal : modelSignals(options))
+        names << QString::fromLatin1(signal.name);
+    const auto add = [&names](const char *name) { names << QString::fromLatin1(name); };
+    if (options.steering.kind == SteeringKind::TurnRate)
+        add(steeringCommandSignal);
+    if (options.hasTurbines)
+        add(turbineCoefficientSignal);
+    if (options.mast.isPresent) {
+        add(mastReleaseSignal);
+        add(flightRequestSignal);
+    }
+    return names;
 }
 
 }  // namespace awe

@@ -8,6 +8,7 @@
 #include <QtCore/QFileInfo>
 #include <QtCore/QHash>
 
+#include <cmath>
 #include <functional>
 #include <vector>
 
@@ -23,7 +24,10 @@ namespace awe {
 namespace {
 
 const QString winchSection = QStringLiteral("winch");
+const QString kiteSection = QStringLiteral("kite");
 const QString turbineSection = QStringLiteral("turbines");
+const QString mastSection = QStringLiteral("mast");
+const QString kindKey = QStringLiteral("kind");
 const QString namedPlants = QStringLiteral(":/plants");
 constexpr int largestFile = 1 << 20;  // [byte]
 constexpr int longestLine = 1000;     // [characters] without its comment
@@ -52,17 +56,16 @@ QString withoutComment(const QByteArray &line)
 /// \return empty, or what is wrong and the remedy
 QString setWinch(PlantConfiguration *configuration, const QString &folder, const QString &key, const QString &value)
 {
-    if (key == QLatin1String("kind"))
-        return winchKindFromText(value, &configuration->winch)
-            ? QString()
-            : QStringLiteral("kind = %1: use ideal, machine or drive").arg(value);
-    if (key == QLatin1String("hardware"))
-        configuration->winchHardware = value.isEmpty() ? QString() : QDir(folder).filePath(value);
-    else if (key == QLatin1String("simulated"))
-        configuration->simulatedWinch = value;
-    else
-        return QStringLiteral("'%1' is not a key of [winch]; use one of kind, hardware, simulated").arg(key);
-    return {};
+    SectionKeys keys(winchSection);
+    keys.addChoice<WinchKind>(
+        "kind", &configuration->winch,
+        {{"ideal", WinchKind::Ideal}, {"machine", WinchKind::Machine}, {"drive", WinchKind::Drive}});
+    keys.addText("hardware", [=](const QString &name) {
+        configuration->winchHardware = name.isEmpty() ? QString() : QDir(folder).filePath(name);
+    });
+    keys.addText("simulated", [=](const QString &bus) { configuration->simulatedWinch = bus; });
+    keys.addConstants(&configuration->options.machine);
+    return keys.set(key, value);
 }
 
 QString setWind(AirParameters *air, const QString &key, const QString &value)
@@ -104,6 +107,19 @@ QString setTurbines(TurbineSettings *turbines, const QString &key, const QString
     return keys.set(key, value);
 }
 
+QString setMast(PlantConfiguration *configuration, const QString &key, const QString &value)
+{
+    SectionKeys keys(mastSection);
+    keys.addChoice<bool>("kind", &configuration->options.mast.isPresent, {{"none", false}, {"fixed", true}});
+    keys.addConstants(&configuration->options.mast);
+    MastGains *gains = &configuration->mastGains;
+    for (const auto &[name, wind] :
+         {std::pair("startWind", &gains->startWind), std::pair("landWind", &gains->landWind),
+          std::pair("stormStartWind", &gains->stormStartWind), std::pair("stormLandWind", &gains->stormLandWind)})
+        keys.addNumber(name, wind, 0.0, 100.0, "m/s");
+    return keys.set(key, value);
+}
+
 /// Reads a file line by line into a configuration.
 class PlantReader
 {
@@ -113,7 +129,7 @@ public:
         , m_sections{
               {winchSection,
                [=](const QString &key, const QString &value) { return setWinch(configuration, folder, key, value); }},
-              {QStringLiteral("kite"),
+              {kiteSection,
                [=](const QString &key, const QString &value) { return configuration->kite.set(key, value); }},
               {QStringLiteral("wind"),
                [=](const QString &key, const QString &value) {
@@ -127,9 +143,12 @@ public:
                [=](const QString &key, const QString &value) {
                    return setSteering(&configuration->options.steering, key, value);
                }},
-              {turbineSection, [=](const QString &key, const QString &value) {
+              {turbineSection,
+               [=](const QString &key, const QString &value) {
                    return setTurbines(&configuration->turbines, key, value);
-               }}}
+               }},
+              {mastSection,
+               [=](const QString &key, const QString &value) { return setMast(configuration, key, value); }}}
     {
     }
 
@@ -145,20 +164,23 @@ public:
             return QStringLiteral("'%1' is outside of a section; write one of %2 above it").arg(key, shownSections());
         if (!line.contains(QLatin1Char('=')))
             return QStringLiteral("'%1' has no value; write %1 = VALUE").arg(key);
-        const QString name = m_section->name + QLatin1Char('/') + key;
-        if (m_lines.contains(name))
+        QHash<QString, int> &lines = m_lines[m_section->name];
+        if (lines.contains(key))
             return QStringLiteral("'%1' is there twice; give it once").arg(key);
-        m_lines.insert(name, number);
-        if (m_section->name == turbineSection)
-            m_turbineKey = key;
+        lines.insert(key, number);
         const QString value = line.section(QLatin1Char('='), 1).trimmed();
         return m_section->set(key, value);
     }
 
-    /// The line of a key, "winch/kind"; 0 if the file does not have it.
-    int lineOf(const QString &name) const { return m_lines.value(name); }
-    /// The last key of [turbines]; empty if the file has none.
-    QString turbineKey() const { return m_turbineKey; }
+    /// The line of a key; 0 if the file does not have it.
+    int lineOf(const QString &section, const QString &key) const { return m_lines.value(section).value(key); }
+    /// The keys of a section that the file has, in alphabetical order.
+    QStringList keysOf(const QString &section) const
+    {
+        QStringList keys = m_lines.value(section).keys();
+        keys.sort();
+        return keys;
+    }
 
 private:
     struct Section
@@ -195,14 +217,14 @@ private:
         m_configuration->winch = WinchKind::Ideal;
         m_configuration->winchHardware.clear();
         m_configuration->simulatedWinch.clear();
+        m_configuration->options.machine = WinchDriveParameters();
     }
 
     PlantConfiguration *m_configuration;
     const std::vector<Section> m_sections;
     const Section *m_section = nullptr;  // that of the lines that come
     bool m_hasWinch = false;
-    QHash<QString, int> m_lines;  // of each key
-    QString m_turbineKey;
+    QHash<QString, QHash<QString, int>> m_lines;  // of each key of each section
 };
 
 /// Reads the text of a file. \return empty, or what is wrong and the remedy
@@ -229,25 +251,71 @@ QString takeWords(const PlantWords &words, PlantConfiguration *configuration)
     return {};
 }
 
+/// Keys of a section that say nothing here. \return empty, or the first of \a keys with its place,
+/// \a reason and remedy
+QString needless(const PlantReader &reader, const QString &fileName, const QString &section, const QStringList &keys,
+                 const QString &reason)
+{
+    if (keys.isEmpty())
+        return {};
+    return QStringLiteral("%1:%2: '%3' has no meaning %4")
+        .arg(fileName)
+        .arg(reader.lineOf(section, keys.first()))
+        .arg(keys.first(), reason);
+}
+
+/// The keys of [kite] that say how the flight starts.
+QStringList startKeysOf(const PlantReader &reader)
+{
+    static const QStringList all{QStringLiteral("azimuth"),      QStringLiteral("distance"),
+                                 QStringLiteral("elevation"),    QStringLiteral("pitchAngle"),
+                                 QStringLiteral("tetherLength"), QStringLiteral("velocity"),
+                                 QStringLiteral("yawAngle")};
+    QStringList given;
+    for (const QString &key : reader.keysOf(kiteSection)) {
+        if (all.contains(key))
+            given << key;
+    }
+    return given;
+}
+
 /// What the file and the command line say together. \return empty, or what excludes each other and
 /// the remedy
 QString contradiction(const PlantReader &reader, const QString &fileName, const PlantWords &words,
                       const PlantConfiguration &configuration)
 {
-    const auto place
-        = [&](const QString &key) { return QStringLiteral("%1:%2: ").arg(fileName).arg(reader.lineOf(key)); };
     const bool isDrag = configuration.kite.mode == FlightMode::Drag;
     if (isDrag && configuration.winch == WinchKind::Machine)
-        return (words.winch.isEmpty() ? place(QStringLiteral("winch/kind")) + QStringLiteral("kind = machine")
-                                      : QStringLiteral("--winch machine"))
+        return (words.winch.isEmpty()
+                    ? QStringLiteral("%1:%2: kind = machine").arg(fileName).arg(reader.lineOf(winchSection, kindKey))
+                    : QStringLiteral("--winch machine"))
             + QStringLiteral(" and mode drag exclude each other, because the winch then only holds the tether; use "
                              "kind = ideal in [winch], or mode = pumping in [kite]");
-    if (!isDrag && !reader.turbineKey().isEmpty())
-        return place(QStringLiteral("turbines/") + reader.turbineKey())
-            + QStringLiteral("'%1' has no meaning without turbines on board; write mode = drag in [kite], or leave out "
-                             "[turbines]")
-                  .arg(reader.turbineKey());
-    return {};
+    const auto isNeedless = [&](const QString &section, const QStringList &keys, const QString &reason) {
+        return needless(reader, fileName, section, keys, reason);
+    };
+    QStringList machineKeys = reader.keysOf(winchSection);
+    for (const QString &key : {kindKey, QStringLiteral("hardware"), QStringLiteral("simulated")})
+        machineKeys.removeAll(key);
+    QString error;
+    if (configuration.winch != WinchKind::Machine && words.winch.isEmpty())
+        error = isNeedless(winchSection, machineKeys,
+                           QStringLiteral("without an electrical machine; write kind = machine in [winch], or leave it "
+                                          "out"));
+    if (!isDrag && error.isEmpty())
+        error = isNeedless(turbineSection, reader.keysOf(turbineSection),
+                           QStringLiteral("without turbines on board; write mode = drag in [kite], or leave out "
+                                          "[turbines]"));
+    if (!error.isEmpty())
+        return error;
+    if (configuration.options.mast.isPresent)
+        return isNeedless(kiteSection, startKeysOf(reader),
+                          QStringLiteral("with a mast, because the flight begins there; leave it out, or write kind = "
+                                         "none in [mast]"));
+    QStringList mastKeys = reader.keysOf(mastSection);
+    mastKeys.removeAll(kindKey);
+    return isNeedless(mastSection, mastKeys,
+                      QStringLiteral("without a mast; write kind = fixed in [mast], or leave it out"));
 }
 
 }  // namespace
@@ -276,6 +344,27 @@ QString PlantConfiguration::description(const QString &name)
         return {};
     const QString comment = QString::fromUtf8(file.readLine()).mid(2).trimmed();
     return comment.section(QStringLiteral(". "), 0, 0) + QLatin1Char('.');
+}
+
+PlantOptions PlantConfiguration::optionsIn(const WindParameters &wind) const
+{
+    PlantOptions all = options;
+    if (std::isnan(all.mast.azimuth))
+        all.mast.azimuth = downwindAzimuth(wind);
+    return all;
+}
+
+MastGains PlantConfiguration::gainsOfMast() const
+{
+    MastGains gains = mastGains;
+    gains.isPresent = options.mast.isPresent;
+    gains.distance = options.mast.distance;
+    gains.elevation = options.mast.elevation;
+    gains.mass = kite.plant.mass;
+    gains.area = kite.plant.area;
+    gains.density = kite.plant.airDensity;
+    gains.gravity = kite.plant.gravity;
+    return gains;
 }
 
 bool PlantConfiguration::read(const QString &plant, PlantConfiguration *configuration, QString *error,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "KiteConfiguration.h"
+#include "MastGains.h"
 #include "PlantOptions.h"
 
 #include <QtCore/QString>
@@ -36,10 +37,19 @@ struct PlantConfiguration
     QString winchHardware;   // configuration of the node Winch
     QString simulatedWinch;  // CAN bus of the simulated drive; empty: the drive is a real one
     KiteConfiguration kite;
-    PlantOptions options;  // sections [wind], [tether], [steering], and what winch and mode ask for
+    PlantOptions options;  // sections [wind], [tether], [steering], [mast], and what winch and mode ask for
     TurbineSettings turbines;
+    MastGains mastGains;  // section [mast]: the wind in which the kite flies
+
+    PlantConfiguration() { options.mast.azimuth = KiteConfiguration::derived; }
 
     bool hasDrive() const { return winch == WinchKind::Drive; }
+
+    /// The options, with the mast downwind unless the file says where it stands. \param wind
+    /// decides where downwind is
+    PlantOptions optionsIn(const WindParameters &wind) const;
+    /// What the autopilot knows of mast and wing; without a mast isPresent is false.
+    MastGains gainsOfMast() const;
 
     /// The one that is compiled into the programs.
     static QString builtInFile();

@@ -36,6 +36,11 @@ public:
     void addInteger(const char *name, int *value, int smallest, int largest);
     /// An integer up to 2^53.
     void addSeed(const char *name, std::uint64_t *value);
+    /// Any text. \param set  takes it
+    void addText(const char *name, const std::function<void(const QString &text)> &set)
+    {
+        add(name, [set](const QString &text) { return set(text), QString(); });
+    }
     /// Three numbers, each from -\a largest to \a largest [m/s].
     void addVector(const char *name, Eigen::Vector3d *value, double largest);
     template<typename Choice>

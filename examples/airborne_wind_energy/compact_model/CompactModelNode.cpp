@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "CompactModelNode.h"
 
+#include <memory>
+
 namespace awe {
 
 CompactModelNode::CompactModelNode(const KiteSimulation &simulation, WinchKind winch)
@@ -20,15 +22,31 @@ void CompactModelNode::addOptions()
         m_steering.emplace(this, steeringCommandSignal);
     if (options.hasTurbines)
         m_turbines.emplace(this, turbineCoefficientSignal);
-    for (OptionSignal &signal : modelSignals(options)) {
-        OptionOutput output;
-        if (signal.number)
-            output.number = std::make_unique<QPlcOutput<double>>(this, signal.name.constData());
-        else
-            output.vector = std::make_unique<QPlcOutput<Vector>>(this, signal.name.constData());
-        output.signal = std::move(signal);
-        m_options.push_back(std::move(output));
+    if (options.mast.isPresent)
+        m_release.emplace(this, mastReleaseSignal);
+    for (const OptionSignal &signal : modelSignals(options)) {
+        const auto add = [&](const auto &read) {
+            using Value = decltype(read(m_simulation.details()));
+            const auto port = std::make_shared<QPlcOutput<Value>>(this, signal.name.constData());
+            m_optionOutputs.push_back([read, port](const KiteDetails &details) { *port = read(details); });
+        };
+        std::visit(add, signal.read);
     }
+}
+
+PlantInputs CompactModelNode::commands() const
+{
+    PlantInputs commands;
+    commands.pitchSpeed = m_pitchSpeed;
+    commands.yawSpeed = m_yawSpeed;
+    commands.tetherSpeed = m_tetherSpeed;
+    if (m_steering)
+        commands.steering = *m_steering;
+    if (m_turbines)
+        commands.turbineCoefficient = *m_turbines;
+    if (m_release)
+        commands.release = *m_release;
+    return commands;
 }
 
 void CompactModelNode::collect(const PlantOutputs &outputs)
@@ -52,12 +70,8 @@ void CompactModelNode::collect(const PlantOutputs &outputs)
     m_crashed = outputs.crashed;
     if (m_winchLoad)
         *m_winchLoad = outputs.groundTension;
-    for (const OptionOutput &output : m_options) {
-        if (output.number)
-            *output.number = output.signal.number(m_simulation.details());
-        else
-            *output.vector = output.signal.vector(m_simulation.details());
-    }
+    for (const auto &write : m_optionOutputs)
+        write(m_simulation.details());
 }
 
 }  // namespace awe

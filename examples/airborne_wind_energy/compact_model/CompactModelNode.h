@@ -7,7 +7,7 @@
 
 #include <QtPlcCore>
 
-#include <memory>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -24,17 +24,10 @@ private:
     using Vector = Eigen::Vector3d;
 
     void reset() override { collect(m_simulation.reset()); }
-    void step(const QPlcCycle &) override
-    {
-        collect(m_simulation.step(m_pitchSpeed, m_yawSpeed, m_tetherSpeed, steering(), turbines()));
-    }
+    void step(const QPlcCycle &) override { collect(m_simulation.step(commands())); }
     void outputs() override { collect(m_simulation.outputs()); }
-    void update(const QPlcCycle &) override
-    {
-        m_simulation.update(m_pitchSpeed, m_yawSpeed, m_tetherSpeed, steering(), turbines());
-    }
-    double steering() const { return m_steering ? m_steering->value() : 0.0; }
-    double turbines() const { return m_turbines ? m_turbines->value() : 0.0; }
+    void update(const QPlcCycle &) override { m_simulation.update(commands()); }
+    PlantInputs commands() const;
     void addOptions();
     void collect(const PlantOutputs &outputs);
 
@@ -63,16 +56,10 @@ private:
     QPlcOutput<bool> m_crashed{this, "crashed"};
     std::optional<QPlcOutput<double>> m_winchLoad;  // [N]
 
-    /// A signal of an option of the plant: a number or a vector.
-    struct OptionOutput
-    {
-        OptionSignal signal;
-        std::unique_ptr<QPlcOutput<double>> number;
-        std::unique_ptr<QPlcOutput<Vector>> vector;
-    };
-    std::vector<OptionOutput> m_options;
-    std::optional<QPlcInput<double>> m_steering;  // [-], -1 ... 1
-    std::optional<QPlcInput<double>> m_turbines;  // [-], drag coefficient
+    std::vector<std::function<void(const KiteDetails &)>> m_optionOutputs;  // each holds its port
+    std::optional<QPlcInput<double>> m_steering;                            // [-], -1 ... 1
+    std::optional<QPlcInput<double>> m_turbines;                            // [-], drag coefficient
+    std::optional<QPlcInput<bool>> m_release;                               // of the mast
 };
 
 }  // namespace awe

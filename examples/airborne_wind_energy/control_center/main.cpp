@@ -52,7 +52,9 @@ bool prepare(QPlcGuiApplication &application, QPlcControlCenter &window, const a
         = [&](const QString &name, const QString &file) { return window.addLayout(name, builtInLayout(file), &error); };
     if (!add(QStringLiteral("Airborne wind energy"), QStringLiteral("airborne_wind_energy"))
         || !add(QStringLiteral("Four views"), QStringLiteral("four_views"))
-        || !add(QStringLiteral("Options of the plant"), QStringLiteral("plant_options")))
+        || !add(QStringLiteral("Options of the plant"), QStringLiteral("plant_options"))
+        || !add(QStringLiteral("Start and landing"), QStringLiteral("mast"))
+        || !add(QStringLiteral("Steered wing"), QStringLiteral("steered_wing")))
         return application.usageError(error), false;
     if (settings.screenshot.isEmpty() && settings.video.isEmpty())
         window.restoreView();

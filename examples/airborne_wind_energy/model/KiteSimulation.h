@@ -49,29 +49,21 @@ public:
         return outputs();
     }
 
-    /// One step of 10 ms. \param pitchSpeed [deg/s] \param yawSpeed [deg/s] \param tetherSpeed
-    /// [m/s], > 0 reels out \param steering [-] \param turbineCoefficient [-]: see PlantInputs
-    PlantOutputs step(double pitchSpeed, double yawSpeed, double tetherSpeed, double steering = 0.0,
-                      double turbineCoefficient = 0.0)
+    /// One step of 10 ms. \param commands  for wing, winch, turbines and mast; the wind is that of
+    /// this object
+    PlantOutputs step(const PlantInputs &commands)
     {
-        setInputs(pitchSpeed, yawSpeed, tetherSpeed, steering, turbineCoefficient);
+        m_inputs = inThisWind(commands);
         const PlantOutputs outputs = shown(m_inputs);
         move();
         return outputs;
     }
 
     // The same in two phases.
-    PlantOutputs outputs()
+    PlantOutputs outputs() { return shown(inThisWind(m_inputs)); }
+    void update(const PlantInputs &commands)
     {
-        PlantInputs inputs = m_inputs;
-        inputs.windVelocity = m_wind.velocity();
-        inputs.turbulence = m_wind.turbulence();
-        return shown(inputs);
-    }
-    void update(double pitchSpeed, double yawSpeed, double tetherSpeed, double steering = 0.0,
-                double turbineCoefficient = 0.0)
-    {
-        setInputs(pitchSpeed, yawSpeed, tetherSpeed, steering, turbineCoefficient);
+        m_inputs = inThisWind(commands);
         move();
     }
 
@@ -85,10 +77,11 @@ private:
         return plant;
     }
 
-    void setInputs(double pitchSpeed, double yawSpeed, double tetherSpeed, double steering, double turbineCoefficient)
+    PlantInputs inThisWind(PlantInputs inputs) const
     {
-        m_inputs
-            = {pitchSpeed, yawSpeed, tetherSpeed, m_wind.velocity(), m_wind.turbulence(), steering, turbineCoefficient};
+        inputs.windVelocity = m_wind.velocity();
+        inputs.turbulence = m_wind.turbulence();
+        return inputs;
     }
 
     PlantOutputs shown(const PlantInputs &inputs)

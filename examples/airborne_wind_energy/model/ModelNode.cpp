@@ -10,6 +10,17 @@ QPlcValue triple(const Eigen::Vector3d &vector)
     return std::array<double, 3>{vector.x(), vector.y(), vector.z()};
 }
 
+QPlcValue valueOf(const OptionSignal &signal, const KiteDetails &details)
+{
+    const auto read = [&details](const auto &reader) -> QPlcValue {
+        if constexpr (std::is_same_v<decltype(reader(details)), Eigen::Vector3d>)
+            return triple(reader(details));
+        else
+            return reader(details);
+    };
+    return std::visit(read, signal.read);
+}
+
 /// 0 for a signal that the plant does not have.
 double realOf(const QPlcSignalList &inputs, QPlcSignalIndex index)
 {
@@ -36,6 +47,8 @@ QPlcSignalIndexList ModelNode::declareInputSignals()
         m_steering = inputs.insert(QString::fromLatin1(steeringCommandSignal));
     if (m_simulation.options().hasTurbines)
         m_turbines = inputs.insert(QString::fromLatin1(turbineCoefficientSignal));
+    if (m_simulation.options().mast.isPresent)
+        m_release = inputs.insert(QString::fromLatin1(mastReleaseSignal));
     return inputs;
 }
 
@@ -72,11 +85,21 @@ QPlcSignalList ModelNode::initialOutputSignals()
     return collect(m_simulation.reset());
 }
 
+PlantInputs ModelNode::commandsIn(const QPlcSignalList &inputs) const
+{
+    PlantInputs commands;
+    commands.pitchSpeed = realOf(inputs, m_pitchSpeed);
+    commands.yawSpeed = realOf(inputs, m_yawSpeed);
+    commands.tetherSpeed = realOf(inputs, m_tetherSpeed);
+    commands.steering = realOf(inputs, m_steering);
+    commands.turbineCoefficient = realOf(inputs, m_turbines);
+    commands.release = realOf(inputs, m_release) != 0.0;
+    return commands;
+}
+
 QPlcSignalList ModelNode::realTimeout(const QPlcSignalList &inputSignals)
 {
-    return collect(m_simulation.step(realOf(inputSignals, m_pitchSpeed), realOf(inputSignals, m_yawSpeed),
-                                     realOf(inputSignals, m_tetherSpeed), realOf(inputSignals, m_steering),
-                                     realOf(inputSignals, m_turbines)));
+    return collect(m_simulation.step(commandsIn(inputSignals)));
 }
 
 QPlcSignalList ModelNode::outputSignals()
@@ -86,9 +109,7 @@ QPlcSignalList ModelNode::outputSignals()
 
 void ModelNode::updateStates(const QPlcSignalList &inputSignals)
 {
-    m_simulation.update(realOf(inputSignals, m_pitchSpeed), realOf(inputSignals, m_yawSpeed),
-                        realOf(inputSignals, m_tetherSpeed), realOf(inputSignals, m_steering),
-                        realOf(inputSignals, m_turbines));
+    m_simulation.update(commandsIn(inputSignals));
 }
 
 QPlcSignalList ModelNode::collect(const PlantOutputs &outputs) const
@@ -113,12 +134,8 @@ QPlcSignalList ModelNode::collect(const PlantOutputs &outputs) const
     list.insert(m_crashed, outputs.crashed);
     if (m_winch == WinchKind::Drive)
         list.insert(m_winchLoad, outputs.groundTension);
-    for (std::size_t i = 0; i < m_optionSignals.size(); ++i) {
-        const OptionSignal &signal = m_optionSignals[i];
-        const KiteDetails &details = m_simulation.details();
-        list.insert(m_optionIndices[i],
-                    signal.number ? QPlcValue(signal.number(details)) : triple(signal.vector(details)));
-    }
+    for (std::size_t i = 0; i < m_optionSignals.size(); ++i)
+        list.insert(m_optionIndices[i], valueOf(m_optionSignals[i], m_simulation.details()));
     return list;
 }
 

@@ -26,6 +26,7 @@ protected:
     void updateStates(const QPlcSignalList &inputSignals) override;
 
 private:
+    PlantInputs commandsIn(const QPlcSignalList &inputs) const;
     QPlcSignalList collect(const PlantOutputs &outputs) const;
 
     KiteSimulation m_simulation;
@@ -59,6 +60,7 @@ private:
     std::vector<QPlcSignalIndex> m_optionIndices;  // as many
     QPlcSignalIndex m_steering = QPlcInvalidSignalIndex;
     QPlcSignalIndex m_turbines = QPlcInvalidSignalIndex;
+    QPlcSignalIndex m_release = QPlcInvalidSignalIndex;
 };
 
 }  // namespace awe

@@ -139,6 +139,11 @@ bool readControls(QPlcCoreApplication &application, Settings *settings)
             "--controls flies without autopilot in one process: leave out --processes and --winch drive"));
         return false;
     }
+    if (settings->run.plant.options.mast.isPresent) {
+        application.usageError(QStringLiteral("--controls and a mast exclude each other, because only the autopilot "
+                                              "releases the kite: write kind = none in [mast] of --plant"));
+        return false;
+    }
     for (const char *option : {"gains", "force-limit", "dead-time"}) {
         if (!application.isSet(QLatin1String(option)))
             continue;
@@ -307,6 +312,7 @@ int main(int argc, char **argv)
                              QStringLiteral("awe_sil --plant drag-fifth.ini --duration 120"),
                              QStringLiteral("awe_sil --plant realistic --duration 1860"),
                              QStringLiteral("awe_sil --plant drag --duration 1860"),
+                             QStringLiteral("awe_sil --plant mast --duration 600"),
                              QStringLiteral("awe_sil --plant reel-in.ini --controls 0,0,-4 --duration 25"),
                              QStringLiteral("awe_sil --winch drive --duration 120 --report flight.json")});
     addOptions(application);

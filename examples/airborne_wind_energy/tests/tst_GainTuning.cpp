@@ -166,9 +166,12 @@ void tst_GainTuning::badOptionsAreRefused_data()
     row("--dead-time nan", "--dead-time nan: use a whole number of 0 ... 63");
     row("--plant", "--plant without a value: use a name or a file");
     row("--plant nowhere",
-        "cannot read the plant nowhere: No such file or directory; choose another file, or one of drag, realistic, "
-        "thesis");
-    row("--plant drag", "--plant drag: the search flies pumping cycles without hardware; use another plant");
+        "cannot read the plant nowhere: No such file or directory; choose another file, or one of drag, mast, "
+        "realistic, thesis");
+    row("--plant drag",
+        "--plant drag: the search flies pumping cycles, without hardware and without a mast; use another plant");
+    row("--plant mast",
+        "--plant mast: the search flies pumping cycles, without hardware and without a mast; use another plant");
     row("--seconds 3601", "--seconds 3601: use a whole number of 0 ... 3600");
     row("--halvings two", "--halvings two: use a whole number of 0 ... 10");
     row("--dead-time 1 --halvings 2x", "--halvings 2x: use a whole number of 0 ... 10");

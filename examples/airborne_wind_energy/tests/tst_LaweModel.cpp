@@ -82,7 +82,7 @@ void tst_LaweModel::computesTheBitsOfThePlant()
     awe::PlantOutputs outputs;
     for (int k = 0; k < 12000; ++k) {
         const double pitchSpeed = pitch * std::sin(0.011 * k), yawSpeed = yaw * std::sin(0.003 * k);
-        outputs = plant.step(pitchSpeed, yawSpeed, tether);
+        outputs = plant.step({pitchSpeed, yawSpeed, tether});
         LaweModel_U = {pitchSpeed, yawSpeed, tether};
         LaweModel_step();
         QVERIFY2(equalsBits(LaweModel_Y, outputs), qPrintable(QString::number(k)));

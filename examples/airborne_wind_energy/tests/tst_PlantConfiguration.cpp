@@ -23,6 +23,10 @@ private Q_SLOTS:
     void everyKeyAcceptsExactlyItsDocumentedRange();
     void kiteStartsInTheConfiguredState();
     void optionsOfThePlantAreRead();
+    void builtInFileDescribesTheMachine();
+    void builtInFileDescribesTheMast();
+    void mastStandsDownwindUnlessTheFileSaysWhere();
+    void autopilotKnowsMastAndWing();
     void namedPlantsAreFiles();
     void wordsOfTheCommandLineAreStronger();
     void contradictionIsRefused_data();
@@ -79,10 +83,15 @@ struct ShownKey
     QString section, name, value, text;
 
     bool isOfTurbines() const { return section == QLatin1String("turbines"); }
+    bool isOfMachine() const { return section == QLatin1String("winch"); }
+    bool isOfMast() const { return section == QLatin1String("mast") && name != QLatin1String("kind"); }
     QString line(const QString &wanted) const
     {
-        const QString mode = isOfTurbines() ? QStringLiteral("[kite]\nmode = drag\n") : QString();
-        return QStringLiteral("[%1]\n%2 = %3\n").arg(section, name, wanted) + mode;
+        const QString needed = isOfTurbines() ? QStringLiteral("[kite]\nmode = drag\n")
+            : isOfMachine()                   ? QStringLiteral("kind = machine\n")
+            : isOfMast()                      ? QStringLiteral("kind = fixed\n")
+                                              : QString();
+        return QStringLiteral("[%1]\n%2 = %3\n").arg(section, name, wanted) + needed;
     }
 };
 
@@ -109,9 +118,10 @@ void tst_PlantConfiguration::builtInFileDescribesTheKiteOfTheThesis()
 {
     QByteArray text;
     const QVector<ShownKey> keys = shownKeys();
-    QCOMPARE(keys.size(), 50);
+    QCOMPARE(keys.size(), 74);
     for (const ShownKey &key : keys) {
-        if (key.name != QLatin1String("azimuth") && !key.isOfTurbines())  // without it: downwind
+        if (key.name != QLatin1String("azimuth") && !key.isOfTurbines() && !key.isOfMachine()
+            && !key.isOfMast())  // without it: downwind
             text += key.line(key.value).toUtf8();
     }
     PlantConfiguration shown, silent;
@@ -186,7 +196,7 @@ void tst_PlantConfiguration::everyKeyAcceptsExactlyItsDocumentedRange()
                      qPrintable(error));
         }
     }
-    QCOMPARE(ranges, 42);
+    QCOMPARE(ranges, 65);
 }
 
 void tst_PlantConfiguration::kiteStartsInTheConfiguredState()
@@ -224,9 +234,100 @@ void tst_PlantConfiguration::optionsOfThePlantAreRead()
     QCOMPARE(plant.options.tether.diameter, 0.005);
 }
 
+void tst_PlantConfiguration::builtInFileDescribesTheMachine()
+{
+    QByteArray text = "[winch]\nkind = machine\n";
+    for (const ShownKey &key : shownKeys()) {
+        if (key.isOfMachine())
+            text += QStringLiteral("%1 = %2\n").arg(key.name, key.value).toUtf8();
+    }
+    PlantConfiguration shown;
+    QString error;
+    QVERIFY2(PlantConfiguration::read(write(text), &shown, &error), qPrintable(error));
+    QVERIFY(shown.options.hasMachine);
+    QVector<double> values, wanted;
+    const auto collect = [](QVector<double> *into) {
+        return [into](const char *, double value, double, double, const char *) { into->append(value); };
+    };
+    WinchDriveParameters::visitConstants(shown.options.machine, collect(&values));
+    const WinchDriveParameters expected;
+    WinchDriveParameters::visitConstants(expected, collect(&wanted));
+    QCOMPARE(values, wanted);
+    QVERIFY2(PlantConfiguration::read(write("[winch]\nkind = machine\ngearRatio = 7\n"), &shown, &error),
+             qPrintable(error));
+    QCOMPARE(shown.options.machine.gearRatio, 7.0);
+    QVERIFY2(PlantConfiguration::read(write("[winch]\nkind = machine\ngearRatio = 7\n"), &shown, &error,
+                                      {QStringLiteral("ideal"), QString()}),
+             qPrintable(error));
+    QVERIFY(!shown.options.hasMachine);
+}
+
+/// The values that the built-in file shows are those of a file that says only that there is one.
+void tst_PlantConfiguration::builtInFileDescribesTheMast()
+{
+    QByteArray text = "[mast]\nkind = fixed\n";
+    for (const ShownKey &key : shownKeys()) {
+        if (key.isOfMast())
+            text += QStringLiteral("%1 = %2\n").arg(key.name, key.value).toUtf8();
+    }
+    PlantConfiguration shown, silent;
+    QString error;
+    QVERIFY2(PlantConfiguration::read(write(text), &shown, &error), qPrintable(error));
+    QVERIFY2(PlantConfiguration::read(write("[mast]\nkind = fixed\n"), &silent, &error), qPrintable(error));
+    QVERIFY(!shown.options.isThesis() && !silent.options.isThesis());
+    QCOMPARE(shown.options.mast.azimuth, std::round(silent.optionsIn(WindParameters()).mast.azimuth));
+    const MastParameters expected;
+    const MastGains gains;
+    for (const PlantConfiguration &configuration : {shown, silent}) {
+        QVERIFY(configuration.options.mast.isPresent);
+        QCOMPARE(configuration.options.mast.distance, expected.distance);
+        QCOMPARE(configuration.options.mast.elevation, expected.elevation);
+        QCOMPARE(configuration.options.mast.reach, expected.reach);
+        QCOMPARE(configuration.mastGains.startWind, gains.startWind);
+        QCOMPARE(configuration.mastGains.landWind, gains.landWind);
+        QCOMPARE(configuration.mastGains.stormStartWind, gains.stormStartWind);
+        QCOMPARE(configuration.mastGains.stormLandWind, gains.stormLandWind);
+    }
+}
+
+void tst_PlantConfiguration::mastStandsDownwindUnlessTheFileSaysWhere()
+{
+    PlantConfiguration silent, fixed;
+    QString error;
+    QVERIFY2(PlantConfiguration::read(write("[mast]\nkind = fixed\n"), &silent, &error), qPrintable(error));
+    QVERIFY2(PlantConfiguration::read(write("[mast]\nkind = fixed\nazimuth = 12\n"), &fixed, &error),
+             qPrintable(error));
+    WindParameters northwards;
+    northwards.meanVelocity = Eigen::Vector3d(0.0, 7.0, 0.0);
+    QCOMPARE(silent.optionsIn(northwards).mast.azimuth, 90.0);
+    QCOMPARE(silent.optionsIn(northwards).validate(), std::string());
+    QCOMPARE(fixed.optionsIn(northwards).mast.azimuth, 12.0);
+}
+
+void tst_PlantConfiguration::autopilotKnowsMastAndWing()
+{
+    PlantConfiguration plant;
+    QString error;
+    QVERIFY2(PlantConfiguration::read(write("[kite]\nmass = 7\narea = 12\nairDensity = 1.1\ngravity = 9\n[mast]\n"
+                                            "kind = fixed\ndistance = 15\nelevation = 65\nstartWind = 7\n"),
+                                      &plant, &error),
+             qPrintable(error));
+    const MastGains gains = plant.gainsOfMast();
+    QVERIFY(gains.isPresent);
+    QCOMPARE(gains.distance, 15.0);
+    QCOMPARE(gains.elevation, 65.0);
+    QCOMPARE(gains.startWind, 7.0);
+    QCOMPARE(gains.mass, 7.0);
+    QCOMPARE(gains.area, 12.0);
+    QCOMPARE(gains.density, 1.1);
+    QCOMPARE(gains.gravity, 9.0);
+    QVERIFY(!PlantConfiguration().gainsOfMast().isPresent);
+}
+
 void tst_PlantConfiguration::namedPlantsAreFiles()
 {
-    const QStringList expected{QStringLiteral("drag"), QStringLiteral("realistic"), QStringLiteral("thesis")};
+    const QStringList expected{QStringLiteral("drag"), QStringLiteral("mast"), QStringLiteral("realistic"),
+                               QStringLiteral("thesis")};
     QCOMPARE(PlantConfiguration::names(), expected);
     PlantConfiguration thesis, realistic, drag;
     QString error;
@@ -252,7 +353,7 @@ void tst_PlantConfiguration::namedPlantsAreFiles()
                  qPrintable(sentence));
     }
     QVERIFY(!PlantConfiguration::read(QStringLiteral("thesi"), &drag, &error));
-    QVERIFY2(error.endsWith(QLatin1String("choose another file, or one of drag, realistic, thesis")),
+    QVERIFY2(error.endsWith(QLatin1String("choose another file, or one of drag, mast, realistic, thesis")),
              qPrintable(error));
 }
 
@@ -286,6 +387,18 @@ void tst_PlantConfiguration::contradictionIsRefused_data()
                                          << QStringLiteral("drag") << "plant.ini:2: kind = machine" + machine;
     QTest::newRow("machine given") << QByteArray("[kite]\nmode = drag\n") << QStringLiteral("machine") << QString()
                                    << "--winch machine" + machine;
+    QTest::newRow("constant of a machine that is not there")
+        << QByteArray("[winch]\nkind = ideal\ngearRatio = 7\n") << QString() << QString()
+        << QStringLiteral("plant.ini:3: 'gearRatio' has no meaning without an electrical machine; write kind = machine "
+                          "in [winch], or leave it out");
+    QTest::newRow("start of a kite at a mast")
+        << QByteArray("[mast]\nkind = fixed\n[kite]\nmass = 5\ndistance = 90\n") << QString() << QString()
+        << QStringLiteral("plant.ini:5: 'distance' has no meaning with a mast, because the flight begins there; leave "
+                          "it out, or write kind = none in [mast]");
+    QTest::newRow("key of a mast that is not there")
+        << QByteArray("[mast]\nreach = 2\nkind = none\n") << QString() << QString()
+        << QStringLiteral("plant.ini:2: 'reach' has no meaning without a mast; write kind = fixed in [mast], or leave "
+                          "it out");
     QTest::newRow("turbines without their mode")
         << QByteArray("[turbines]\ncoefficient = 0.2\n") << QString() << QString()
         << QStringLiteral("plant.ini:2: 'coefficient' has no meaning without turbines on board; write mode = drag in "
@@ -339,12 +452,21 @@ void tst_PlantConfiguration::badLineIsNamedWithItsRemedy_data()
     };
     add("kind", "[winch]\nkind = steam\n", "plant.ini:2: kind = steam: use ideal, machine or drive");
     add("key of the winch", "[winch]\n; a comment\nkin = drive\n",
-        "plant.ini:3: 'kin' is not a key of [winch]; use one of kind, hardware, simulated");
+        "plant.ini:3: 'kin' is not a key of [winch]; did you mean 'kind'?");
+    add("other key of the winch", "[winch]\nropes = 2\n",
+        "plant.ini:2: 'ropes' is not a key of [winch]; use one of kind, hardware, simulated, drumRadius, ");
+    add("constant of the machine", "[winch]\nkind = machine\ngearRatio = 0\n",
+        "plant.ini:3: gearRatio = 0: use a number from 0.01 to 10000");
     add("section", "[kites]\n",
         "plant.ini:1: '[kites]' is not a section of a plant; use one of [winch], [kite], [wind], [tether], "
-        "[steering], [turbines]");
+        "[steering], [turbines], [mast]");
     add("mode", "[kite]\nmode = fast\n", "plant.ini:2: mode = fast: use pumping or drag");
     add("word of the steering", "[steering]\nkind = wheel\n", "kind = wheel: use kinematic or turn-rate");
+    add("word of the mast", "[mast]\nkind = tall\n", "plant.ini:2: kind = tall: use none or fixed");
+    add("key of the mast", "[mast]\nheight = 2\n",
+        "plant.ini:2: 'height' is not a key of [mast]; use one of kind, distance, elevation, azimuth, reach, "
+        "startWind, "
+        "landWind, stormStartWind, stormLandWind");
     add("key of the turbines", "[turbines]\nnumber = 2\n",
         "plant.ini:2: 'number' is not a key of [turbines]; use one of coefficient, tetherLength");
     add("word of the wind", "[wind]\nprofile = strong\n", "profile = strong: use uniform, power or log");

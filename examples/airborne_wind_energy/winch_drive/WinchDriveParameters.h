@@ -39,6 +39,27 @@ struct WinchDriveParameters
     double commandTimeout = 0.1;      // without a command for longer: quick stop [s]
     double step = 0.001;              // h [s]
 
+    /// Calls visit(name, value, smallest, largest, unit) for each constant that a file may set.
+    template<typename Parameters, typename Visitor>
+    static void visitConstants(Parameters &parameters, Visitor visit)
+    {
+        visit("drumRadius", parameters.drumRadius, 1e-3, 100.0, "m");
+        visit("gearRatio", parameters.gearRatio, 1e-2, 1e4, "");
+        visit("drumInertia", parameters.drumInertia, 0.0, 1e6, "kg m²");
+        visit("rotorInertia", parameters.rotorInertia, 1e-6, 1e6, "kg m²");
+        visit("dryFriction", parameters.dryFriction, 0.0, 1e6, "N m");
+        visit("viscousFriction", parameters.viscousFriction, 0.0, 1e6, "N m s/rad");
+        visit("torqueConstant", parameters.torqueConstant, 1e-3, 1e3, "N m/A");
+        visit("windingResistance", parameters.windingResistance, 0.0, 1e3, "ohm");
+        visit("currentLimit", parameters.currentLimit, 1e-3, 1e5, "A");
+        visit("currentLoopTime", parameters.currentLoopTime, 1e-5, 1.0, "s");
+        visit("converterLoss", parameters.converterLoss, 0.0, 1e6, "W");
+        visit("speedBandwidth", parameters.speedBandwidth, 1e-2, 1e4, "rad/s");
+        visit("speedIntegralTime", parameters.speedIntegralTime, 1e-4, 1e3, "s");
+        visit("acceleration", parameters.acceleration, 1e-3, 1e6, "rad/s²");
+        visit("largestSpeed", parameters.largestSpeed, 1e-3, 1e5, "rad/s");
+    }
+
     /// J, all that turns, at the machine [kg m^2]
     double inertia() const { return rotorInertia + drumInertia / (gearRatio * gearRatio); }
     /// Tether that one radian of the machine reels out [m/rad]

@@ -87,6 +87,15 @@ void drawWindAxes(QPlcScene3D *scene, const KiteState &kite)
                    KiteText::tr("wind %1 m/s").arg(double(kite.wind->length()), 0, 'f', 1), scene->theme.accent);
 }
 
+void drawMast(QPlcScene3D *scene, const KiteState &kite)
+{
+    if (!kite.mastTop)
+        return;
+    const QVector3D top = *kite.mastTop;
+    scene->addLine({top.x(), top.y(), 0.0f}, top, scene->theme.text, 3.0f);
+    scene->addName(top, KiteText::tr("mast"), scene->theme.mutedText);
+}
+
 void drawSmallEarth(QPlcScene3D *scene)
 {
     if (!scene->position)

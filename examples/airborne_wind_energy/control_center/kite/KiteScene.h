@@ -18,6 +18,8 @@ float forceReference(float force, float before);
 void drawTrail(QPlcScene3D *scene, const FlightTrail &trail, const ColorScale &scale, float width);
 /// Arrows from the ground station downwind and across, with the speed of the wind.
 void drawWindAxes(QPlcScene3D *scene, const KiteState &kite);
+/// A pole from the ground to the top of the mast, with its name.
+void drawMast(QPlcScene3D *scene, const KiteState &kite);
 /// Meridians and parallels of the quarter sphere downwind.
 void drawSmallEarth(QPlcScene3D *scene);
 /// Straight between the nodes of the tether if they are known, else as a curve that is as long as

@@ -24,6 +24,7 @@ constexpr TextKey textKeys[] = {
     {"force", &KiteSettings::force},
     {"tetherLength", &KiteSettings::tetherLength},
     {"tetherNode", &KiteSettings::tetherNode},
+    {"mastTop", &KiteSettings::mastTop},
     {"color", &KiteSettings::color},
 };
 

@@ -20,6 +20,7 @@ struct KiteSettings
     QString force = QStringLiteral("aerodynamicForce_earth");                 // [N]
     QString tetherLength = QStringLiteral("tetherLength");                    // [m]
     QString tetherNode = QStringLiteral("tetherNode%1_earth");                // [m], %1: 1 ...; missing: no segments
+    QString mastTop = QStringLiteral("mastTop_earth");                        // [m]; missing: no mast
     QString color = QStringLiteral("power");                                  // colours the path; empty: nothing does
     double trail = 30.0;                                                      // [s] of path, 0 ... 600
     std::optional<double> minimum;                                            // of the colours; none: as what is seen

@@ -23,6 +23,7 @@ KiteSettingsEditor::KiteSettingsEditor(const KiteSettings &settings, QWidget *pa
     addSignal(tr("Aerodynamic force"), &KiteSettings::force);
     addSignal(tr("Tether length"), &KiteSettings::tetherLength);
     addSignal(tr("Nodes of the tether"), &KiteSettings::tetherNode);
+    addSignal(tr("Top of the mast"), &KiteSettings::mastTop);
 }
 
 KiteSettingsEditor::~KiteSettingsEditor()

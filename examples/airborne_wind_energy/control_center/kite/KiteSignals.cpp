@@ -115,6 +115,7 @@ KiteState KiteSignals::state() const
     state.force = vectorOf(m_settings.force);
     state.tetherLength = number(m_settings.tetherLength);
     state.tetherNodes = tetherNodes();
+    state.mastTop = vectorOf(m_settings.mastTop);
     state.value = number(m_settings.color);
     if (!m_context)
         return state;

@@ -23,6 +23,7 @@ struct KiteState
     std::optional<QQuaternion> course;               // the same without pitch
     std::optional<double> tetherLength;              // [m]
     std::vector<QVector3D> tetherNodes;              // [m], earth, from the ground; empty: not known
+    std::optional<QVector3D> mastTop;                // [m], earth
     std::optional<double> value;                     // of the signal that colours
     std::optional<QPlcPanelContext::Time> pastTime;  // these are the values of that time; none: now
     bool isStale = false;                            // the plant is lost, or its cycles stay away

@@ -122,6 +122,7 @@ void KiteView::drawScene(QPlcScene3D *scene)
         drawWindAxes(scene, m_state);
     if (isPartShown(QStringLiteral("smallEarth")))
         drawSmallEarth(scene);
+    drawMast(scene, m_state);
     if (isPartShown(QStringLiteral("tether")))
         drawTether(scene, m_state, showsDefaultModel() ? modelBridle : QVector3D());
     if (isPartShown(QStringLiteral("vectors")))

@@ -46,6 +46,9 @@ QVector<OptionFigures::Row> OptionFigures::rows() const
         {tr("Tension at the winch"), QStringLiteral("winchTension"), 0.0, 4000.0, {}},
         {tr("Wind at 6 m"), QStringLiteral("= norm(windVelocity6m_earth)"), 0.0, 15.0, {}},
         {tr("Density at the wing"), QStringLiteral("airDensity"), 0.0, 1.3, {}},
+        {tr("On the mast"), QStringLiteral("mastDocked"), 0.0, 1.0, {}},
+        {tr("Dockings"), QStringLiteral("mastDockings"), 0.0, 10.0, {}},
+        {tr("Speed of the last docking"), QStringLiteral("mastDockingSpeed"), 0.0, 3.0, {}},
     };
     QVector<Row> present;
     for (Row row : known) {

@@ -11,7 +11,7 @@ class QPainter;
 namespace awe {
 
 /// What the options of a plant show (docs/plant.md): electrical power and efficiency, steering,
-/// tension at both ends of the tether, turbines on board, wind and density at heights.
+/// tension at both ends of the tether, turbines on board, wind and density at heights, mast.
 ///
 /// A row with a bar for each of these signals that the plant has, so a plant without options has
 /// none. It has no settings of its own.

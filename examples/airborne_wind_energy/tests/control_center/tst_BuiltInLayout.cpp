@@ -13,11 +13,14 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 
 namespace {
 
 const QString fileName = QStringLiteral(AWE_LAYOUTS "/airborne_wind_energy.json");
 const QString plantOptions = QStringLiteral(AWE_LAYOUTS "/plant_options.json");
+const QString mast = QStringLiteral(AWE_LAYOUTS "/mast.json");
+const QString steeredWing = QStringLiteral(AWE_LAYOUTS "/steered_wing.json");
 const QString fourViews = QStringLiteral(AWE_LAYOUTS "/four_views.json");
 
 QByteArray layoutText(const QString &name = fileName)
@@ -101,6 +104,8 @@ private Q_SLOTS:
     void everySignalIsInTheTable();
     void theDialsHoldTheFlightOfTheDemo();
     void fourViewsLayoutMatchesTheManual();
+    void mastLayoutHasTheRequestOfTheOperator();
+    void keysTurnASteeredWingTheSameWay();
 };
 
 void tst_BuiltInLayout::layoutIsLoadedAndShown()
@@ -132,14 +137,20 @@ void tst_BuiltInLayout::everySignalIsInTheTable_data()
     QTest::newRow("Airborne wind energy") << fileName << 15;
     QTest::newRow("Four views") << fourViews << 10;
     QTest::newRow("Options of the plant") << plantOptions << 2;
+    QTest::newRow("Start and landing") << mast << 6;
+    QTest::newRow("Steered wing") << steeredWing << 10;
 }
 
 void tst_BuiltInLayout::everySignalIsInTheTable()
 {
     QFETCH(QString, file);
     QFETCH(int, least);
-    const QPlcSignalTable table = QPlcSignalTable::fromIniFile(awe::builtInSignals());
+    QPlcSignalTable table = QPlcSignalTable::fromIniFile(awe::builtInSignals());
     QVERIFY(table.size() > 0);
+    if (file == mast || file == steeredWing) {
+        for (const QPlcSignalDefinition &signal : QPlcSignalTable::fromIniFile(awe::builtInOptionSignals()))
+            QVERIFY(table.append(signal));
+    }
     const QStringList texts = signalTexts(QJsonDocument::fromJson(layoutText(file)).object());
     QVERIFY(texts.size() > least);
     static const QRegularExpression name(QStringLiteral("\\b[A-Za-z_]\\w*(?!\\w*\\()"));
@@ -212,6 +223,70 @@ void tst_BuiltInLayout::fourViewsLayoutMatchesTheManual()
                                   {QStringLiteral("3D view"), 4}}));
     QCOMPARE(trails.count(180.0), 2);
     QCOMPARE(trails.count(10.0), 1);
+}
+
+/// Its setter is a list of the requests that the signal table names.
+void tst_BuiltInLayout::mastLayoutHasTheRequestOfTheOperator()
+{
+    QPlcControlCenter window;
+    QString error;
+    QVERIFY2(window.addLayout(QStringLiteral("Start and landing"), layoutText(mast), &error), qPrintable(error));
+    QVERIFY(window.showLayout(QStringLiteral("Start and landing")));
+    const auto *setter = window.findChild<QPlcSetter *>();
+    QVERIFY(setter);
+    QCOMPARE(setter->settings().value(QStringLiteral("signal")).toString(), QStringLiteral("flightRequest"));
+    QCOMPARE(setter->settings().value(QStringLiteral("style")).toString(), QStringLiteral("list"));
+    const QPlcSignalTable table = QPlcSignalTable::fromIniFile(awe::builtInOptionSignals());
+    const QPlcSignalDefinition &request = table.at(table.indexOf(QStringLiteral("flightRequest")));
+    const std::pair<const char *, awe::FlightRequest> requests[] = {{"Automatic", awe::FlightRequest::Automatic},
+                                                                    {"Fly", awe::FlightRequest::Fly},
+                                                                    {"Land", awe::FlightRequest::Land}};
+    QCOMPARE(request.valueNames.size(), int(std::size(requests)));
+    for (const auto &[name, number] : requests)
+        QCOMPARE(request.valueNames.nameOf(int(number)), QString::fromLatin1(name));
+    QCOMPARE(request.initial.toInt(), int(awe::FlightRequest::Automatic));
+    QCOMPARE(request.safeValue().toInt(), int(awe::FlightRequest::Land));
+}
+
+/// By how much a held key turns the wing within a second: the change of its yaw angle [deg].
+static double turnedBy(const QString &layout, const char *key, const char *signal, double awe::PlantInputs::*input,
+                       awe::SteeringKind steering)
+{
+    QPlcControlCenter window;
+    const QString name = QStringLiteral("built in");
+    if (!window.addLayout(name, layoutText(layout)) || !window.showLayout(name))
+        return 0.0;
+    const auto *panel = window.findChild<QPlcKeyboardControl *>();
+    const QJsonArray keys = panel ? panel->settings().value(QStringLiteral("keys")).toArray() : QJsonArray();
+    awe::PlantInputs inputs;
+    inputs.windVelocity = awe::WindParameters().meanVelocity;
+    for (const QJsonValue &each : keys) {
+        const QJsonObject binding = each.toObject();
+        if (binding.value(QStringLiteral("key")).toString() == QLatin1String(key)
+            && binding.value(QStringLiteral("signal")).toString() == QLatin1String(signal))
+            inputs.*input = binding.value(QStringLiteral("value")).toDouble();
+    }
+    awe::PlantOptions options;
+    options.steering.kind = steering;
+    awe::ExtendedPlant plant(awe::PlantParameters(), options);
+    const double before = plant.state().yawAngle;
+    for (int cycle = 0; cycle < 100; ++cycle)
+        plant.step(inputs);
+    return plant.state().yawAngle - before;
+}
+
+/// Left is left, whether the yaw speed is the command or the air turns the wing.
+void tst_BuiltInLayout::keysTurnASteeredWingTheSameWay()
+{
+    const auto ideal = [](const char *key) {
+        return turnedBy(fileName, key, "bodyControlYawSpeed", &awe::PlantInputs::yawSpeed,
+                        awe::SteeringKind::Kinematic);
+    };
+    const auto steered = [](const char *key) {
+        return turnedBy(steeredWing, key, "steeringCommand", &awe::PlantInputs::steering, awe::SteeringKind::TurnRate);
+    };
+    QVERIFY(ideal("Left") < -10.0 && ideal("Right") > 10.0);
+    QVERIFY(steered("Left") < -5.0 && steered("Right") > 5.0);
 }
 
 QTEST_MAIN(tst_BuiltInLayout)

@@ -83,6 +83,7 @@ void tst_DemoFlight::startPageOffersThePlants()
     window.show();
     QVERIFY(QTest::qWaitForWindowExposed(&window));
     QVERIFY(visibleButton(window, QStringLiteral("Fly the plant 'drag'")));
+    QVERIFY(visibleButton(window, QStringLiteral("Fly the plant 'mast'")));
     QVERIFY(!visibleButton(window, QStringLiteral("Fly the plant 'thesis'")));
     QAbstractButton *button = visibleButton(window, QStringLiteral("Fly the plant 'realistic'"));
     QVERIFY(button);

@@ -146,7 +146,7 @@ void tst_ProgramOptions::badOptionsAreRefusedWithOneSentence_data()
     for (const char *program : {"awe_master", "awe_model", "awe_compact_model", "awe_autopilot", "awe_sil"}) {
         row(program, qPrintable(QStringLiteral("--plant ") + plant),
             qPrintable(plant + QStringLiteral(":2: mass = 0: use a number from 0.001 to 1e+06 kg")));
-        row(program, "--plant real", "choose another file, or one of drag, realistic, thesis");
+        row(program, "--plant real", "choose another file, or one of drag, mast, realistic, thesis");
         row(program, "--winch steam", "--winch steam: use ideal, machine or drive");
         row(program, "--plant realistic --mode drag", "kind = machine and mode drag exclude each other");
     }
@@ -204,6 +204,7 @@ void tst_ProgramOptions::badOptionsAreRefusedWithOneSentence_data()
     row("awe_sil", "--controls 0,0,1 --processes", "leave out --processes and --winch drive");
     row("awe_sil", "--controls 0,0,1 --winch drive", "leave out --processes and --winch drive");
     row("awe_sil", "--controls 0,0,1 --gains tuned", "--controls and --gains exclude each other");
+    row("awe_sil", "--controls 0,0,1 --plant mast", "--controls and a mast exclude each other");
     row("awe_sil", "--controls 0,0,100 --duration 1",
         "100 is out of range for signal 'tetherSpeed'; use -10 ... 10 m/s");
 }
