@@ -2,6 +2,9 @@
 #include "McapReader.h"
 
 #include <algorithm>
+#include <cerrno>
+#include <fcntl.h>
+#include <sys/stat.h>
 
 #include <zstd.h>
 
@@ -138,8 +141,17 @@ bool Reader::open(const QString &file, QString *error)
 {
     m_file.close();
     m_file.setFileName(file);
-    if (!m_file.open(QIODevice::ReadOnly)) {
-        *error = QStringLiteral("cannot open '%1': %2").arg(file, m_file.errorString());
+    // Without waiting for somebody who writes into a FIFO.
+    const int descriptor = ::open(QFile::encodeName(file).constData(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    struct stat status = {};
+    if (descriptor < 0 || ::fstat(descriptor, &status) != 0
+        || !m_file.open(descriptor, QIODevice::ReadOnly, QFileDevice::AutoCloseHandle)) {
+        *error = QStringLiteral("cannot open '%1': %2").arg(file, qt_error_string(errno));
+        return false;
+    }
+    if (!S_ISREG(status.st_mode)) {
+        *error = QStringLiteral("'%1' is not a file: a recording cannot be read from it").arg(file);
+        m_file.close();
         return false;
     }
     if (read(0, MagicSize) == QByteArray(Magic, MagicSize))

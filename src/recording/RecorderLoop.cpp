@@ -189,8 +189,9 @@ void RecorderLoop::report(Recording *recording, std::int64_t now)
     const RecorderReport::State state = !m_status.hasFailed ? RecorderReport::Recording
         : m_status.isFull                                   ? RecorderReport::DiskFull
                                                             : RecorderReport::Failing;
+    const QString &newest = recording->file.isEmpty() ? recording->former : recording->file;
     recording->recorder->report({state, recording->bytesPerSecond, m_disk.freeBytes(place()),
-                                 QFileInfo(recording->file).absoluteFilePath(), m_status.error});
+                                 QFileInfo(newest).absoluteFilePath(), m_status.error});
 }
 
 QString RecorderLoop::nextFile()

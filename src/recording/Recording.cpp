@@ -51,7 +51,7 @@ RecordedLayout::RecordedLayout(const RingDescription &description)
         offsets.push_back(std::uint32_t(PlantMessage::CycleSize) + message.image().offset(i));
 }
 
-bool Recording::open(const QStringList &paths, QString *error)
+bool Recording::open(const QStringList &paths, QString *error, Unreadable unreadable)
 {
     *this = {};
     error->clear();
@@ -59,9 +59,13 @@ bool Recording::open(const QStringList &paths, QString *error)
     if (!error->isEmpty())
         return false;
     for (const QString &file : files) {
-        if (!openFile(file, error))
+        if (openFile(file, error))
+            continue;
+        if (unreadable == Refuse)
             return false;
+        m_notes << *error;
     }
+    error->clear();
     if (m_files.empty()) {
         *error = m_notes.isEmpty() ? QStringLiteral("no recording was named") : m_notes.constFirst();
         return false;

@@ -39,10 +39,13 @@ struct RecordedLayout
 class Recording
 {
 public:
+    enum Unreadable { Refuse, LeaveOut };
+
     /// \param paths  files, and folders with files *.mcap
-    /// \return false when one of them is not a recording, or the times of two phases overlap, as
-    ///     those of simulations do
-    bool open(const QStringList &paths, QString *error);
+    /// \param unreadable  what happens with files that are not recordings, or not there
+    /// \return false when one of them is not a recording, all are left out, or the times of two
+    ///     phases overlap, as those of simulations do
+    bool open(const QStringList &paths, QString *error, Unreadable unreadable = Refuse);
 
     /// Of the newest file.
     const RingDescription &description() const { return m_files.back().description; }

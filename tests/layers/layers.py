@@ -304,6 +304,7 @@ OF_MACHINE = (
     ("carries signals of the kernel, such as Ctrl-C", "a socket", "node/api/QPlcApplicationOptions.cpp"),
     ("receives the values of a plant beside the drawing", "a thread", "gui/plant/Listener.cpp gui/plant/Listener.h"),
     ("computes spectra beside the drawing", "a thread", "gui/plot/SpectrumJob.cpp"),
+    ("reads recordings beside the drawing", "a thread", "gui/plant/PlantPast.cpp"),
     ("gives each connection a timeout that tells it from others", "a random number", "gui/plant/PlantLeases.cpp"),
     ("waits for the graphics card", "a sleep, a thread", "gui3d/SceneRenderer.cpp"),
     (

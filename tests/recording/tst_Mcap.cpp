@@ -5,6 +5,8 @@
 #include <QtCore/QTemporaryDir>
 #include <QtTest/QtTest>
 
+#include <sys/stat.h>
+
 using namespace qplc::mcap;
 
 namespace {
@@ -71,6 +73,7 @@ private Q_SLOTS:
     void aMessageThatWasNotWrittenIsWrittenLater();
     void aFileThatIsThereIsNotReplaced();
     void whatIsNoRecordingIsRefused();
+    void aFifoIsRefusedWithoutWaitingForItsWriter();
     void aSizeThatCannotBeTakesNoMemory();
 
 private:
@@ -190,6 +193,15 @@ void tst_Mcap::whatIsNoRecordingIsRefused()
     QVERIFY2(m_error.contains("is not a recording"), qPrintable(m_error));
     QVERIFY(!reader.open(m_folder.filePath("nothing"), &m_error));
     QVERIFY2(m_error.startsWith("cannot open"), qPrintable(m_error));
+}
+
+void tst_Mcap::aFifoIsRefusedWithoutWaitingForItsWriter()
+{
+    const QString name = m_folder.filePath("fifo");
+    QCOMPARE(::mkfifo(QFile::encodeName(name).constData(), 0600), 0);
+    Reader reader;
+    QVERIFY(!reader.open(name, &m_error));
+    QVERIFY2(m_error.contains("is not a file"), qPrintable(m_error));
 }
 
 void tst_Mcap::aSizeThatCannotBeTakesNoMemory()

@@ -17,12 +17,12 @@ namespace qplc {
 
 namespace {
 
-constexpr int swatch = 10;    // [px]
-constexpr int swatchGap = 2;  // [px] between dashes
-constexpr int spacing = 6;    // [px] between parts of an entry
-constexpr int gap = 14;       // [px] between entries
-constexpr int margin = 4;     // [px] around all
-constexpr int lineRoom = 3;   // [px] above and below a text, together
+constexpr int legendSwatch = 10;   // [px]
+constexpr int swatchGap = 2;       // [px] between dashes
+constexpr int spacing = 6;         // [px] between parts of an entry
+constexpr int entryGap = 14;       // [px] between entries
+constexpr int margin = 4;          // [px] around all
+constexpr int legendLineRoom = 3;  // [px] above and below a text, together
 constexpr int legendDigits = 5;
 constexpr int fewDigits = 4;            // in small panels
 constexpr int leastName = 56;           // [px] of a name that is elided
@@ -159,7 +159,7 @@ void PlotLegend::measure()
     boldest.isSelected = true;
     const QFontMetrics metrics(fontOf(boldest));
     const int before = m_nameWidth + m_valueWidth + m_unitWidth;
-    m_lineHeight = metrics.height() + lineRoom;
+    m_lineHeight = metrics.height() + legendLineRoom;
     const QFontMetrics figures(valueFontOf(boldest));
     m_valueWidth = std::max(m_valueWidth, figures.horizontalAdvance(QStringLiteral("-88.88")));
     m_nameWidth = 0;
@@ -178,7 +178,7 @@ void PlotLegend::measure()
 /// Of an entry with all that it says [px]
 int PlotLegend::wantedWidth() const
 {
-    return swatch + m_nameWidth + m_valueWidth + m_unitWidth + 3 * spacing;
+    return legendSwatch + m_nameWidth + m_valueWidth + m_unitWidth + 3 * spacing;
 }
 
 /// Of an entry whose name is elided [px]
@@ -195,8 +195,8 @@ int PlotLegend::doubtWidth(const Entry &entry) const
 
 int PlotLegend::columnsFor(int width) const
 {
-    const int room = width - 2 * margin + gap;
-    const int wanted = (m_isCompact ? leastWidth() : wantedWidth()) + gap;
+    const int room = width - 2 * margin + entryGap;
+    const int wanted = (m_isCompact ? leastWidth() : wantedWidth()) + entryGap;
     return std::clamp(room / std::max(wanted, 1), 1, std::max(1, m_entries.size()));
 }
 
@@ -222,10 +222,10 @@ QSize PlotLegend::sizeHint() const
 QRect PlotLegend::entryRect(int place) const
 {
     const int columns = columnsFor(width());
-    const int room = (width() - 2 * margin + gap) / columns;
+    const int room = (width() - 2 * margin + entryGap) / columns;
     const int wanted = wantedWidth();
     const int column = place % columns;
-    const int width = std::min(room - gap, wanted + doubtWidth(m_entries[place]));
+    const int width = std::min(room - entryGap, wanted + doubtWidth(m_entries[place]));
     return {margin + column * room, margin + place / columns * m_lineHeight, width, m_lineHeight};
 }
 
@@ -261,7 +261,7 @@ void PlotLegend::paint(QPainter *painter, bool hasHover) const
 void PlotLegend::paintSwatch(QPainter *painter, const QRect &box, const Entry &entry) const
 {
     const int parts = entry.penStyle == Qt::SolidLine ? 1 : entry.penStyle == Qt::DashLine ? 2 : 3;
-    const int width = (swatch - (parts - 1) * swatchGap) / parts;
+    const int width = (legendSwatch - (parts - 1) * swatchGap) / parts;
     painter->setPen(entry.isVisible ? m_theme.stale : entry.color);
     painter->setBrush(Qt::NoBrush);
     for (int part = 0; part < parts; ++part) {
@@ -277,10 +277,10 @@ void PlotLegend::paintSwatch(QPainter *painter, const QRect &box, const Entry &e
 /// left.
 PlotLegend::Parts PlotLegend::partsOf(const QRect &rect) const
 {
-    const int room = std::max(0, rect.width() - swatch - 3 * spacing - m_unitWidth);
+    const int room = std::max(0, rect.width() - legendSwatch - 3 * spacing - m_unitWidth);
     const int valueWidth = std::min(m_valueWidth, room);
     Parts parts;
-    parts.name = QRect(rect.left() + swatch + spacing, rect.top(), room - valueWidth, rect.height());
+    parts.name = QRect(rect.left() + legendSwatch + spacing, rect.top(), room - valueWidth, rect.height());
     parts.value = QRect(parts.name.right() + 1 + spacing, rect.top(), valueWidth, rect.height());
     parts.unit = QRect(parts.value.right() + 1 + spacing, rect.top(), m_unitWidth, rect.height());
     return parts;
@@ -295,7 +295,8 @@ QRect PlotLegend::valueRect(int place) const
 
 void PlotLegend::paintEntry(QPainter *painter, const QRect &wholeRect, const Entry &entry) const
 {
-    paintSwatch(painter, {wholeRect.left(), wholeRect.center().y() - swatch / 2 + 1, swatch, swatch}, entry);
+    paintSwatch(painter, {wholeRect.left(), wholeRect.center().y() - legendSwatch / 2 + 1, legendSwatch, legendSwatch},
+                entry);
     const QFont font = fontOf(entry);
     painter->setFont(font);
     const bool isQuiet = !entry.isVisible || !entry.isTrusted;

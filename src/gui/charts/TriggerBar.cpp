@@ -22,7 +22,7 @@ namespace qplc {
 
 namespace {
 
-constexpr double largest = 1e12;
+constexpr double largestThreshold = 1e12;
 constexpr double percent = 100.0;
 constexpr int leastWideBar = 520;  // [px]: with less, controls are in the menu
 const QString triggerSignalKey = QStringLiteral("signal");
@@ -76,8 +76,8 @@ void TriggerBar::makeControls()
     m_kind->setAccessibleName(tr("Kind of event"));
     m_kind->addItems(
         {tr("↗ rises"), tr("↘ falls"), tr("↕ crosses"), tr("≥ above"), tr("≤ below"), tr("→ enters"), tr("← leaves")});
-    m_level = addNumber(tr("Level"), -largest, &Trigger::Settings::level);
-    m_upperLevel = addNumber(tr("Upper level"), -largest, &Trigger::Settings::upperLevel);
+    m_level = addNumber(tr("Level"), -largestThreshold, &Trigger::Settings::level);
+    m_upperLevel = addNumber(tr("Upper level"), -largestThreshold, &Trigger::Settings::upperLevel);
     m_hysteresis = addNumber(tr("Hysteresis"), 0.0, &Trigger::Settings::hysteresis);
     m_preShare = addNumber(tr("Before the event"), 0.0, &Trigger::Settings::preShare, percent);
     m_preShare->setMaximum(percent);
@@ -111,7 +111,7 @@ void TriggerBar::makeControls()
 /// \param shown  that a number of 1 is shown as
 NumberBox *TriggerBar::addNumber(const QString &name, double minimum, double Trigger::Settings::*number, double shown)
 {
-    auto *box = new NumberBox(minimum, largest, this);
+    auto *box = new NumberBox(minimum, largestThreshold, this);
     box->setAccessibleName(name);
     box->setToolTip(name);
     box->setButtonSymbols(QAbstractSpinBox::NoButtons);

@@ -2,6 +2,7 @@
 #include "Plant.h"
 
 #include "PlantFeed.h"
+#include "PlantPast.h"
 #include "PlantRecording.h"
 
 #include "node/Logging.h"
@@ -56,6 +57,7 @@ Plant::Plant(const QString &address, const QString &name, const QString &nodeNam
     , m_connection(address, nodeName)
 {
     qRegisterMetaType<qplc::PlantEvent>("qplc::PlantEvent");
+    new PlantPast(this);
     m_frameTimer.setTimerType(Qt::PreciseTimer);
     m_frameTimer.setInterval(framePause);
     m_pollTimer.setInterval(pollPause);

@@ -14,6 +14,7 @@
 namespace qplc {
 
 class PlantFeed;
+class PlantPast;
 class PlantRecording;
 class Recording;
 
@@ -89,7 +90,8 @@ public:
     // -- values --
     const QPlcSignalTable &table() const { return m_values.table(); }
     const PlantValues &values() const { return m_values; }
-    /// Null before the first connection. storeChanged() tells of another one.
+    /// Null before the first connection. storeChanged() tells of another one, as when it has got
+    /// what the plant has done before (PlantPast).
     SignalStore *store() const { return m_values.store(); }
     /// The same, for who keeps it when the plant has another one or is gone.
     std::shared_ptr<const SignalStore> sharedStore() const { return m_values.sharedStore(); }
@@ -178,7 +180,7 @@ Q_SIGNALS:
     void writersChanged();
     /// Somebody has taken, given back or lost a signal. Values of leases() are new ones.
     void leasesChanged();
-    /// The store is another object now; the one before is gone.
+    /// The store is another object now, with rows of other numbers; the one before is gone.
     void storeChanged();
     /// New values, at most 50 times a second.
     void updated();
@@ -190,6 +192,7 @@ Q_SIGNALS:
 
 private:
     friend class PlantFeed;
+    friend class PlantPast;
     friend class PlantRecording;
 
     void giveValues(PlantValues values);

@@ -2,6 +2,7 @@
 #include "PlantRecording.h"
 
 #include "Plant.h"
+#include "RecordedValues.h"
 #include "gui/WindowText.h"
 
 #include <QtCore/QDateTime>
@@ -61,9 +62,8 @@ struct PlantRecording::Section
 
     Part part;
     PlantValues values;
-    std::vector<char> payload;
-    std::vector<char> qualities;
-    std::unique_ptr<RecordedRows> rows;  // if it has cycles
+    std::unique_ptr<RecordedValues> recorded;  // if it has cycles
+    std::unique_ptr<RecordedRows> rows;        // likewise
     std::optional<quint64> lastCycle;
     Time lastTime = 0;
     int intervals = 0;              // of an overview
@@ -157,13 +157,10 @@ void PlantRecording::beginSection(Time begin, Time end)
     const Time rowPeriod
         = section.part.hasCycles ? m_period : std::max<Time>((end - begin) / (2 * section.intervals), 1);
     section.values.setTable(table, rowPeriod, {end - begin + 4 * rowPeriod, m_memory});
-    section.payload.assign(std::size_t(section.values.channels().payloadSize()), 0);
-    section.qualities.assign(std::size_t(table.size()), 0);
     if (section.part.hasCycles) {
-        std::vector<int> columns;
-        for (QPlcSignalIndex signal = 0; signal < table.size(); ++signal)
-            columns.push_back(int(signal));
-        section.rows = std::make_unique<RecordedRows>(*m_recording, columns, begin - m_shift, end - m_shift);
+        section.recorded = std::make_unique<RecordedValues>(*m_recording, table);
+        section.rows
+            = std::make_unique<RecordedRows>(*m_recording, section.recorded->columns(), begin - m_shift, end - m_shift);
     } else {
         for (QPlcSignalIndex signal = 0; signal < table.size(); ++signal) {
             const bool hasChannels = section.values.channels().channel(signal) != ChannelMap::NoChannel;
@@ -202,24 +199,13 @@ bool PlantRecording::readRow()
 void PlantRecording::storeRow(const RecordedRows &rows)
 {
     Section &section = *m_section;
-    const QPlcSignalTable &table = section.values.table();
-    for (QPlcSignalIndex signal = 0; signal < table.size(); ++signal) {
-        char *place = section.payload.data() + section.values.channels().offset(signal);
-        const auto size = std::size_t(table.at(signal).type.size());
-        const char *bytes = rows.value(std::size_t(signal));
-        const std::size_t known = bytes ? std::min<std::size_t>(rows.size(std::size_t(signal)), size) : 0;
-        std::copy_n(bytes, known, place);
-        std::fill(place + known, place + size, char(0));
-        const QPlcQuality quality = bytes ? rows.quality(std::size_t(signal)) : QPlcQuality(QPlcQuality::Invalid);
-        section.qualities[std::size_t(signal)] = char(quality.toByte());
-    }
     const bool isNext = section.lastCycle && rows.cycle().number == *section.lastCycle + 1;
     if (!isNext)
         section.values.interrupt();
     section.lastCycle = rows.cycle().number;
     section.lastTime = rows.time() + m_shift;
     section.values.beginBatch();
-    section.values.storeRow(section.payload.data(), section.lastTime, section.qualities.data());
+    section.recorded->store(rows, section.lastTime, &section.values);
 }
 
 /// \return false when it was the last one

@@ -79,6 +79,13 @@ void PlantValues::storeFrame(const QPlcIOBufferSlaveNode::Frame &frame, Time wal
     storeRow(frame.inputs, m_phaseStart + Time(frame.cycle) * m_period, frame.qualities);
 }
 
+void PlantValues::putBefore(PlantValues past, SignalStore::Seam seam)
+{
+    past.m_store->append(*m_store, seam);
+    m_store = std::move(past.m_store);
+    m_budget = past.m_budget;
+}
+
 void PlantValues::storeRow(const char *payload, Time time, const char *qualities)
 {
     const int size = m_channels.payloadSize();

@@ -58,6 +58,10 @@ public:
     void storeValue(QPlcSignalIndex signal, const QPlcValue &value, QPlcQuality quality = QPlcQuality::Good);
     /// What comes next does not continue what is there.
     void interrupt();
+    /// Puts the rows of \a past, which has the same table, before those of the store, and keeps as
+    /// much as \a past does from now on. \param seam  whether the first one of the store continues
+    /// them
+    void putBefore(PlantValues past, SignalStore::Seam seam);
 
     bool hasValues() const { return m_hasValues; }
     /// The newest value; invalid before the first, or when there is no such signal.

@@ -117,6 +117,24 @@ bool SignalStore::append(Time time, const float *values)
     return true;
 }
 
+void SignalStore::append(const SignalStore &other, Seam seam)
+{
+    std::vector<float> values(static_cast<std::size_t>(m_channels));
+    for (Row row = other.firstRow(); row < other.endRow(); ++row) {
+        if (row == other.firstRow() ? seam == BeginsAnew : other.beginsAnew(row))
+            interrupt();
+        for (int channel = 0; channel < m_channels; ++channel)
+            values[std::size_t(channel)] = other.value(channel, row);
+        if (!append(other.time(row), values.data()))
+            continue;
+        for (int channel = 0; channel < m_channels; ++channel) {
+            if (const Mark mark = other.greatestMark(channel, row, row + 1); mark != RowMarks::None)
+                this->mark(channel, mark);
+        }
+    }
+    m_interrupted = m_interrupted || other.m_interrupted;
+}
+
 void SignalStore::mark(int channel, Mark mark)
 {
     RowMarks &marks = m_marks[std::size_t(channel)];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // plant_window ADDRESS [SIGNAL VALUE]: a window without a face. Hears the plant of the address,
 // takes control of the signal, if there is one, and prints ten times a second what it has, "rows
-// gaps largestBatch". Ends with its standard input.
+// gaps largestBatch rowsOfTheStore". Ends with its standard input.
 #include "gui/plant/Plant.h"
 
 #include <QtCore/QCoreApplication>
@@ -18,7 +18,9 @@ int main(int argc, char **argv)
                      [&] { largestBatch = std::max(largestBatch, plant.values().batchSize()); });
     QTimer timer;
     QObject::connect(&timer, &QTimer::timeout, &plant, [&] {
-        std::printf("%llu %llu %d\n", plant.values().rows(), plant.values().gaps(), largestBatch);
+        const qplc::SignalStore *store = plant.store();
+        const auto kept = store ? qulonglong(store->endRow() - store->firstRow()) : 0;
+        std::printf("%llu %llu %d %llu\n", plant.values().rows(), plant.values().gaps(), largestBatch, kept);
         std::fflush(stdout);
     });
     QSocketNotifier end(0, QSocketNotifier::Read);

@@ -17,13 +17,15 @@ struct Report
     quint64 rows = 0;
     quint64 gaps = 0;
     int largestBatch = 0;
+    quint64 kept = 0;  // rows of the store
 };
 
 /// The newest report of plant_window.
 Report reportOf(Program &window)
 {
     const QStringList words = window.output().section(QLatin1Char('\n'), -2, -2).split(QLatin1Char(' '));
-    return {words.value(0).toULongLong(), words.value(1).toULongLong(), words.value(2).toInt()};
+    return {words.value(0).toULongLong(), words.value(1).toULongLong(), words.value(2).toInt(),
+            words.value(3).toULongLong()};
 }
 
 }  // namespace
@@ -37,6 +39,7 @@ private Q_SLOTS:
     void valuesOfASuspendedMasterAreStaleUntilItContinues();
     void suspendedWindowHasAGapAndDoesNotDelayTheMaster();
     void aSlowWindowKeepsABoundedBacklog();
+    void aWindowThatIsStartedAgainHasWhatTheRecorderHas();
     void masterSetsSignalsOfALostWindowToNeutral_data();
     void masterSetsSignalsOfALostWindowToNeutral();
 };
@@ -124,6 +127,28 @@ void tst_PlantPrograms::aSlowWindowKeepsABoundedBacklog()
     connect(&plant, &Plant::updated, this, [&] { largestBatch = std::max(largestBatch, plant.values().batchSize()); });
     QTRY_VERIFY_WITH_TIMEOUT(plant.values().gaps() > gaps, patience);
     QVERIFY2(largestBatch > 1000 && largestBatch <= 2048, qPrintable(QString::number(largestBatch)));
+}
+
+void tst_PlantPrograms::aWindowThatIsStartedAgainHasWhatTheRecorderHas()
+{
+    QTemporaryDir folder;
+    const QString record = QStringLiteral("--record=%1/").arg(folder.path());
+    Program master(QStringLiteral(QTPLC_PROGRAMS "/awe_master"), {QStringLiteral("--port=0"), record});
+    QVERIFY(master.waitForOutput(QStringLiteral("\n")));
+    const QString address = QStringLiteral("127.0.0.1:") + portOf(master);
+    Plant person(address);
+    person.open();
+    QTRY_COMPARE_WITH_TIMEOUT(person.nextAction(), Plant::Start, patience);
+    person.start();
+    {
+        Program window(QStringLiteral(QTPLC_PLANT_WINDOW), {address});
+        QTRY_VERIFY_WITH_TIMEOUT(reportOf(window).rows > 200, patience);
+        window.sendSignal(SIGKILL);
+    }
+    Program window(QStringLiteral(QTPLC_PLANT_WINDOW), {address});
+    QTRY_VERIFY_WITH_TIMEOUT(reportOf(window).rows > 0, patience);
+    const auto hasPast = [&] { return reportOf(window).kept > reportOf(window).rows + 100; };
+    QVERIFY2(waitUntil(hasPast, patience), qPrintable(window.output().right(100)));
 }
 
 void tst_PlantPrograms::masterSetsSignalsOfALostWindowToNeutral_data()

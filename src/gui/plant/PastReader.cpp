@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "PastReader.h"
+
+#include "RecordedValues.h"
+#include "gui/WindowText.h"
+#include "node/cycle/RingDescription.h"
+#include "node/cycle/RingReader.h"
+#include "signals/ProcessImage.h"
+
+#include <QtCore/QDir>
+#include <QtCore/QElapsedTimer>
+#include <QtCore/QFileInfo>
+#include <QtCore/QRegularExpression>
+
+#include <algorithm>
+#include <limits>
+
+namespace qplc {
+
+namespace {
+
+using Time = PlantValues::Time;
+
+/// Names as PLANT_SESSION_phase3.mcap of RecordingFolder and ...-SESSION-3 of PhaseRing.
+/// \return the number of the phase; 0: it is not such a name
+quint64 phaseOf(const QString &name)
+{
+    static const QRegularExpression pattern(QStringLiteral("(?:_phase|-)(\\d+)(?:(?:_marked)?\\.mcap(?:\\.part)?)?$"));
+    return pattern.match(name).captured(1).toULongLong();
+}
+
+/// Some cycles later, or before. A file may have any numbers: they wrap around.
+Time timeAfter(Time time, quint64 cycles, Time period)
+{
+    return Time(quint64(time) + cycles * quint64(period));
+}
+
+/// What a folder has of a session, in the order of phases and times. \param pattern  with %1 for
+/// the session
+QStringList filesOfSession(const QDir &folder, const QString &pattern, quint64 session)
+{
+    QStringList names
+        = folder.entryList({pattern.arg(QString::number(session, 16))}, QDir::Files | QDir::NoSymLinks, QDir::Name);
+    const auto isOther = [](const QString &name) { return phaseOf(name) == 0; };
+    names.erase(std::remove_if(names.begin(), names.end(), isOther), names.end());
+    std::stable_sort(names.begin(), names.end(),
+                     [](const QString &a, const QString &b) { return phaseOf(a) < phaseOf(b); });
+    if (names.size() > MostFilesOfPast)
+        names.erase(names.begin(), names.end() - MostFilesOfPast);
+    return names;
+}
+
+/// One reading.
+class PastReading
+{
+public:
+    PastReading(const PastWish &wish, const std::atomic<bool> &isUnwanted)
+        : m_wish(wish)
+        , m_isUnwanted(isUnwanted)
+    {
+        m_clock.start();
+        m_rings = filesOfSession(m_ringFolder, QStringLiteral("qtplc-ring-*-%1-*"), wish.session);
+        const bool isRecorded = !wish.file.isEmpty();
+        m_past.values.setTable(wish.table, wish.period, isRecorded ? RecordedBudget : PlantValues::Budget());
+    }
+
+    Past read()
+    {
+        if (!m_wish.file.isEmpty())
+            readFiles();
+        for (const QString &ring : qAsConst(m_rings))
+            readRing(m_ringFolder.filePath(ring));
+        const bool hasRows = !m_past.values.store()->isEmpty();
+        m_past.isJoined
+            = hasRows && m_isCurrent && m_past.values.store()->newestTime() + m_wish.period >= m_wish.before;
+        return std::move(m_past);
+    }
+
+private:
+    struct Origin
+    {
+        Time cycleZero;  // on the clock of recordings [ns]
+        Time period;     // [ns]
+    };
+
+    bool isOver();
+    bool mayBeShown(const RingDescription &description) const;
+    QStringList files(QString *problem) const;
+    void readFiles();
+    void readRing(const QString &file);
+    std::optional<Time> begin(const Origin &origin, quint64 cycle);
+
+    const PastWish &m_wish;
+    const std::atomic<bool> &m_isUnwanted;
+    QElapsedTimer m_clock;
+    const QDir m_ringFolder{QFile::decodeName(RingMemory::folder())};
+    QStringList m_rings;  // of the session, the newest last
+    Past m_past;
+    bool m_isCurrent = false;  // the newest row is of the phase of the seam
+    Time m_cycleZero = 0;      // of the newest row
+    quint64 m_cycle = 0;       // likewise
+};
+
+bool PastReading::isOver()
+{
+    if (m_isUnwanted || m_clock.elapsed() < LongestReading * 1000)
+        return m_isUnwanted;
+    if (m_past.problem.isEmpty())
+        m_past.problem = WindowText::tr("reading the recordings of this plant takes longer than %1 s: its curves have "
+                                        "a gap before this window. Remedy: open '%2' as a recording.")
+                             .arg(LongestReading)
+                             .arg(QFileInfo(m_wish.file).path());
+    return true;
+}
+
+/// The times of all phases that are not timed begin at 0: only the ring tells which of them runs.
+bool PastReading::mayBeShown(const RingDescription &description) const
+{
+    const bool isTimed = !m_wish.seam || m_wish.seam->cycleZero != 0;
+    return description.session == m_wish.session
+        && (isTimed || (!m_rings.isEmpty() && phaseOf(m_rings.constLast()) == description.phase));
+}
+
+/// The next row is that of a cycle. \return its time on the clock of the window; nothing: it is not
+/// wanted. A window hears the values of the end of a cycle with the next one: inputs are one cycle
+/// old.
+std::optional<Time> PastReading::begin(const Origin &origin, quint64 cycle)
+{
+    const bool isCurrent = m_wish.seam && origin.cycleZero == m_wish.seam->cycleZero;
+    if (!isCurrent && origin.cycleZero == 0)
+        return std::nullopt;
+    const Time time = isCurrent ? timeAfter(m_wish.seam->time, cycle + 1 - m_wish.seam->cycle, origin.period)
+                                : timeAfter(origin.cycleZero, cycle + 1, origin.period);
+    if (time >= m_wish.before)
+        return std::nullopt;
+    SignalStore *store = m_past.values.store();
+    if (time <= store->newestTime()) {
+        if (!isCurrent || m_isCurrent)
+            return std::nullopt;  // a file has it
+        store->clear();           // the time of the plant runs ahead of that of people: this phase counts
+    }
+    const bool continues = !store->isEmpty() && origin.cycleZero == m_cycleZero && cycle == m_cycle + 1;
+    if (!continues)
+        m_past.values.interrupt();
+    m_past.values.beginBatch();
+    m_isCurrent = isCurrent;
+    m_cycleZero = origin.cycleZero;
+    m_cycle = cycle;
+    return time;
+}
+
+/// Those in the folder of the recorder, or the one that it writes where it writes no folder.
+QStringList PastReading::files(QString *problem) const
+{
+    const QFileInfo told(m_wish.file);
+    const bool isPath = m_wish.file.startsWith(QLatin1Char('/'));
+    const QDir folder(told.path());
+    QStringList names;
+    if (isPath)
+        names = filesOfSession(folder, QStringLiteral("*_%1_phase*.mcap*"), m_wish.session);
+    if (isPath && names.isEmpty() && told.isFile() && !told.isSymLink())
+        names << told.fileName();
+    QStringList files;
+    for (const QString &name : qAsConst(names)) {
+        const QString file = folder.filePath(name);
+        mcap::Reader reader;
+        mcap::Outline outline;
+        QString error;
+        if (!reader.open(file, &error))
+            continue;  // deleted meanwhile, or of another person
+        if (reader.size() > LargestUnfinishedFile && !reader.readOutline(&outline))
+            *problem = WindowText::tr("the recording '%1' is larger than %2 MiB and not finished: the curves of this "
+                                      "plant begin with this window. Remedy: record into a folder, whose files end "
+                                      "earlier.")
+                           .arg(file)
+                           .arg(LargestUnfinishedFile >> 20);
+        else
+            files << file;
+    }
+    return files;
+}
+
+void PastReading::readFiles()
+{
+    const QString unreachable
+        = WindowText::tr("the recordings of this plant are in '%1', where this window cannot read them: its curves "
+                         "begin with this window. Remedy: open them as a recording on the computer that has them, or "
+                         "copy them to this one.")
+              .arg(m_wish.file.startsWith(QLatin1Char('/')) ? QFileInfo(m_wish.file).path() : m_wish.file);
+    Recording recording;
+    QString error;
+    QStringList names = files(&m_past.problem);
+    if (!m_past.problem.isEmpty())
+        return;
+    bool isOpen = !names.isEmpty() && recording.open(names, &error, Recording::LeaveOut);
+    if (!isOpen && !names.isEmpty()) {  // phases that are not timed cannot be one recording
+        const quint64 newest = phaseOf(names.constLast());
+        const auto isOlder = [newest](const QString &name) { return phaseOf(name) != newest; };
+        names.erase(std::remove_if(names.begin(), names.end(), isOlder), names.end());
+        isOpen = recording.open(names, &error, Recording::LeaveOut);
+    }
+    const auto isOther = [this](const RecordedFile &file) { return file.description.session != m_wish.session; };
+    if (!isOpen || std::any_of(recording.files().begin(), recording.files().end(), isOther)) {
+        m_past.problem = unreachable;
+        return;
+    }
+    const Time length = std::min(RecordedBudget.history, Time(m_past.values.store()->capacity()) * m_wish.period);
+    const Time end = m_wish.before - (m_wish.seam ? m_wish.begun() - m_wish.seam->cycleZero : 0);
+    RecordedValues values(recording, m_wish.table);
+    RecordedRows rows(recording, values.columns(), end - length, std::numeric_limits<Time>::max());
+    while (!isOver() && rows.next()) {
+        const Time period = std::max<Time>(rows.file().description.period, 1);
+        const quint64 cycle = rows.cycle().number;
+        if (!mayBeShown(rows.file().description))
+            continue;
+        if (const auto time = begin({timeAfter(rows.time(), 0 - cycle, period), period}, cycle))
+            values.store(rows, *time, &m_past.values);
+    }
+    m_past.hasFiles = !m_past.values.store()->isEmpty();
+}
+
+/// That of a phase which is over may still be there.
+void PastReading::readRing(const QString &file)
+{
+    RingReader ring;
+    RingDescription description;
+    QString error;
+    if (!ring.open(QFile::encodeName(file), &error)
+        || !RingDescription::fromText(ring.memory().description(), &description) || !mayBeShown(description))
+        return;
+    const QPlcSignalTable table = QPlcSignalTable::fromIni(description.table);
+    if (table.toIni() != m_wish.table.toIni())
+        return;
+    const ProcessImage image(table);
+    const Origin origin{ring.memory().header()->startTime, std::max<Time>(description.period, 1)};
+    for (auto result = ring.next(); result != RegionReader::Nothing && !isOver(); result = ring.next()) {
+        CycleView view;
+        if (result != RegionReader::Found || ring.kind() != RecordKind::Cycle
+            || !CycleView::read(ring.body(), ring.size(), &view) || view.cycle.imageSize != image.totalSize())
+            continue;
+        if (const auto time = begin(origin, view.cycle.number))
+            m_past.values.storeRow(view.image, *time, view.image + image.qualityOffset(0));
+    }
+}
+
+}  // namespace
+
+Past readPast(const PastWish &wish, const std::atomic<bool> &isUnwanted)
+{
+    return PastReading(wish, isUnwanted).read();
+}
+
+}  // namespace qplc

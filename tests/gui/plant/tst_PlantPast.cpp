@@ -1,0 +1,413 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "../../common/Waiting.h"
+#include "PlantFixtures.h"
+#include "RecordedFlight.h"
+#include "gui/plant/PlantPast.h"
+
+#include <QPlcRecorder.h>
+
+#include <QtCore/QDir>
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+using namespace qplc;
+
+namespace {
+
+using Time = PlantValues::Time;
+
+constexpr int patience = 20000;      // [ms]
+constexpr Time period = 10'000'000;  // [ns]
+constexpr Time noon = 1'800'000'000 * SignalStore::Second;
+
+/// A flight of a simulation: its times begin at 0, and position_x has the number of the cycle. The
+/// ring has the name that a master gives it.
+struct Flight : RecordedFlight
+{
+    explicit Flight(quint64 phase = 1)
+    {
+        const QByteArray name = RingMemory::folder() + "/qtplc-ring-0-kite-abcdef-" + QByteArray::number(phase);
+        link = QFile::decodeName(name);
+        if (::link(ringFile.constData(), name.constData()) != 0)
+            qFatal("cannot name the ring");
+    }
+    ~Flight() { QFile::remove(link); }
+
+    /// Of a window that has heard \a cycle first, at noon.
+    PastWish wish(quint64 cycle) const
+    {
+        PastWish wish;
+        wish.table = table;
+        wish.period = period;
+        wish.session = description.session;
+        wish.before = noon;
+        wish.seam = PastWish::Seam{cycle, noon, 0};
+        wish.file = file;
+        return wish;
+    }
+
+    QString link;
+};
+
+Past read(const PastWish &wish)
+{
+    return readPast(wish, std::atomic<bool>(false));
+}
+
+Time rowsOf(const Past &past)
+{
+    const SignalStore *store = past.values.store();
+    return Time(store->endRow() - store->firstRow());
+}
+
+/// Whether the rows are the cycles \a first to \a last, each once, and the cycle \a seam is heard
+/// at noon: with it come the values of the cycle before. Empty: it is so.
+QString defectOf(const Past &past, int first, int last, int seam)
+{
+    const SignalStore *store = past.values.store();
+    const int channel = past.values.channels().channel(past.values.table().indexOf(QStringLiteral("position_x")));
+    if (rowsOf(past) != last - first + 1)
+        return QStringLiteral("%1 rows in place of %2").arg(rowsOf(past)).arg(last - first + 1);
+    for (int cycle = first; cycle <= last; ++cycle) {
+        const SignalStore::Row row = store->firstRow() + SignalStore::Row(cycle - first);
+        if (store->value(channel, row) != float(cycle) || store->time(row) != noon - (seam - cycle - 1) * period
+            || store->beginsAnew(row) != (cycle == first))
+            return QStringLiteral("cycle %1 has the value %2 at %3")
+                .arg(cycle)
+                .arg(double(store->value(channel, row)))
+                .arg(store->time(row));
+    }
+    return {};
+}
+
+/// A plant in real time, with a recorder that writes into a folder.
+struct RecordedPlant
+{
+    explicit RecordedPlant(std::chrono::seconds segment = std::chrono::hours(1))
+    {
+        recorder.setTarget(folder.path());
+        recorder.setSegmentDuration(segment);
+        recorder.setLeastFree(0);
+        recorder.setMaster(&master);
+        if (!recorder.start())
+            qFatal("%s", qPrintable(recorder.errorString()));
+    }
+    bool fly(quint64 cycles) { return master.startRealTime() && master.waitForCycles(cycles); }
+
+    QTemporaryDir folder;
+    RunningMaster master;
+    QPlcRecorder recorder;
+};
+
+/// A window's plant, and what it says.
+struct Window
+{
+    explicit Window(const RunningMaster &master)
+        : plant(master.address())
+    {
+        QObject::connect(&plant, &Plant::eventOccurred, &plant,
+                         [this](const PlantEvent &event) { events << event.text; });
+        QObject::connect(&plant, &Plant::updated, &plant, [this] {
+            if (heard == 0 && !plant.store()->isEmpty())
+                heard = plant.store()->time(plant.store()->firstRow());
+        });
+        plant.open();
+    }
+    bool waitFor(const QString &text)
+    {
+        return waitUntil([&] { return !events.filter(text).isEmpty(); }, patience);
+    }
+    /// What the window has, for people who read why a test fails.
+    QString told() const
+    {
+        const auto &recorder = plant.status().master.recorder;
+        return events.join(QLatin1Char('\n')) + QStringLiteral("\nrecorder: ")
+            + (recorder ? QString::fromLatin1(messages::nameOf(recorder->state)) + QLatin1Char(' ') + recorder->file
+                       + recorder->error
+                        : QString());
+    }
+    bool waitForPast() { return waitFor(QStringLiteral("the curves go back to")); }
+    double countOf(SignalStore::Row row) const
+    {
+        const int channel = plant.values().channels().channel(plant.table().indexOf(QStringLiteral("count")));
+        return double(plant.store()->value(channel, row));
+    }
+    /// The first row that was heard.
+    SignalStore::Row seam() const { return plant.store()->rowAt(heard); }
+    /// The counter counts each cycle that was computed: up to the first one that was heard, each of
+    /// them is there once, in its place on the grid of the phase. Empty: it is so.
+    QString defect() const
+    {
+        const SignalStore *store = plant.store();
+        const SignalStore::Row last = seam();
+        for (SignalStore::Row row = store->firstRow() + 1; row <= last; ++row) {
+            const Time distance = store->time(row) - store->time(row - 1);
+            if (countOf(row) != countOf(row - 1) + 1.0 || distance <= 0 || distance % period != 0)
+                return QStringLiteral("%1 at row %2 of %3, behind %4, %5 ns later")
+                    .arg(countOf(row))
+                    .arg(row)
+                    .arg(last)
+                    .arg(countOf(row - 1))
+                    .arg(distance);
+        }
+        return {};
+    }
+
+    Plant plant;
+    QStringList events;
+    Time heard = 0;  // of the first row that came from the master
+};
+
+}  // namespace
+
+// What a plant has done before a window was there.
+class tst_PlantPast : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void initTestCase();
+    void cyclesOfFileAndRingAreThereOnce();
+    void theRingAloneIsEnough();
+    void onlyTheNewestCyclesAreKept();
+    void filesOfAnotherPhaseThatIsNotTimedAreNotShown();
+    void ofSimulationsThePhaseThatRunsIsShown();
+    void aReadingThatIsUnwantedEnds();
+    void aRestartedWindowShowsWhatWasBefore();
+    void filesThatEndAndAreDeletedStayInTheCurves();
+    void formerPhasesComeWithTheNextOne();
+    void aWindowWithoutARecorderShowsWhatTheRingHas();
+    void recordingsThatAreNotHereAreTold();
+    void hostileNamesDoNoHarm_data();
+    void hostileNamesDoNoHarm();
+
+private:
+    QTemporaryDir m_rings{QStringLiteral("/dev/shm/qtplc-test-XXXXXX")};
+};
+
+void tst_PlantPast::initTestCase()
+{
+    QVERIFY(m_rings.isValid());
+    qputenv("QTPLC_RING_DIR", m_rings.path().toUtf8());
+}
+
+void tst_PlantPast::cyclesOfFileAndRingAreThereOnce()
+{
+    Flight flight;
+    flight.record(100, false);
+    flight.step(50);  // which the recorder has not saved
+    const Past past = read(flight.wish(130));
+    QVERIFY2(past.problem.isEmpty(), qPrintable(past.problem));
+    QVERIFY(past.hasFiles);
+    QVERIFY(past.isJoined);
+    const QString defect = defectOf(past, 0, 128, 130);
+    QVERIFY2(defect.isEmpty(), qPrintable(defect));
+}
+
+void tst_PlantPast::theRingAloneIsEnough()
+{
+    Flight flight;
+    QVERIFY(flight.start());
+    flight.step(150);
+    const Past past = read(flight.wish(150));
+    QVERIFY(!past.hasFiles);
+    QVERIFY(past.isJoined);
+    const QString defect = defectOf(past, 0, 148, 150);
+    QVERIFY2(defect.isEmpty(), qPrintable(defect));
+}
+
+/// A store of few rows: as of a plant whose table is very large.
+void tst_PlantPast::onlyTheNewestCyclesAreKept()
+{
+    Flight flight;
+    flight.record(150, false);
+    PastWish wish = flight.wish(150);
+    wish.period = RecordedBudget.history / 64;
+    const Past past = read(wish);
+    const SignalStore *store = past.values.store();
+    QCOMPARE(rowsOf(past), Time(64));
+    QCOMPARE(store->newestTime(), noon - period);
+    QCOMPARE(store->time(store->firstRow()), noon - 64 * period);
+}
+
+/// All times of simulations begin at 0: only the ring tells which phase runs.
+void tst_PlantPast::filesOfAnotherPhaseThatIsNotTimedAreNotShown()
+{
+    Flight flight(2);
+    flight.record(100);  // of phase 1
+    const Past past = read(flight.wish(130));
+    QVERIFY(!past.hasFiles);
+    QCOMPARE(rowsOf(past), Time(0));
+}
+
+void tst_PlantPast::ofSimulationsThePhaseThatRunsIsShown()
+{
+    Flight flight;
+    const QDir folder(flight.folder.path());
+    QVERIFY(QFile::rename(flight.record(150), folder.filePath(QStringLiteral("a_kite_abcdef_phase1.mcap"))));
+    Flight next(2);
+    next.description.phase = 2;
+    next.recorder.detach();
+    QVERIFY(next.ring->create(next.ringFile + "-2", 1 << 20, next.description.toText(), &next.error));
+    QVERIFY(QFile::remove(next.link));
+    QVERIFY(QFile::rename(QFile::decodeName(next.ringFile + "-2"), next.link));
+    QVERIFY(next.recorder.attach(QFile::encodeName(next.link), &next.error));
+    next.record(100, false);
+    QVERIFY(QFile::rename(next.file, folder.filePath(QStringLiteral("b_kite_abcdef_phase2.mcap.part"))));
+    PastWish wish = next.wish(100);
+    wish.file = folder.filePath(QStringLiteral("b_kite_abcdef_phase2.mcap.part"));
+    const Past past = read(wish);
+    QVERIFY2(past.hasFiles, qPrintable(past.problem));
+    const QString defect = defectOf(past, 0, 98, 100);
+    QVERIFY2(defect.isEmpty(), qPrintable(defect));
+}
+
+void tst_PlantPast::aReadingThatIsUnwantedEnds()
+{
+    Flight flight;
+    flight.record(100, false);
+    const Past past = readPast(flight.wish(100), std::atomic<bool>(true));
+    QCOMPARE(rowsOf(past), Time(0));
+}
+
+void tst_PlantPast::aRestartedWindowShowsWhatWasBefore()
+{
+    RecordedPlant plant;
+    QVERIFY(plant.fly(150));
+    Window window(plant.master);
+    QVERIFY2(window.waitForPast(), qPrintable(window.told()));
+    QVERIFY(window.seam() - window.plant.store()->firstRow() >= 140);
+    QCOMPARE(window.countOf(window.plant.store()->firstRow()), 1.0);
+    QVERIFY2(window.defect().isEmpty(), qPrintable(window.defect()));
+    // The line goes on, unless the master has left out a cycle right there.
+    const SignalStore *store = window.plant.store();
+    const SignalStore::Row seam = window.seam();
+    QCOMPARE(store->beginsAnew(seam), store->time(seam) - store->time(seam - 1) != period);
+    // And so do the cycles that come.
+    const SignalStore::Row end = store->endRow();
+    QTRY_VERIFY_WITH_TIMEOUT(window.plant.store()->endRow() > end + 20, patience);
+}
+
+void tst_PlantPast::filesThatEndAndAreDeletedStayInTheCurves()
+{
+    RecordedPlant plant(std::chrono::seconds(1));
+    QVERIFY(plant.fly(250));
+    Window window(plant.master);
+    QVERIFY2(window.waitForPast(), qPrintable(window.told()));
+    const QDir folder(plant.folder.path());
+    QTRY_VERIFY_WITH_TIMEOUT(folder.entryList({QStringLiteral("*.mcap")}).size() >= 2, patience);
+    const QStringList files = folder.entryList({QStringLiteral("*.mcap")});
+    for (const QString &file : files)
+        QVERIFY(QFile::remove(folder.filePath(file)));
+    QCOMPARE(window.countOf(window.plant.store()->firstRow()), 1.0);
+    QVERIFY2(window.defect().isEmpty(), qPrintable(window.defect()));
+}
+
+void tst_PlantPast::formerPhasesComeWithTheNextOne()
+{
+    RecordedPlant plant;
+    QVERIFY(plant.fly(50));
+    plant.master.stop();
+    QVERIFY(plant.master.waitForState(QPlcMasterNode::Off));
+    QVERIFY(plant.recorder.waitForFinished(std::chrono::seconds(20)));
+    const auto computed = SignalStore::Row(plant.recorder.status().cycles);
+    Window window(plant.master);
+    QTRY_COMPARE_WITH_TIMEOUT(window.plant.nextAction(), Plant::Start, patience);
+    QVERIFY(plant.master.startRealTime());
+    QVERIFY2(window.waitForPast(), qPrintable(window.told()));
+    const SignalStore *store = window.plant.store();
+    const SignalStore::Row first = store->firstRow();
+    QCOMPARE(window.countOf(first), 1.0);
+    QCOMPARE(window.countOf(first + computed - 1), double(computed));
+    QVERIFY(store->beginsAnew(first + computed));
+    QVERIFY(store->time(first + computed) > store->time(first + computed - 1));
+}
+
+/// A recorder that is started later changes nothing.
+void tst_PlantPast::aWindowWithoutARecorderShowsWhatTheRingHas()
+{
+    RunningMaster master;
+    QVERIFY(master.startRealTime());
+    const auto least = quint64(PlantPast::LeastOfRing / period);
+    QVERIFY(waitUntil([&] { return master.statistics().cycles > least; }, patience));
+    Window window(master);
+    QVERIFY2(window.waitForPast(), qPrintable(window.told()));
+    QCOMPARE(window.events.filter(QStringLiteral("from the ring of the master")).size(), 1);
+    QCOMPARE(window.countOf(window.plant.store()->firstRow()), 1.0);
+    QVERIFY2(window.defect().isEmpty(), qPrintable(window.defect()));
+    const SignalStore *store = window.plant.store();
+    QTemporaryDir folder;
+    QPlcRecorder recorder;
+    recorder.setTarget(folder.path());
+    recorder.setLeastFree(0);
+    QVERIFY(recorder.start());
+    const QStringList rings = QDir(m_rings.path()).entryList({QStringLiteral("qtplc-ring-*")}, QDir::Files);
+    QCOMPARE(rings.size(), 1);
+    QVERIFY(recorder.addRing(m_rings.filePath(rings.first())));
+    const auto isTold = [&] {
+        const auto &status = window.plant.status().master.recorder;
+        return status && !status->file.isEmpty();
+    };
+    QVERIFY(waitUntil(isTold, patience));
+    const quint64 rows = window.plant.values().rows();
+    QTRY_VERIFY_WITH_TIMEOUT(window.plant.values().rows() > rows + 20, patience);
+    QCOMPARE(window.plant.store(), store);
+    QCOMPARE(window.events.filter(QStringLiteral("the curves")).size(), 1);
+}
+
+void tst_PlantPast::recordingsThatAreNotHereAreTold()
+{
+    RecordedPlant plant;
+    QVERIFY(plant.fly(20));
+    const QString other = plant.folder.path() + QStringLiteral("-other");
+    QVERIFY(QFile::rename(plant.folder.path(), other));
+    Window window(plant.master);
+    const bool isTold
+        = window.waitFor(QStringLiteral("'%1', where this window cannot read them").arg(plant.folder.path()));
+    QVERIFY(QFile::rename(other, plant.folder.path()));
+    QVERIFY2(isTold, qPrintable(window.told()));
+    QVERIFY(window.plant.isConnected());
+}
+
+void tst_PlantPast::hostileNamesDoNoHarm_data()
+{
+    QTest::addColumn<QString>("name");
+    QTest::newRow("is not there") << "/nowhere/flight.mcap";
+    QTest::newRow("is not a path") << "office:/data/flight.mcap";
+    QTest::newRow("is a FIFO") << "%1/fifo.mcap";
+    QTest::newRow("is a symbolic link") << "%1/link.mcap";
+    QTest::newRow("has another session") << "%1/other.mcap";
+    QTest::newRow("is not a recording") << "%1/text.mcap";
+    QTest::newRow("is too large") << "%1/huge.mcap";
+    QTest::newRow("is a folder") << "%1";
+    QTest::newRow("has no end") << "/dev/zero";
+    QTest::newRow("belongs to the kernel") << "/proc/self/mem";
+}
+
+void tst_PlantPast::hostileNamesDoNoHarm()
+{
+    QFETCH(QString, name);
+    Flight flight;
+    const QString recording = flight.record(100, false);
+    const QDir folder(flight.folder.path());
+    QVERIFY(QFile::copy(recording, folder.filePath(QStringLiteral("other.mcap"))));
+    QVERIFY(QFile::link(recording, folder.filePath(QStringLiteral("link.mcap"))));
+    QCOMPARE(::mkfifo(QFile::encodeName(folder.filePath(QStringLiteral("fifo.mcap"))).constData(), 0600), 0);
+    QFile text(folder.filePath(QStringLiteral("text.mcap")));
+    QVERIFY(text.open(QIODevice::WriteOnly) && text.write("hello") == 5);
+    QVERIFY(QFile::copy(recording, folder.filePath(QStringLiteral("huge.mcap"))));
+    QVERIFY(QFile::resize(folder.filePath(QStringLiteral("huge.mcap")), LargestUnfinishedFile + 1));  // of no blocks
+    PastWish wish = flight.wish(100);
+    wish.file = name.contains(QStringLiteral("%1")) ? name.arg(folder.path()) : name;
+    QFile::remove(flight.link);  // the master runs elsewhere
+    wish.seam->cycleZero = 1;
+    if (name.endsWith(QStringLiteral("other.mcap")))
+        wish.session = 5;
+    const Past past = read(wish);
+    QCOMPARE(rowsOf(past), Time(0));
+    QVERIFY2(past.problem.contains(QStringLiteral("Remedy")), qPrintable(past.problem));
+}
+
+QTEST_MAIN(tst_PlantPast)
+#include "tst_PlantPast.moc"
