@@ -10,7 +10,6 @@ namespace qplc {
 namespace {
 
 constexpr PlotNotes::Time nanosecondsOfTime = 1'000'000;
-constexpr std::size_t mostKeptNotes = 2000;
 
 }  // namespace
 
@@ -24,18 +23,32 @@ bool PlotNotes::update(const QPlcPanelContext &context)
         m_newest = QPersistentModelIndex();
         m_entries.clear();
     }
-    const std::size_t before = m_entries.size();
+    bool isChanged = false;
     for (int row = m_newest.isValid() ? m_newest.row() + 1 : 0; row < events->rowCount(); ++row) {
         const QModelIndex index = events->index(row, 0);
-        if (!index.data(QPlcPanelContext::NoteRole).toBool() || m_entries.size() >= mostKeptNotes)
+        if (!index.data(QPlcPanelContext::NoteRole).toBool())
             continue;
         const QString source = index.siblingAtColumn(EventLogModel::Source).data().toString();
-        m_entries.push_back({{index.data(QPlcPanelContext::EventTimeRole).toLongLong() * nanosecondsOfTime,
-                              index.siblingAtColumn(EventLogModel::Text).data().toString()},
-                             source.section(QLatin1Char('/'), 0, 0)});
+        const bool isAdded = add({{index.data(QPlcPanelContext::EventTimeRole).toLongLong() * nanosecondsOfTime,
+                                   index.siblingAtColumn(EventLogModel::Text).data().toString()},
+                                  source.section(QLatin1Char('/'), 0, 0)});
+        isChanged = isChanged || isAdded;
     }
     m_newest = events->index(events->rowCount() - 1, 0);
-    return m_entries.size() != before;
+    return isChanged;
+}
+
+/// A master may tell an older one later. \return false: it is older than all of very many
+bool PlotNotes::add(Entry entry)
+{
+    const auto behind = std::upper_bound(m_entries.begin(), m_entries.end(), entry,
+                                         [](const Entry &a, const Entry &b) { return a.note.time < b.note.time; });
+    if (m_entries.size() == MostKept && behind == m_entries.begin())
+        return false;
+    m_entries.insert(behind, std::move(entry));
+    if (m_entries.size() > MostKept)
+        m_entries.erase(m_entries.begin());
+    return true;
 }
 
 std::vector<PlotNotes::Note> PlotNotes::between(Time begin, Time end, const QStringList &plants, int most) const
@@ -45,7 +58,6 @@ std::vector<PlotNotes::Note> PlotNotes::between(Time begin, Time end, const QStr
         if (entry.note.time >= begin && entry.note.time <= end && plants.contains(entry.plant))
             found.push_back(entry.note);
     }
-    std::stable_sort(found.begin(), found.end(), [](const Note &a, const Note &b) { return a.time < b.time; });
     if (found.size() > std::size_t(most))
         found.erase(found.begin(), found.end() - most);
     return found;

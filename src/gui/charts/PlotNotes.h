@@ -10,10 +10,13 @@
 namespace qplc {
 
 /// The notes that people have written about plants, as the event log has them: for marks in a plot.
+/// Of very many notes, the newest MostKept ones.
 class PlotNotes
 {
 public:
     using Time = QPlcPanelContext::Time;
+    static constexpr std::size_t MostKept = 2000;
+
     struct Note
     {
         Time time;  // [ns]
@@ -31,7 +34,9 @@ private:
         Note note;
         QString plant;
     };
-    std::vector<Entry> m_entries;
+    bool add(Entry entry);
+
+    std::vector<Entry> m_entries;    // oldest first
     QPersistentModelIndex m_newest;  // event that was looked at
 };
 

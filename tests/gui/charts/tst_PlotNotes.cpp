@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Notes of people as marks in a time plot.
 #include "FedPlotWindow.h"
+#include "gui/charts/PlotNotes.h"
 #include "gui/charts/PlotOverlay.h"
+
+#include <limits>
 
 using namespace qplc;
 
@@ -32,6 +35,7 @@ private Q_SLOTS:
     void aNoteThatComesIsShown();
     void notesOutsideOfTheViewAreNotShown();
     void onlyTheNewestOfManyAreShown();
+    void theNewestOfVeryManyAreKept();
 };
 
 void tst_PlotNotes::aNoteIsAMarkAtItsTime()
@@ -97,6 +101,25 @@ void tst_PlotNotes::onlyTheNewestOfManyAreShown()
     QVERIFY(window.show());
     QTRY_COMPARE(window.marks().size(), 50);
     QCOMPARE(window.marks().last().text, QStringLiteral("119"));
+}
+
+void tst_PlotNotes::theNewestOfVeryManyAreKept()
+{
+    NotesWindow window;
+    constexpr int many = int(PlotNotes::MostKept);
+    for (int i = 0; i < many; ++i)
+        window.tell(100, QStringLiteral("old"));
+    window.tell(200, QStringLiteral("new"));
+    window.tell(50, QStringLiteral("older than all"));  // of a master that tells it only now
+    QVERIFY(window.show());
+    QTRY_VERIFY(!window.marks().isEmpty());
+    QCOMPARE(window.marks().last().text, QStringLiteral("new"));
+    PlotNotes notes;
+    QVERIFY(notes.update(*window.plot->context()));
+    const auto all = notes.between(std::numeric_limits<PlotNotes::Time>::min(),
+                                   std::numeric_limits<PlotNotes::Time>::max(), {QStringLiteral("kite")}, 2 * many);
+    QCOMPARE(all.size(), PlotNotes::MostKept);
+    QCOMPARE(all.front().text, QStringLiteral("old"));
 }
 
 QTEST_MAIN(tst_PlotNotes)
