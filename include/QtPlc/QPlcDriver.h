@@ -6,6 +6,7 @@
 #include <QtCore/QStringList>
 
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <vector>
 
@@ -123,6 +124,11 @@ protected:
     /// \return false after fail(): the device counts as lost, and the node opens it again
     virtual bool write() { return true; }
 
+    /// Tells whether the device has taken the values of write(). The default is true: write()
+    /// returns when it has. A driver of a bus that confirms frames later calls this in open(), with
+    /// false, and in each read() or write(). QPlcHardwareNode::makeSafe() waits for it.
+    void setDelivered(bool isDelivered) { m_isDelivered.store(isDelivered, std::memory_order_relaxed); }
+
     /// Returns what to do about an error of the operating system, for errorString(). The default
     /// knows the usual ones: no such device, no permission, busy, no answer. Empty: nothing is
     /// known.
@@ -153,6 +159,7 @@ private:
     std::chrono::nanoseconds m_timeout;
     std::vector<QPlcChannel *> m_channels;
     qint64 m_now = 0;  // [ns]
+    std::atomic<bool> m_isDelivered{true};
     QString m_errorText;
     const char *m_operation = nullptr;  // that failed in a cycle; null: m_errorText says it
     int m_errorNumber = 0;

@@ -144,8 +144,9 @@ public:
     /// configuration: after a crash of the node, without a master. They keep getting these values
     /// until closeDevices().
     /// \param timeout  how long to wait for devices that do not answer
-    /// \return a sentence for each device that was not reached, and for each output without a safe
-    ///     value in the configuration; empty: all are safe
+    /// \return a sentence for each device that was not reached or has not taken its values
+    ///     (QPlcDriver::setDelivered()), and for each output without a safe value in the
+    ///     configuration; empty: all are safe
     QStringList makeSafe(std::chrono::milliseconds timeout);
 
 public Q_SLOTS:

@@ -67,6 +67,8 @@ public:
     /// Outputs that nobody has given a value.
     QStringList unsetOutputs() const;
     bool isOnline() const { return m_state.load(std::memory_order_acquire) >= Open; }
+    /// Whether the device has the values of the driver, as far as that can be known.
+    bool isDelivered() const { return isOnline() && m_driver->m_isDelivered.load(std::memory_order_relaxed); }
     quint64 failures() const { return m_failures.load(std::memory_order_relaxed); }
 
     // ---- in the cycle ----

@@ -408,14 +408,19 @@ QStringList QPlcHardwareNode::makeSafe(std::chrono::milliseconds timeout)
     }
     for (DriverRunner *runner : runners)
         m_hardware->open(runner);
-    const auto isMissing = [](const DriverRunner *runner) { return !runner->isOnline(); };
+    const auto isMissing = [](const DriverRunner *runner) { return !runner->isDelivered(); };
     const qint64 end = qplc::monotonicNow() + std::chrono::nanoseconds(timeout).count();
     while (std::any_of(runners.begin(), runners.end(), isMissing) && qplc::monotonicNow() < end)
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     QCoreApplication::sendPostedEvents(this, QEvent::MetaCall);  // what the threads have reported
     QStringList problems;
     for (const DriverRunner *runner : runners) {
-        if (isMissing(runner))
+        if (runner->isOnline() && isMissing(runner))
+            problems << QStringLiteral(
+                            "device '%1' has not taken its safe values: nobody on its bus acknowledges them; "
+                            "switch the device on, check wires, terminators and bit rate")
+                            .arg(runner->name());
+        else if (isMissing(runner))
             problems << QStringLiteral("device '%1' was not reached: %2")
                             .arg(runner->name(),
                                  m_hardware->failures.value(runner->name(), QStringLiteral("no answer")));

@@ -4,6 +4,7 @@
 #include "FakeDevices.h"
 #include "NodeFixtures.h"
 #include "canopen/CanOpenPeer.h"
+#include "hardware/can/FakeCanBus.h"
 
 #include <QtCore/QProcess>
 #include <QtCore/QTemporaryDir>
@@ -98,8 +99,13 @@ void tst_qtplc_hardware::safeNamesWhatItCannotReachAndEnds()
     QVERIFY(file.open(QIODevice::WriteOnly));
     file.write("[node]\nname = A\n[board]\ndriver = gpio\ndevice = fake:none\noutput.brake = 1\noutput.lamp = 2\n"
                "[board.write]\nlamp = lampOn\n[board.safe]\nbrake = 0\n"
-               "[drive]\ndriver = modbus\ndevice = fake:drive\nregister.a = coil 1\n[drive.safe]\na = 1\n");
+               "[drive]\ndriver = modbus\ndevice = fake:drive\nregister.a = coil 1\n[drive.safe]\na = 1\n"
+               "[winch]\ndriver = can\ndevice = fake:silent\nframe.F = 1, 1 byte\nsignal.F.a = 0|8@1+\n"
+               "[winch.safe]\nF.a = 1\n"
+               "[wheel]\ndriver = can\ndevice = fake:awake\nframe.F = 1, 1 byte\nsignal.F.a = 0|8@1+\n"
+               "[wheel.safe]\nF.a = 1\n");
     file.close();
+    QVERIFY(qplc::FakeCanBus::setAcknowledged(QStringLiteral("silent"), false));
     const Run safe = run({fileName, "--safe"});
     QCOMPARE(safe.code, 1);
     QVERIFY2(safe.errors.contains("device 'board' was not reached: ") && safe.errors.contains("fake:none"),
@@ -107,7 +113,10 @@ void tst_qtplc_hardware::safeNamesWhatItCannotReachAndEnds()
     QVERIFY2(safe.errors.contains("board.lamp has no safe value in the configuration; add it to the section "
                                   "'board.safe'"),
              qPrintable(safe.errors));
-    QVERIFY2(!safe.errors.contains("'drive' was not reached"), qPrintable(safe.errors));
+    QVERIFY2(safe.errors.contains("device 'winch' has not taken its safe values: nobody on its bus acknowledges them"),
+             qPrintable(safe.errors));
+    for (const char *told : {"'drive' was not", "'drive' has not", "'wheel' was not", "'wheel' has not"})
+        QVERIFY2(!safe.errors.contains(QLatin1String(told)), qPrintable(safe.errors));
     qunsetenv("QTPLC_FAKE_DEVICES");
 }
 

@@ -134,6 +134,8 @@ protected:
         prepare();
         if (!openBus(busOptions()))
             return false;
+        m_hasTakenAll = false;
+        setDelivered(false);
         QString error;
         if (m_hasLog && !m_log.open(m_configuration.logFile(), m_configuration.device(), &error))
             qCWarning(lcHardware).noquote() << name() << "goes on without a log:" << error;
@@ -159,6 +161,7 @@ protected:
         // The bus takes new frames when it has confirmed those of the cycle before.
         if (bus().unconfirmed() > 0 && !takeFrames())
             return false;
+        setDelivered(m_hasTakenAll && bus().unconfirmed() == 0);
         repeatFailed();
         int count = 0;
         for (std::size_t i = 0; i < m_senders.size(); ++i) {
@@ -169,6 +172,7 @@ protected:
         if (!send(m_outgoing.data(), count, &sent))
             return false;
         tellSent(sent);
+        m_hasTakenAll = sent == count;
         if (m_hasLog && sent > 0) {
             const qint64 time = monotonicNow();
             for (int i = 0; i < sent; ++i)
@@ -350,6 +354,7 @@ private:
     CanConfiguration m_configuration;
     CanLogWriter m_log;
     bool m_hasLog = false;
+    bool m_hasTakenAll = false;  // the bus, of what the last write() had for it
     std::vector<std::unique_ptr<CanReceiver>> m_receivers;
     std::vector<std::unique_ptr<CanSender>> m_senders;
 
