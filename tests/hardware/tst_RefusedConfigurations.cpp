@@ -86,8 +86,8 @@ const Case cases[] = {
      "write signal.F.a = start|length@order"},
     {"rule to send", Malformed, FRAME "signal.F.a = 0|8@1+\nsend.F = sometimes\n",
      "6:10: 'sometimes' does not say when to send", "write every cycle"},
-    {"device of no class", Malformed, "[d]\ndriver = sysfs\ndevice = ads1115\n[d.read]\nx = voltage0\n",
-     "3:10: 'ads1115' is not a device of the kernel", "write for example iio:ads1115"},
+    {"device of no class", Malformed, "[d]\ndriver = sysfs\ndevice = ads1015\n[d.read]\nx = voltage0\n",
+     "3:10: 'ads1015' is not a device of the kernel", "write for example iio:ads1015"},
 
     // ---- meaning: units and places ----
     {"number of a device", Semantic, "[d]\ndriver = sysfs\ndevice = hwmon:hwmon0\n",

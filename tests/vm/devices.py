@@ -14,6 +14,7 @@ from steps import Process, Skipped, command, wait_until
 CONFIG = Path("/sys/kernel/config/gpio-sim/bench")
 LINES = 8
 I2C_ADDRESSES = ("0x20", "0x68", "0x76")  # a port expander, an IMU, a barometer
+SYSFS_ADDRESSES = ("0x48", "0x49")  # a thermometer LM75, a converter ADS1015: for drivers of the kernel
 SPI_ANSWER = "/sys/module/spi_loop/parameters/answer"
 SPI_TRANSFER = struct.Struct("=QQIIHBBBBBB")  # struct spi_ioc_transfer
 
@@ -27,7 +28,7 @@ class Bench:
     """What the kernel has made, as the tests name it."""
 
     def __init__(self):
-        self.can = self.gpio = self.i2c = self.spi = ""
+        self.can = self.gpio = self.i2c = self.spi = self.sysfs = ""
         self.gpio_lines = None  # folder with the kernel's view of the lines
         self.modules = Path("/lib/modules")
         self.modules.mkdir(parents=True, exist_ok=True)
@@ -43,6 +44,8 @@ class Bench:
             values["QTPLC_TEST_GPIO"] = f"{self.gpio}:{self.gpio_lines}:2:5"
         if self.i2c:
             values["QTPLC_TEST_I2C"] = f"{self.i2c}:0x68"
+        if self.sysfs:
+            values["QTPLC_TEST_SYSFS"] = ":".join((self.sysfs, *SYSFS_ADDRESSES))
         if self.spi:
             values["QTPLC_TEST_SPI"] = f"{self.spi}:{SPI_ANSWER}"
         return values
@@ -107,7 +110,7 @@ class Bench:
 
     def make_i2c(self):
         command("modprobe", "i2c-dev")
-        command("modprobe", "i2c-stub", f"chip_addr={','.join(I2C_ADDRESSES)}")
+        command("modprobe", "i2c-stub", f"chip_addr={','.join(I2C_ADDRESSES + SYSFS_ADDRESSES)}")
         names = {
             Path(path).read_text().strip(): path.split("/")[-2] for path in glob.glob("/sys/bus/i2c/devices/i2c-*/name")
         }
@@ -118,6 +121,24 @@ class Bench:
         assert command("i2cget", "-y", number, "0x20", "0x05").strip() == "0x5a"
         self.i2c = f"/dev/{bus}"
         return f"{self.i2c} with {', '.join(I2C_ADDRESSES)}"
+
+    # ---- chips with a driver of the kernel ----
+
+    def make_sysfs(self):
+        command("modprobe", "lm75")
+        command("modprobe", "ti-ads1015")
+        number = self.i2c.split("-")[1]
+        bus = Path(f"/sys/bus/i2c/devices/i2c-{number}")
+        thermometer = SYSFS_ADDRESSES[0]
+        command("i2cset", "-y", number, thermometer, "0", "0x8019", "w")  # 25.5 degC, the high byte first
+        (bus / "new_device").write_text(f"lm75 {thermometer}")
+        try:
+            values = glob.glob(f"{bus}/*{thermometer[2:]}/hwmon/hwmon*/temp1_input")
+            assert [Path(value).read_text().strip() for value in values] == ["25500"], values
+        finally:
+            (bus / "delete_device").write_text(thermometer)
+        self.sysfs = number
+        return f"LM75 and ADS1015 at i2c-{number}"
 
     # ---- SPI ----
 

@@ -27,6 +27,7 @@ def steps(bench):
     yield "CAN of the kernel: vcan, classic and FD", bench.make_can
     yield "GPIO of the kernel: gpio-sim", bench.make_gpio
     yield "I2C of the kernel: i2c-stub", bench.make_i2c
+    yield "hwmon and IIO of the kernel: LM75 and ADS1015 at i2c-stub", bench.make_sysfs
     yield "SPI of the kernel: spidev on a bus without wires", bench.make_spi
     yield "SPI: the kernel's own spi-loopback-test", bench.test_spi
     yield from hardware.steps(bench)
@@ -53,7 +54,7 @@ def main():
     print(f"{booted:7.1f} s  the machine is up", flush=True)
     bench = devices.Bench()
     if "--prepare-only" in sys.argv:
-        for function in (bench.make_can, bench.make_gpio, bench.make_i2c, bench.make_spi):
+        for function in (bench.make_can, bench.make_gpio, bench.make_i2c, bench.make_sysfs, bench.make_spi):
             function()
         return 0
     done = [run(name, function) for name, function in steps(bench)]

@@ -30,12 +30,12 @@ def main():
         f"""# The virtual machine
 
 `scripts/test-vm` boots the kernel of Debian with PREEMPT_RT in QEMU, on emulated processors, with
-the test devices of the kernel: CAN (`vcan`), GPIO (`gpio-sim`), I2C (`i2c-stub`), SPI (`spidev` on
-a bus without wires, `tests/vm/spi_loop`). It tests the hardware library with these devices, and a
-master with nodes under `SCHED_FIFO`. It needs root and Debian 12 on x86-64, but no rights for
-virtualisation and no CAN, GPIO or I2C of the computer. It is a separate job: it takes three minutes
-to more than fifteen, depending on the computer that emulates. `scripts/test-vm --run COMMAND` runs
-your command there.
+the test devices of the kernel: CAN (`vcan`), GPIO (`gpio-sim`), I2C (`i2c-stub`, with chips for its
+drivers `lm75` and `ti-ads1015`), SPI (`spidev` on a bus without wires, `tests/vm/spi_loop`). It
+tests the hardware library with these devices, and a master with nodes under `SCHED_FIFO`. It needs
+root and Debian 12 on x86-64, but no rights for virtualisation and no CAN, GPIO or I2C of the
+computer. It is a separate job: it takes three minutes to more than fifteen, depending on the
+computer that emulates. `scripts/test-vm --run COMMAND` runs your command there.
 
 The times do not show performance, because the processors are emulated. The script writes this page.
 

@@ -63,7 +63,7 @@ const SysfsClass *SysfsClass::of(const QString &prefix)
 
 QString SysfsClass::examples()
 {
-    return QStringLiteral("iio:ads1115, hwmon:ina219, counter:NAME, w1:28-00000a1b2c3d or pwm:fe20c000.pwm");
+    return QStringLiteral("iio:ads1015, hwmon:ina219, counter:NAME, w1:28-00000a1b2c3d or pwm:fe20c000.pwm");
 }
 
 bool SysfsClass::isNumbered(const QString &name) const

@@ -13,7 +13,7 @@ struct SysfsClass
     enum Kind : quint8 { Iio, Hwmon, Counter, Thermometer, Pwm };
 
     Kind kind;
-    QString prefix;    // "iio", of "iio:ads1115"
+    QString prefix;    // "iio", of "iio:ads1015"
     QString what;      // "IIO device"
     QString folder;    // in /sys
     QString pattern;   // of the folders of devices
@@ -21,7 +21,7 @@ struct SysfsClass
 
     /// \return null if no class has this prefix
     static const SysfsClass *of(const QString &prefix);
-    /// "iio:ads1115" and more: what a key `device` may be.
+    /// "iio:ads1015" and more: what a key `device` may be.
     static QString examples();
 
     /// \param root  "/sys" \param name  of the device \return its folder; empty, with the reason

@@ -43,7 +43,7 @@ protected:
     {
         const QString root = settings.text(QStringLiteral("root"), QStringLiteral("/sys"));
         m_root = FakeMemory::isFake(root) ? FakeMemory::path(root) : root;
-        m_device = settings.requiredText(QStringLiteral("device"), QStringLiteral("iio:ads1115"));
+        m_device = settings.requiredText(QStringLiteral("device"), QStringLiteral("iio:ads1015"));
         m_retries = int(
             settings.integer(QStringLiteral("retries"), DeviceHealth::DefaultRetries, 0, DeviceHealth::MostRetries));
         m_class = SysfsClass::of(m_device.section(QLatin1Char(':'), 0, 0));
@@ -437,7 +437,7 @@ private:
     }
 
     QString m_root;
-    QString m_device;  // "iio:ads1115"
+    QString m_device;  // "iio:ads1015"
     const SysfsClass *m_class = nullptr;
     int m_retries = DeviceHealth::DefaultRetries;
     QByteArray m_function;  // of a counter

@@ -4,19 +4,21 @@
 #include "../sysfs/SysfsTree.h"
 #include "TestDevice.h"
 
+#include <QtCore/QProcess>
+
 /// A converter of the class IIO.
 class SysfsConverterDevice : public TestDevice
 {
 public:
     QString kind() const override { return QStringLiteral("sysfs"); }
-    QByteArray keys() const override { return "root = fake:converter\ndevice = iio:ads1115\n"; }
-    QString name() const override { return QStringLiteral("iio:ads1115"); }
+    QByteArray keys() const override { return "root = fake:converter\ndevice = iio:ads1015\n"; }
+    QString name() const override { return QStringLiteral("iio:ads1015"); }
     QStringList inputs() const override { return {QStringLiteral("voltage0")}; }
     QVector<double> values() const override { return {0.5, 4.095}; }
 
     bool plugIn() override
     {
-        m_tree.write(m_folder + "name", "ads1115\n");
+        m_tree.write(m_folder + "name", "ads1015\n");
         m_tree.write(m_folder + "in_voltage_scale", "0.5\n");
         m_tree.write(m_folder + "in_voltage0_raw", "0\n");
         return true;
@@ -77,8 +79,71 @@ private:
     const SysfsTree m_tree{QStringLiteral("fake:pwm")};
 };
 
+/// A chip with a driver of the kernel, at a bus of the module i2c-stub: its value is the word in
+/// register 0, high byte first.
+class SysfsKernelDevice : public TestDevice
+{
+public:
+    struct Chip
+    {
+        QString device;  // "hwmon:lm75"
+        QString channel;
+        QString driver;   // as the kernel calls it
+        QString address;  // "0x48"
+        double counts;    // of a unit, in 16 bits
+    };
+    SysfsKernelDevice(const QString &bus, const Chip &chip)
+        : m_bus(bus)
+        , m_chip(chip)
+    {
+    }
+
+    QString kind() const override { return QStringLiteral("sysfs"); }
+    QByteArray keys() const override { return "device = " + name().toUtf8() + "\ntimeout = 2 s\n"; }
+    QString name() const override { return m_chip.device; }
+    QStringList inputs() const override { return {m_chip.channel}; }
+    QVector<double> values() const override { return {1.5, -0.5}; }
+
+    bool plugIn() override { return write("new_device", m_chip.driver + QLatin1Char(' ') + m_chip.address); }
+    bool unplug() override
+    {
+        write("delete_device", m_chip.address);  // it may not be there
+        return true;
+    }
+    bool isEverSilent() const override { return false; }
+    void give(const QString &, double value) override
+    {
+        const auto word = quint16(qRound(value * m_chip.counts));
+        const quint16 swapped = quint16(word << 8 | word >> 8);
+        QProcess::execute(QStringLiteral("i2cset"),
+                          {QStringLiteral("-f"), QStringLiteral("-y"), m_bus, m_chip.address, QStringLiteral("0"),
+                           QString::number(swapped), QStringLiteral("w")});
+    }
+
+private:
+    bool write(const char *file, const QString &text) const
+    {
+        QFile target(QStringLiteral("/sys/bus/i2c/devices/i2c-%1/%2").arg(m_bus, QLatin1String(file)));
+        return target.open(QIODevice::WriteOnly | QIODevice::Unbuffered) && target.write(text.toUtf8()) > 0;
+    }
+    const QString m_bus;
+    const Chip m_chip;
+};
+
+/// QTPLC_TEST_SYSFS=BUS:ADDRESS:ADDRESS names a bus of the module i2c-stub, and free addresses for
+/// a thermometer LM75 and a converter ADS1015: "0:0x48:0x49".
 inline void addSysfsDevices(TestDevices *devices)
 {
+    const QStringList parts = testDeviceParts("QTPLC_TEST_SYSFS");
+    if (parts.size() == 3) {
+        const SysfsKernelDevice::Chip thermometer{QStringLiteral("hwmon:lm75"), QStringLiteral("temp1"),
+                                                  QStringLiteral("lm75"), parts[1], 256.0};
+        const SysfsKernelDevice::Chip converter{QStringLiteral("iio:ads1015"), QStringLiteral("voltage0"),
+                                                QStringLiteral("ads1015"), parts[2], 16000.0};
+        for (const SysfsKernelDevice::Chip &chip : {thermometer, converter})
+            devices->insert(QStringLiteral("sysfs, ") + chip.device,
+                            [bus = parts[0], chip] { return std::make_unique<SysfsKernelDevice>(bus, chip); });
+    }
     devices->insert(QStringLiteral("sysfs, fake converter"), [] { return std::make_unique<SysfsConverterDevice>(); });
     devices->insert(QStringLiteral("sysfs, fake PWM"), [] { return std::make_unique<SysfsPwmDevice>(); });
 }

@@ -32,13 +32,13 @@ struct Board
 struct Converter : Board
 {
     explicit Converter(const QByteArray &keys = {})
-        : Board("device = iio:ads1115\n" + keys)
+        : Board("device = iio:ads1015\n" + keys)
     {
         plugIn();
     }
     void plugIn()
     {
-        set("name", "ads1115\n");
+        set("name", "ads1015\n");
         set("in_voltage0_raw", "1000\n");
         set("in_voltage0_scale", "0.125\n");
         set("in_voltage1_raw", "-8\n");
@@ -175,7 +175,7 @@ void tst_SysfsDriver::aConvertedValueComesBeforeARawOne()
 void tst_SysfsDriver::devicesAreFoundByNameLabelOrPlace_data()
 {
     QTest::addColumn<QString>("device");
-    QTest::newRow("name") << "ads1115";
+    QTest::newRow("name") << "ads1015";
     QTest::newRow("label") << "winch-adc";
     QTest::newRow("place") << "1-0048";
 }
@@ -184,7 +184,7 @@ void tst_SysfsDriver::devicesAreFoundByNameLabelOrPlace()
 {
     QFETCH(QString, device);
     Board board("device = iio:" + device.toUtf8() + "\n");
-    board.sys.write("devices/i2c-1/1-0048/iio:device5/name", "ads1115\n");
+    board.sys.write("devices/i2c-1/1-0048/iio:device5/name", "ads1015\n");
     board.sys.write("devices/i2c-1/1-0048/iio:device5/label", "winch-adc\n");
     board.sys.write("devices/i2c-1/1-0048/iio:device5/in_voltage0_raw", "1000\n");
     board.sys.write("devices/i2c-1/1-0050/iio:device1/name", "mcp3421\n");
@@ -208,27 +208,27 @@ void tst_SysfsDriver::channelsAreFoundByTheirLabel()
 
 void tst_SysfsDriver::twoDevicesOfOneNameAreRefusedWithTheirPlaces()
 {
-    Board board("device = iio:ads1115\n");
+    Board board("device = iio:ads1015\n");
     for (const char *place : {"1-0048", "1-0049"}) {
         const QString folder = QStringLiteral("devices/%1/iio:device%2").arg(place, QString(place).right(1));
-        board.sys.write(folder + "/name", "ads1115\n");
+        board.sys.write(folder + "/name", "ads1015\n");
         board.sys.link("bus/iio/devices/" + folder.section('/', -1), folder);
     }
     QVERIFY(!board.bench.open());
     QCOMPARE(board.bench.errorString(),
-             QString("2 IIO devices are called 'ads1115'; name one by its place: iio:1-0048, iio:1-0049"));
+             QString("2 IIO devices are called 'ads1015'; name one by its place: iio:1-0048, iio:1-0049"));
 }
 
 void tst_SysfsDriver::anUnknownDeviceIsNamedWithThoseThatAreThere()
 {
-    Board board("device = iio:ads1015\n");
+    Board board("device = iio:ads1115\n");
     QVERIFY(!board.bench.open());
-    QVERIFY2(board.bench.errorString().contains("there is no IIO device 'iio:ads1015': the kernel has none")
+    QVERIFY2(board.bench.errorString().contains("there is no IIO device 'iio:ads1115': the kernel has none")
                  && board.bench.errorString().contains("; load the driver of the chip"),
              qPrintable(board.bench.errorString()));
-    board.sys.write("bus/iio/devices/iio:device0/name", "ads1115\n");
+    board.sys.write("bus/iio/devices/iio:device0/name", "ads1015\n");
     QVERIFY(!board.bench.open());
-    QCOMPARE(board.bench.errorString(), QString("there is no IIO device 'iio:ads1015'; known are: iio:ads1115"));
+    QCOMPARE(board.bench.errorString(), QString("there is no IIO device 'iio:ads1115'; known are: iio:ads1015"));
 }
 
 void tst_SysfsDriver::anUnknownChannelIsNamedWithThoseThatAreThere()
@@ -237,7 +237,7 @@ void tst_SysfsDriver::anUnknownChannelIsNamedWithThoseThatAreThere()
     QCOMPARE(converter.bench.wireRead("voltage9"), QString());
     QVERIFY(!converter.bench.open());
     QCOMPARE(converter.bench.errorString(),
-             QString("iio:ads1115 has no channel 'voltage9'; known are: voltage0, voltage1"));
+             QString("iio:ads1015 has no channel 'voltage9'; known are: voltage0, voltage1"));
 }
 
 void tst_SysfsDriver::whatIsNoNumberIsHeldUntilItsTimeout_data()
@@ -267,7 +267,7 @@ void tst_SysfsDriver::whatIsNoNumberIsHeldUntilItsTimeout()
     converter.bench.advance(21ms);
     QVERIFY(!converter.bench.exchange());
     QVERIFY(!converter.bench.isFresh("voltage0"));
-    QVERIFY2(converter.bench.errorString().contains("'in_voltage0_raw' of iio:ads1115")
+    QVERIFY2(converter.bench.errorString().contains("'in_voltage0_raw' of iio:ads1015")
                  && converter.bench.errorString().contains("; "),
              qPrintable(converter.bench.errorString()));
 }
@@ -542,8 +542,8 @@ void tst_SysfsDriver::invalidKeysAreReported_data()
 {
     QTest::addColumn<QByteArray>("keys");
     QTest::addColumn<QString>("part");
-    QTest::newRow("no device") << QByteArray() << "device = iio:ads1115";
-    QTest::newRow("no class") << QByteArray("device = ads1115\n") << "'ads1115' is not a device of the kernel; write";
+    QTest::newRow("no device") << QByteArray() << "device = iio:ads1015";
+    QTest::newRow("no class") << QByteArray("device = ads1015\n") << "'ads1015' is not a device of the kernel; write";
     QTest::newRow("no name") << QByteArray("device = iio:\n") << "'iio:' is not a device of the kernel";
     QTest::newRow("a number") << QByteArray("device = iio:iio:device0\n") << "'iio:device0' is a number";
     QTest::newRow("a number of a chip") << QByteArray("device = pwm:pwmchip0\nperiod = 1 ms\n")
