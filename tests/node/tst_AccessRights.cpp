@@ -55,15 +55,15 @@ private:
     /// Written apart from the table.
     static bool isMeantTo(Role role, const QString &kind)
     {
-        static const QStringList looking{"GetState",  "GetSignals", "GetStatistics", "GetSchedule",
-                                         "GetLeases", "GetEvents",  "GetRecords"};
+        static const QStringList looking{"GetState",    "GetSignals", "GetStatistics",
+                                         "GetSchedule", "GetLeases",  "GetEvents"};
         static const QStringList takingPart{
             "Hello",       "Register",      "AttachCyclicChannel", "ReceiveMyInitialOutputStates",
             "Initialized", "RealTimeReady", "NodeFault",           "Stop",
             "SafeStop"};
         static const QStringList operating{
-            "InitializeAllStates", "Arm",          "Reset", "StartRealTime", "SetSignals",
-            "TakeLease",           "ReleaseLease", "Evict", "Admit",         "Note"};
+            "InitializeAllStates", "Arm",   "Reset", "StartRealTime", "SetSignals", "TakeLease",
+            "ReleaseLease",        "Evict", "Admit", "Note",          "GetRecords"};
         return looking.contains(kind) || takingPart.contains(kind)
             || (operating.contains(kind) && (role == Role::Operator || role == Role::Engineer));
     }

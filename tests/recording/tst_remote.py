@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Recorders on another computer: here a process that sees no ring but by the network. The file has
-every cycle, also when recorders are killed; a second recorder is told who the first one is.
+every cycle, also when recorders are killed, and over TLS; a second recorder is told who the first
+one is, and an observer may not record.
 
 usage: tst_remote.py FOLDER_OF_PROGRAMS
 """
@@ -38,6 +39,7 @@ class Computers:
         self.programs, self.folder, self.port = programs, folder, free_port()
         self.address = f"127.0.0.1:{self.port}"
         self.rings = [Path(rings, name) for name in ("master", "ground")]
+        self.options = []  # of tools, for a secured plant
         self.children = []
         for place in self.rings:
             place.mkdir()
@@ -54,7 +56,7 @@ class Computers:
         return child
 
     def run(self, *arguments):
-        call = [self.programs / "qtplc", *map(str, arguments), "--master", self.address]
+        call = [self.programs / "qtplc", *map(str, arguments), "--master", self.address, *self.options]
         return subprocess.run(call, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
 
     def state(self):
@@ -62,7 +64,7 @@ class Computers:
         return json.loads(answer.stdout) if answer.returncode == 0 else {}
 
     def record(self, target):
-        return self.start(1, "qtplc", "record", target, "--master", self.address)
+        return self.start(1, "qtplc", "record", target, "--master", self.address, *self.options)
 
     def recorder(self):
         return self.state().get("recorder", {})
@@ -79,8 +81,8 @@ class Computers:
             child.stdout.close()
 
 
-def whole_flight_is_in_the_file(plant):
-    file = plant.folder / "flight.mcap"
+def whole_flight_is_in_the_file(plant, name):
+    file = plant.folder / name
     recorder = plant.record(file)
     time.sleep(0.5)  # it waits for the phase; not needed for its cycles
     assert plant.run("start", "--cycles", 300).returncode == 0
@@ -130,15 +132,35 @@ def master_that_ends_is_recorded_as_far_as_it_came(plant, master):
     assert not list(plant.rings[1].iterdir()), "a copy is left"
 
 
+def only_operators_record_secured_plants(plant):
+    for ring in plant.rings[0].iterdir():
+        ring.unlink()  # of masters that have ended
+    keys = plant.folder / "keys.ini"
+    for name, role in (("anna", "Operator"), ("screen", "Observer")):
+        copy = plant.folder / f"{name}.ini"
+        call = [plant.programs / "qtplc", "keys", "new", name, "--role", role, "--keys", keys, "--copy", copy]
+        subprocess.run(call, check=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    plant.start(0, "awe_master", "--port", plant.port, "--duration", 0, "--security", "psk", "--keys", keys)
+    plant.options = ["--security", "psk", "--keys", plant.folder / "screen.ini"]
+    wait_for(lambda: plant.state().get("state"), "the master listens")
+    observer = plant.record(plant.folder / "never.mcap")
+    said = observer.communicate(timeout=PATIENCE)[0]
+    assert observer.returncode == 1 and "role Observer may not send GetRecords" in said, said
+    assert "recorder" not in plant.state() or plant.recorder().get("state") == "None", plant.state()
+    plant.options[-1] = plant.folder / "anna.ini"
+    whole_flight_is_in_the_file(plant, "secured.mcap")
+
+
 def main(programs):
     with tempfile.TemporaryDirectory() as folder, tempfile.TemporaryDirectory(dir="/dev/shm") as rings:
         plant = Computers(Path(programs), Path(folder), rings)
         try:
             master = plant.start(0, "awe_master", "--port", plant.port, "--duration", 0)
             wait_for(lambda: plant.state().get("state"), "the master listens")
-            whole_flight_is_in_the_file(plant)
+            whole_flight_is_in_the_file(plant, "flight.mcap")
             killed_recorders_are_continued(plant)
             master_that_ends_is_recorded_as_far_as_it_came(plant, master)
+            only_operators_record_secured_plants(plant)
         finally:
             plant.end()
 

@@ -172,7 +172,8 @@ struct Row
                   "that has no other answer, NoAnswer for what nobody waits for");
     static_assert((outcome == Outcome::None) == std::is_same_v<typename Message::Answer, NoAnswer>,
                   "a message needs Outcome::None with NoAnswer, and another Outcome with any other Answer");
-    static_assert(sender == Sender::Everybody || purpose == Purpose::Command, "only commands can be kept to operators");
+    static_assert(sender == Sender::Everybody || purpose == Purpose::Command || purpose == Purpose::Question,
+                  "only commands and questions can be kept to operators");
 
     template<bool isListed>
     using If = std::conditional_t<isListed, List<Message>, List<>>;
@@ -221,7 +222,8 @@ using ClientTable = Table<
     Row<GetLeases, Sender::Everybody, Purpose::Question, Turn::InOrder, Outcome::Prompt, Writes::Nothing>,
     Row<GetEvents, Sender::Everybody, Purpose::Question, Turn::InOrder, Outcome::Prompt, Writes::Nothing>,
     Row<Note, Sender::Operators, Purpose::Command, Turn::InOrder, Outcome::Prompt, Writes::Nothing>,
-    Row<GetRecords, Sender::Everybody, Purpose::Question, Turn::InOrder, Outcome::Prompt, Writes::Nothing>>;
+    // Who records keeps other recorders away, and in lockstep the plant waits for it.
+    Row<GetRecords, Sender::Operators, Purpose::Question, Turn::InOrder, Outcome::Prompt, Writes::Nothing>>;
 
 /// By what somebody becomes known to a master, and a node of it.
 using Openings = ClientTable::Openings;
