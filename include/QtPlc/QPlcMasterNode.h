@@ -494,8 +494,8 @@ Q_SIGNALS:
     /// are recorded. A recorder that begins in a slot that is connected directly gets all cycles.
     /// \param file  of that memory, for `qtplc record --ring`
     void ringIsReady(const QString &file);
-    /// Emitted when the phase has ended: by stop(), at the cycle limit, or because of an error
-    /// (errorOccurred() came before).
+    /// Emitted when the phase has ended, after errorOccurred() if that was why. In lockstep up to 2
+    /// s later: when a recorder on another computer has the last cycles.
     void realTimeHasStopped();
     /// Emitted when a node with an Error policy had not answered at the end of a cycle.
     /// \param name  of the node

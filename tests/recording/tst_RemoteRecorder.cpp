@@ -167,6 +167,7 @@ private Q_SLOTS:
     void aMasterThatIsGoneIsRecordedAsFarAsItCame();
     void whoWaitsForAPhaseGetsAllOfIt();
     void whoIsSilentIsNotWaitedFor();
+    void theEndOfAPhaseIsWaitedForUntilItIsRecordedOrTheRecorderIsSilent();
     void onlyOneRecordsAndTheOtherIsToldWho();
     void aRecorderOfTheMastersComputerIsToldOf();
     void nonsenseIsRefused();
@@ -359,6 +360,17 @@ void tst_RemoteRecorder::whoIsSilentIsNotWaitedFor()
     QVERIFY(flight.ring->memory().isLocked(RingMemory::RecorderLock));
     flight.server.look(flight.now + RemoteRecorder::Silence);
     QVERIFY(!flight.ring->memory().isLocked(RingMemory::RecorderLock));
+}
+
+void tst_RemoteRecorder::theEndOfAPhaseIsWaitedForUntilItIsRecordedOrTheRecorderIsSilent()
+{
+    RemoteFlight flight;
+    QCOMPARE(flight.server.behind(flight.now), QString());
+    QVERIFY(flight.start() && flight.fly(1));
+    QCOMPARE(flight.server.behind(flight.now), flight.ground->name);
+    QCOMPARE(flight.server.behind(flight.now + RemoteRecorder::Attention), QString());
+    QVERIFY2(flight.land(), qPrintable(flight.error));
+    QCOMPARE(flight.server.behind(flight.now), QString());
 }
 
 void tst_RemoteRecorder::onlyOneRecordsAndTheOtherIsToldWho()

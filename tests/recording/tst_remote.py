@@ -132,6 +132,23 @@ def master_that_ends_is_recorded_as_far_as_it_came(plant, master):
     assert not list(plant.rings[1].iterdir()), "a copy is left"
 
 
+def lockstep_flights_are_recorded_to_their_end(plant):
+    """Their master ends with them."""
+    file = plant.folder / "lockstep.mcap"
+    clock = ["--lockstep", "--duration", 30, "--start-with", "Model,Autopilot"]
+    master = plant.start(0, "awe_master", "--port", plant.port, *clock)
+    wait_for(lambda: plant.state().get("state"), "the master listens")
+    recorder = plant.record(file)
+    time.sleep(0.5)  # it waits for the phase; not needed for its cycles
+    for node in ("awe_model", "awe_autopilot"):
+        plant.start(0, node, "--master", f"udp://{plant.address}")
+    said = recorder.communicate(timeout=PATIENCE)[0]
+    assert recorder.returncode == 0 and "3000 cycles" in said and " 0 missing" in said, said
+    assert master.wait(timeout=PATIENCE) == 0
+    facts, code = plant.verify(file)
+    assert code == 0 and facts["cycles"] == 3000, facts
+
+
 def only_operators_record_secured_plants(plant):
     for ring in plant.rings[0].iterdir():
         ring.unlink()  # of masters that have ended
@@ -160,6 +177,7 @@ def main(programs):
             whole_flight_is_in_the_file(plant, "flight.mcap")
             killed_recorders_are_continued(plant)
             master_that_ends_is_recorded_as_far_as_it_came(plant, master)
+            lockstep_flights_are_recorded_to_their_end(plant)
             only_operators_record_secured_plants(plant)
         finally:
             plant.end()

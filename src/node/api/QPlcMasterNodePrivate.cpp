@@ -492,6 +492,9 @@ bool QPlcMasterNodePrivate::apply(Event event, const QString &reason)
         return true;
     if (cell.verdict == qplc::Verdict::Refused)
         return error.set(QPlcMasterNode::StateError, refusalText(*this, event, cell.text));
+    const bool isBegin = m_state == QPlcMasterNode::Off && cell.next != m_state && parts;
+    if (isBegin && parts->phase.waitNoLonger())
+        return apply(event, reason);  // who heard of the end may have done something
     prepareFor(cell.action);
     enter(cell.next, reason);
     if (m_state == cell.next)  // else who heard of it has done something
@@ -578,7 +581,7 @@ void QPlcMasterNodePrivate::carryOut(Action action, const QString &reason)
             journal.nodeReturned(node->name());
         parts->reports.takeLast();
         parts->texts.close();
-        Q_EMIT q->realTimeHasStopped();
+        parts->phase.whenRecorded([this] { Q_EMIT q->realTimeHasStopped(); });
         break;
     case Action::MakeCyclesSafe:
     case Action::LatchReason:

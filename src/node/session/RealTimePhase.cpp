@@ -9,6 +9,8 @@ namespace qplc {
 
 namespace {
 
+constexpr int LookForRecorder = 20;  // [ms]
+
 /// Those that a phase was computed with, for people who read a recording of it.
 QMap<QString, QString> parametersOf(const MasterCycle::Phase &phase)
 {
@@ -37,6 +39,8 @@ RealTimePhase::RealTimePhase(MasterCycle &cycle, const NodeRegistry &registry, R
     , m_recorder(journal, [&cycle] { return cycle.tap().missing(); })
     , m_blackBox(journal, m_ring, {[this] { return m_isRunning; }, [&cycle] { return cycle.cycle(); }})
 {
+    m_recorderTimer.setInterval(LookForRecorder);
+    QObject::connect(&m_recorderTimer, &QTimer::timeout, [this] { lookForRecorder(); });
 }
 
 MasterCycle::Phase RealTimePhase::settingsOfCycles() const
@@ -121,6 +125,38 @@ void RealTimePhase::keepCycles(const QString &reason)
 void RealTimePhase::renewRoster()
 {
     m_cycle.setRoster(m_rosters.make());
+}
+
+void RealTimePhase::whenRecorded(std::function<void()> told)
+{
+    m_whenRecorded = std::move(told);
+    m_waitsUntil = monotonicNow() + std::chrono::nanoseconds(LongestWaitForRecorder).count();
+    m_recorderTimer.start();
+    lookForRecorder();
+}
+
+void RealTimePhase::lookForRecorder()
+{
+    const std::int64_t now = monotonicNow();
+    const QString recorder = m_settings.clock.isTimed() ? QString() : m_remoteRecorder.behind(now);
+    if (!recorder.isEmpty() && now < m_waitsUntil)
+        return;
+    if (!recorder.isEmpty())
+        m_journal.tell(JournalEvent::Warning, JournalEvent::State, NodeRegistry::masterName(),
+                       QStringLiteral("the recorder %1 has not recorded the end of the phase within %2 s; if this "
+                                      "master ends, the ring keeps it for `qtplc record FOLDER/` on this computer")
+                           .arg(recorder)
+                           .arg(LongestWaitForRecorder.count()));
+    waitNoLonger();
+}
+
+bool RealTimePhase::waitNoLonger()
+{
+    m_recorderTimer.stop();
+    const std::function<void()> told = std::exchange(m_whenRecorded, nullptr);
+    if (told)
+        told();
+    return bool(told);
 }
 
 void RealTimePhase::end()

@@ -37,6 +37,13 @@ public:
     /// run. \param reason  "safe stop"
     void keepCycles(const QString &reason);
     void makeSafe() { m_cycle.makeSafe(); }
+    static constexpr std::chrono::seconds LongestWaitForRecorder{2};
+    /// Calls \a told when a recorder on another computer has the end of the phase: a program may
+    /// end with its phase. It waits only with a clock that is not timed, and not longer than
+    /// LongestWaitForRecorder. Otherwise it calls at once.
+    void whenRecorded(std::function<void()> told);
+    /// Calls it now, if it has not been called. \return whether it was called
+    bool waitNoLonger();
     /// Waits until the cycle in progress has ended, if cycles run.
     void end();
     /// Whether cycles have ended since the last call; then no node is in them any more.
@@ -51,6 +58,7 @@ public:
     QString cycleText() const;
 
 private:
+    void lookForRecorder();
     MasterCycle::Phase settingsOfCycles() const;
     std::shared_ptr<RecordRing> makeRing();
 
@@ -66,6 +74,9 @@ private:
     RecorderWatch m_recorder;
     RemoteRecorder m_remoteRecorder{[this] { return m_ring.isOpen() ? m_ring.file() : QString(); }};
     BlackBox m_blackBox;
+    std::function<void()> m_whenRecorded;  // empty: nobody is waited for
+    std::int64_t m_waitsUntil = 0;         // [ns]
+    QTimer m_recorderTimer;
     bool m_isRunning = false;
     bool m_hasEnded = false;
 };

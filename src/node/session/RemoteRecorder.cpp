@@ -127,6 +127,12 @@ void RemoteRecorder::end(Ring *ring)
     ring->reader.reset();
 }
 
+QString RemoteRecorder::behind(std::int64_t now) const
+{
+    const bool isBehind = !m_rings.empty() && m_rings.back().reader && now - m_heard < Attention;
+    return isBehind ? m_name : QString();
+}
+
 void RemoteRecorder::look(std::int64_t now)
 {
     if (now - m_heard < Silence)
