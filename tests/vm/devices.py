@@ -57,6 +57,7 @@ class Bench:
 
     def make_can(self):
         command("modprobe", "vcan", "echo=1")  # frames are confirmed as by a controller
+        command("modprobe", "sch_tbf")  # makes a slow queue
         command("modprobe", "can-raw")
         command("ip", "link", "add", "vcan0", "type", "vcan")
         command("ip", "link", "set", "vcan0", "mtu", 72)

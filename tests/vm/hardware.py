@@ -15,6 +15,7 @@ def steps(bench):
     yield "hardware: conformance of the drivers on devices of the kernel", lambda: test(
         "tst_DriverConformance", bench.environment()
     )
+    yield "hardware: CAN bus of the kernel, and its queue", lambda: test("tst_CanBus", bench.environment())
     yield "hardware: 20 CAN frames a cycle on vcan", lambda: can_frames(bench)
 
 

@@ -208,6 +208,7 @@ private Q_SLOTS:
     void overflowOfTheControllerIsALoss();
     void framesOfTheBusAreConfirmed_data() { addBuses(); }
     void framesOfTheBusAreConfirmed();
+    void kernelHoldsOneFrameOfASlowQueue();
     void busHoldsBackUntilFramesAreConfirmed();
     void framesOfOneTurnDoNotWaitForEachOther();
     void busWithoutSentKeysHoldsNothingBack();
@@ -492,6 +493,33 @@ void tst_CanBus::framesOfTheBusAreConfirmed()
     }
     QCOMPARE(a->counters().received, quint64(0));
     QCOMPARE(a->counters().unsent, quint64(0));
+}
+
+// The queue of the kernel as in an outage: a token bucket lets a frame pass each half second.
+void tst_CanBus::kernelHoldsOneFrameOfASlowQueue()
+{
+    const QString interface = qEnvironmentVariable("QTPLC_TEST_CAN");
+    if (interface.isEmpty() || !CanLink::read(int(if_nametoindex(interface.toLatin1()))).hasEcho)
+        QSKIP("QTPLC_TEST_CAN names no interface of the kernel with echo, as vcan has with echo=1");
+    const auto tc = [&interface](const QStringList &bucket) {
+        const QStringList place{QStringLiteral("dev"), interface, QStringLiteral("root")};
+        return QProcess::execute(QStringLiteral("tc"),
+                                 QStringList{QStringLiteral("qdisc"), bucket.first()} + place + bucket.mid(1));
+    };
+    const auto a = join(interface, sends(5));
+    QCOMPARE(tc(QStringLiteral("add tbf rate 256bit burst 20 limit 2000").split(QLatin1Char(' '))), 0);
+    const auto restore = qScopeGuard([&tc] { tc({QStringLiteral("del")}); });
+    int most = 0;
+    for (int i = 0; i < 100; ++i) {
+        const CanFrame frame = frameOf(5);
+        receiveAll(*a);
+        a->send(&frame, 1, monotonicNow());
+        most = std::max(most, a->unconfirmed());
+        QThread::msleep(10);
+    }
+    QCOMPARE(most, 1);
+    QCOMPARE(a->counters().failed, quint64(0));  // it waits in the queue, so it was not dropped
+    QVERIFY(a->counters().sent > 0 && a->counters().unsent > a->counters().sent);
 }
 
 void tst_CanBus::busHoldsBackUntilFramesAreConfirmed()
