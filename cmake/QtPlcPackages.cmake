@@ -123,6 +123,6 @@ qtplc_package(libqtplc-gui-dev SECTION libdevel
 qtplc_package(qtplc-control-center SECTION science
     SUMMARY "distributed real-time controllers, Control Center"
     DESCRIPTION "The window in which people see, steer and understand a running QtPLC plant."
-    DEPENDS libqtplc-gui RECOMMENDS qtplc-awe qtplc-doc qtplc-tools)
+    DEPENDS libqtplc-gui RECOMMENDS qtplc-awe qtplc-doc qtplc-tools SUGGESTS ffmpeg)
 
 include(CPack)

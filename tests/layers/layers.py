@@ -75,6 +75,7 @@ ARROWS = {
         "node",
         "node/state",
         "node/session",
+        "recording",
         "gui",
         "gui/plant",
         "gui/models",

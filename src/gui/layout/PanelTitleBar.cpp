@@ -69,8 +69,17 @@ QToolButton *PanelTitleBar::addButton(QAction *action, Presence presence)
 void PanelTitleBar::fitButtons()
 {
     const bool isThereRoom = width() >= 10 * TitleButton::sizeIn(this);
-    for (QToolButton *button : qAsConst(m_optional))
-        button->setVisible(isThereRoom);
+    for (int i = 0; i < m_buttons->count(); ++i) {
+        auto *button = qobject_cast<QToolButton *>(m_buttons->itemAt(i)->widget());
+        button->setVisible(m_areButtonsShown && (isThereRoom || !m_optional.contains(button)));
+    }
+}
+
+void PanelTitleBar::setButtonsShown(bool areShown)
+{
+    m_areButtonsShown = areShown;
+    fitButtons();
+    update();
 }
 
 void PanelTitleBar::resizeEvent(QResizeEvent *event)

@@ -44,6 +44,8 @@ public:
     enum Presence { Always, WhereThereIsRoom };
     /// A button at the right that shows and triggers \a action.
     QToolButton *addButton(QAction *action, Presence presence = Always);
+    /// Pictures for others have no buttons.
+    void setButtonsShown(bool areShown);
     /// Whether the keyboard is in the panel.
     void setActive(bool isActive);
     void startRename();
@@ -84,6 +86,7 @@ private:
     Badge m_badge;
     QBoxLayout *m_buttons;
     QVector<QToolButton *> m_optional;  // there only where there is room
+    bool m_areButtonsShown = true;
     bool m_isActive = false;
     Drag m_drag = NotPressed;
     QPoint m_pressed;

@@ -6,6 +6,7 @@
 #include "VideoSink.h"
 #include "gui/layout/LayoutView.h"
 #include "gui/layout/PageView.h"
+#include "gui/layout/PanelTitleBar.h"
 #include "gui/panel/DrawNow.h"
 #include "gui/plant/PlantRecording.h"
 
@@ -13,6 +14,7 @@
 #include <QtCore/QElapsedTimer>
 #include <QtCore/QEventLoop>
 #include <QtCore/QFileInfo>
+#include <QtCore/QPointer>
 #include <QtCore/QStorageInfo>
 
 #include <cmath>
@@ -48,11 +50,18 @@ struct QPlcVideoExport::Private : public QObject
         connect(window->context()->curveSources(), &CurveSources::filled, this, [this] { looks = 0; });
     }
 
+    ~Private() override
+    {
+        if (sink && window)
+            showButtons(true);
+    }
+
     bool begin(const QString &fileName, const Options &wanted);
     bool checkOptions();
     bool checkRange();
     bool resizeTo(const QSize &size);
     bool beginSink(const QString &fileName);
+    void showButtons(bool areShown) const;
     PageView *page() const;
     qint64 timeOf(int frame) const;
     void showFrame();
@@ -67,7 +76,7 @@ struct QPlcVideoExport::Private : public QObject
     }
 
     QPlcVideoExport *q;
-    QPlcControlCenter *window;
+    QPointer<QPlcControlCenter> window;
     LayoutView *view;
     Playback *playback;
     Options options;
@@ -166,6 +175,14 @@ bool QPlcVideoExport::Private::beginSink(const QString &fileName)
     return sink != nullptr;
 }
 
+/// In a picture nobody can press them.
+void QPlcVideoExport::Private::showButtons(bool areShown) const
+{
+    const QList<PanelTitleBar *> bars = window->findChildren<PanelTitleBar *>();
+    for (PanelTitleBar *bar : bars)
+        bar->setButtonsShown(areShown);
+}
+
 bool QPlcVideoExport::Private::begin(const QString &fileName, const Options &wanted)
 {
     if (sink)
@@ -179,6 +196,7 @@ bool QPlcVideoExport::Private::begin(const QString &fileName, const Options &wan
         return fail(tr("the window shows no panels; show it, and a tab with panels, first"));
     if ((!options.size.isEmpty() && !resizeTo(options.size)) || !beginSink(fileName))
         return false;
+    showButtons(false);
     playback->pause();
     window->context()->timeAxis()->setPointer(std::nullopt);
     // Plots of a single picture show all of the recording.
@@ -261,6 +279,7 @@ void QPlcVideoExport::Private::end(const QString &failure)
     timer.stop();
     error = failure;
     sink.reset();
+    showButtons(true);
     Q_EMIT q->finished(failure.isEmpty());
 }
 

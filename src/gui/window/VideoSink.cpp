@@ -2,13 +2,13 @@
 #include "VideoSink.h"
 
 #include "gui/WindowText.h"
+#include "recording/OutputFile.h"
 
 #include <QtCore/QDir>
 #include <QtCore/QFileInfo>
 #include <QtCore/QProcess>
 #include <QtCore/QStandardPaths>
 #include <QtCore/QTemporaryDir>
-#include <QtCore/QTemporaryFile>
 
 #include <cerrno>
 #include <cstdio>
@@ -74,7 +74,7 @@ class VideoFile final : public VideoSink
 public:
     explicit VideoFile(const Format &format)
         : m_format(format)
-        , m_file(QFileInfo(format.name).absolutePath() + QStringLiteral("/.qtplc-XXXXXX"))
+        , m_file(format.name, format.isReplacing ? OutputFile::Replace : OutputFile::Refuse)
     {
     }
     ~VideoFile() override
@@ -86,17 +86,13 @@ public:
     }
     bool begin()
     {
-        const QString &name = m_format.name;
-        if (!m_format.isReplacing && QFileInfo::exists(name))
-            return fail(WindowText::tr("'%1' is there already; choose another name").arg(name));
-        if (QFileInfo(name).isDir())
-            return fail(writeError(name, WindowText::tr("it is a folder")));
+        QString error;
         const QString program = QStandardPaths::findExecutable(QStringLiteral("ffmpeg"));
         if (program.isEmpty())
             return fail(WindowText::tr("a video needs the program ffmpeg, which is not installed (Debian: ffmpeg); a "
                                        "name without .mp4 or .webm gives a folder of pictures without it"));
-        if (!m_file.open())
-            return fail(writeError(name, m_file.errorString()));
+        if (!m_file.open(&error))
+            return fail(error);
         m_encoder.setStandardOutputFile(QProcess::nullDevice());
         m_encoder.start(program, arguments());
         return m_encoder.waitForStarted(ChildEnds)
@@ -124,15 +120,8 @@ public:
     }
     bool commit() override
     {
-        const QByteArray from = QFile::encodeName(m_file.fileName());
-        const QByteArray to = QFile::encodeName(m_format.name);
-        if (!m_format.isReplacing && QFileInfo::exists(m_format.name))
-            return fail(WindowText::tr("'%1' is there already; choose another name").arg(m_format.name));
-        QFile::setPermissions(m_file.fileName(), m_file.permissions() | QFile::ReadGroup | QFile::ReadOther);
-        if (::rename(from.constData(), to.constData()) != 0)
-            return fail(writeError(m_format.name, qt_error_string(errno)));
-        m_file.setAutoRemove(false);
-        return true;
+        QString error;
+        return m_file.commit(&error) || fail(error);
     }
 
 private:
@@ -163,7 +152,7 @@ private:
             all << QStringLiteral("-c:v") << QStringLiteral("libx264") << QStringLiteral("-crf") << QStringLiteral("20")
                 << QStringLiteral("-movflags") << QStringLiteral("+faststart") << QStringLiteral("-f")
                 << QStringLiteral("mp4");
-        return all << m_file.fileName();
+        return all << m_file.temporaryName();
     }
     /// \return false, with the reason, when ffmpeg has ended too early or with an error
     bool hasSucceeded()
@@ -180,7 +169,7 @@ private:
     }
 
     Format m_format;
-    QTemporaryFile m_file;
+    OutputFile m_file;  // under its temporary name, ffmpeg writes it
     QProcess m_encoder;
     bool m_hasEnded = false;
 };

@@ -6,11 +6,13 @@
 #include "RecordedFlight.h"
 #include "WindowFixtures.h"
 #include "gui/layout/PageView.h"
+#include "gui/layout/PanelTitleBar.h"
 #include "gui/plant/PlantRecording.h"
 #include "gui/window/VideoCommand.h"
 
 #include <QtGui/QPainter>
 
+#include <algorithm>
 #include <cmath>
 
 Q_DECLARE_METATYPE(QPlcVideoExport::Options)
@@ -153,6 +155,7 @@ class tst_Videos : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
+    void picturesHaveNoButtons();
     void eachPictureShowsItsTime();
     void gaugesShowTheTimeOfEachPicture();
     void theSpeedAndTheRateDecideWhichTimesAreShown();
@@ -173,6 +176,32 @@ private Q_SLOTS:
 private:
     TestSettings m_settings;
 };
+
+void tst_Videos::picturesHaveNoButtons()
+{
+    VideoWindow fixture;
+    const auto buttons = [&fixture] {
+        int seen = 0;
+        const QList<PanelTitleBar *> bars = fixture.page()->findChildren<PanelTitleBar *>();
+        for (PanelTitleBar *bar : bars) {
+            const QList<QToolButton *> all = bar->findChildren<QToolButton *>();
+            seen += int(std::count_if(all.begin(), all.end(), [](QToolButton *button) { return button->isVisible(); }));
+        }
+        return seen;
+    };
+    const int before = buttons();
+    QVERIFY(before > 0);
+    int inPictures = 0;
+    connect(&fixture.video, &QPlcVideoExport::progressed, this, [&] { inPictures += buttons(); });
+    QVERIFY2(fixture.make(fixture.file("frames")), qPrintable(fixture.video.errorString()));
+    QCOMPARE(inPictures, 0);
+    QCOMPARE(buttons(), before);
+    {
+        QPlcVideoExport forgotten(&fixture.window);
+        QVERIFY(forgotten.start(fixture.file("others"), fixture.options));
+    }
+    QCOMPARE(buttons(), before);
+}
 
 void tst_Videos::eachPictureShowsItsTime()
 {
