@@ -43,6 +43,8 @@ const char style[]
       ".curve.c0{fill:var(--c0);stroke:var(--c0)}.curve.c1{fill:var(--c1);stroke:var(--c1)}"
       ".curve.c2{fill:var(--c2);stroke:var(--c2)}.curve.c3{fill:var(--c3);stroke:var(--c3)}"
       ".curve.c4{fill:var(--c4);stroke:var(--c4)}.curve.c5{fill:var(--c5);stroke:var(--c5)}"
+      ".state{fill-opacity:.35}.state.c0{fill:var(--c0)}.state.c1{fill:var(--c1)}.state.c2{fill:var(--c2)}"
+      ".state.c3{fill:var(--c3)}.state.c4{fill:var(--c4)}.state.c5{fill:var(--c5)}.state.several{fill:var(--soft)}"
       ".bar rect{fill:var(--c0)}span.c0{color:var(--c0)}span.c1{color:var(--c1)}span.c2{color:var(--c2)}"
       "span.c3{color:var(--c3)}span.c4{color:var(--c4)}span.c5{color:var(--c5)}"
       ".wide{overflow-x:auto}table{border-collapse:collapse;width:100%;font-size:14px}"
@@ -365,7 +367,6 @@ private:
     /// The curves of a panel that share an axis.
     struct Group
     {
-        QString key;
         QString unit;
         ReportPlot plot;
     };
@@ -374,13 +375,16 @@ private:
     {
         std::vector<Group> groups;
         QStringList missing;
-        for (const ReportPanel::Curve &curve : panel.curves) {
-            if (const Trace *trace = traceOf(curve.signal))
-                addCurve(curve, *trace, &groups);
-            else
-                missing << curve.signal;
-        }
         QByteArray drawings;
+        for (const ReportPanel::Curve &curve : panel.curves) {
+            const Trace *trace = traceOf(curve.signal);
+            if (!trace)
+                missing << curve.signal;
+            else if (curve.isBands)
+                drawings += bandsOf(panel, curve, *trace);
+            else
+                addCurve(curve, *trace, &groups);
+        }
         for (Group &group : groups) {
             QStringList parts;
             if (!panel.title.isEmpty())
@@ -398,17 +402,33 @@ private:
                 + ". A report has signals of the recording, and no formulas.</p></figure>\n";
         return drawings;
     }
+    QByteArray bandsOf(const ReportPanel &panel, const ReportPanel::Curve &curve, const Trace &trace) const
+    {
+        const QPlcValueNames &names = m_recording.signalList()[std::size_t(trace.signal)].definition.valueNames;
+        QStringList title{panel.title, curve.name.isEmpty() ? curve.signal : curve.name};
+        title.removeAll({});
+        ReportStates states;
+        states.title = title.join(QStringLiteral(": "));
+        states.begin = secondsOf(m_selection.begin);
+        states.end = secondsOf(m_selection.end + 1);
+        states.intervals = trace.intervals;
+        states.nameOf = [&names](double state) {
+            const QString name = names.nameOf(qint64(state));
+            return name.isEmpty() ? shortNumber(state) : name;
+        };
+        return drawingOf(states);
+    }
     void addCurve(const ReportPanel::Curve &curve, const Trace &trace, std::vector<Group> *groups) const
     {
         const QPlcSignalDefinition &signal = m_recording.signalList()[std::size_t(trace.signal)].definition;
         const QString name = curve.name.isEmpty() ? curve.signal : curve.name;
-        const QString key = curve.isBands ? QStringLiteral("bands %1").arg(curve.signal) : signal.unit;
-        auto found = std::find_if(groups->begin(), groups->end(), [&](const Group &each) { return each.key == key; });
+        auto found
+            = std::find_if(groups->begin(), groups->end(), [&](const Group &each) { return each.unit == signal.unit; });
         if (found == groups->end()) {
             ReportPlot plot;
             plot.begin = secondsOf(m_selection.begin);
             plot.end = secondsOf(m_selection.end + 1);
-            found = groups->insert(groups->end(), {key, signal.unit, plot});
+            found = groups->insert(groups->end(), {signal.unit, plot});
         }
         found->plot.curves.push_back(scaled(trace.intervals, curve.gain, curve.offset));
         found->plot.names << name;

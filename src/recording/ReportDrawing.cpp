@@ -70,6 +70,24 @@ Axis axisOf(const ReportPlot &plot)
     return {all.minimum - room, all.maximum + room, Height - Bottom, Top};
 }
 
+/// Lines of times above \a bottom, and their labels below it.
+void addTimes(const Axis &x, double bottom, QByteArray *grid, QByteArray *labels)
+{
+    const bool isHours = x.high - x.low > 2 * 3600.0;
+    const bool isMinutes = !isHours && x.high - x.low > 300.0;
+    const double unit = isHours ? 3600.0 : isMinutes ? 60.0 : 1.0;
+    const double horizontal = tickStep((x.high - x.low) / unit, 6) * unit;
+    for (double value = std::ceil(x.low / horizontal) * horizontal; value <= x.high; value += horizontal) {
+        *grid += line(x.at(value), Top, x.at(value), bottom);
+        const bool isLast = value + horizontal > x.high;
+        const QString name = isLast ? isHours ? QStringLiteral(" h")
+                : isMinutes                   ? QStringLiteral(" min")
+                                              : QStringLiteral(" s")
+                                    : QString();
+        *labels += text(x.at(value), bottom + 19, "middle", shortNumber(value / unit) + name);
+    }
+}
+
 QByteArray gridOf(const Axis &x, const Axis &y)
 {
     QByteArray grid = "<g class=\"grid\">";
@@ -80,19 +98,7 @@ QByteArray gridOf(const Axis &x, const Axis &y)
         const double rounded = std::abs(value) < 1e-9 * vertical ? 0.0 : value;
         labels += text(Left - 6, y.at(value) + 5, "end", shortNumber(rounded));
     }
-    const bool isHours = x.high - x.low > 2 * 3600.0;
-    const bool isMinutes = !isHours && x.high - x.low > 300.0;
-    const double unit = isHours ? 3600.0 : isMinutes ? 60.0 : 1.0;
-    const double horizontal = tickStep((x.high - x.low) / unit, 6) * unit;
-    for (double value = std::ceil(x.low / horizontal) * horizontal; value <= x.high; value += horizontal) {
-        grid += line(x.at(value), Top, x.at(value), Height - Bottom);
-        const bool isLast = value + horizontal > x.high;
-        const QString name = isLast ? isHours ? QStringLiteral(" h")
-                : isMinutes                   ? QStringLiteral(" min")
-                                              : QStringLiteral(" s")
-                                    : QString();
-        labels += text(x.at(value), Height - Bottom + 19, "middle", shortNumber(value / unit) + name);
-    }
+    addTimes(x, Height - Bottom, &grid, &labels);
     return grid + "</g>" + labels + "</g>";
 }
 
@@ -153,6 +159,69 @@ QByteArray drawingOf(const ReportPlot &plot)
         drawing += "<path class=\"curve c" + QByteArray::number(int(i) % Curves) + "\" d=\""
             + pathOf(plot.curves[i], x, y) + "\"/>";
     return drawing + "</svg></figure>\n";
+}
+
+namespace {
+
+/// Intervals that follow each other with the same state.
+struct Piece
+{
+    std::size_t begin;
+    std::size_t end;
+    double state;  // NaN: several
+};
+
+/// Intervals without cycles go on with the state before, as between two cycles.
+std::vector<Piece> piecesOf(const std::vector<overview::Bucket> &intervals)
+{
+    std::vector<Piece> pieces;
+    for (std::size_t i = 0; i < intervals.size(); ++i) {
+        const overview::Bucket &interval = intervals[i];
+        const bool isLast = !pieces.empty() && pieces.back().end == i;
+        if ((interval.flags & overview::HasValue) == 0) {
+            if (interval.flags == 0 && isLast)
+                ++pieces.back().end;
+            continue;
+        }
+        const double state = interval.minimum == interval.maximum ? interval.minimum : std::nan("");
+        const bool isSame
+            = isLast && (pieces.back().state == state || (std::isnan(pieces.back().state) && std::isnan(state)));
+        if (isSame)
+            ++pieces.back().end;
+        else
+            pieces.push_back({i, i + 1, state});
+    }
+    return pieces;
+}
+
+}  // namespace
+
+QByteArray drawingOf(const ReportStates &states)
+{
+    constexpr double bottom = Top + 34.0;
+    constexpr double signWidth = 8.5;  // of the labels
+    const Axis x{states.begin, std::max(states.end, states.begin + 1e-9), Left, Width - Right};
+    const double width = (x.to - x.from) / double(std::max<std::size_t>(states.intervals.size(), 1));
+    QByteArray grid;
+    QByteArray labels;
+    addTimes(x, bottom, &grid, &labels);
+    QByteArray strip;
+    for (const Piece &piece : piecesOf(states.intervals)) {
+        const double left = x.from + double(piece.begin) * width;
+        const double length = double(piece.end - piece.begin) * width;
+        const bool isState = !std::isnan(piece.state);
+        const int color = isState ? int(std::fmod(std::fabs(piece.state), double(Curves))) : 0;
+        strip += "<rect class=\"state " + (isState ? "c" + QByteArray::number(color) : QByteArray("several"))
+            + "\" x=\"" + coordinate(left) + "\" y=\"" + coordinate(Top) + "\" width=\"" + coordinate(length)
+            + "\" height=\"" + coordinate(bottom - Top) + "\"/>";
+        const QString name = isState ? states.nameOf(piece.state) : QString();
+        if (isState && length > signWidth * (name.size() + 1))
+            labels += text(left + length / 2, (Top + bottom) / 2 + 5, "middle", name);
+    }
+    const QByteArray title = states.title.toHtmlEscaped().toUtf8();
+    return "<figure><figcaption>" + title + "</figcaption><svg viewBox=\"0 0 " + QByteArray::number(int(Width)) + ' '
+        + QByteArray::number(int(bottom + Bottom)) + "\" role=\"img\" aria-label=\"" + title + "\">" + strip
+        + "<g class=\"grid\">" + grid + "</g><g class=\"label\">" + labels + "</g></svg></figure>\n";
 }
 
 double LatenessHistogram::border(int range)

@@ -3,6 +3,8 @@
 
 #include "Recording.h"
 
+#include <functional>
+
 namespace qplc {
 
 /// Curves of a plot: extremes of equal intervals, from \a begin to \a end [s].
@@ -17,6 +19,20 @@ struct ReportPlot
 
 /// A drawing (SVG) with axes, as wide as its place.
 QByteArray drawingOf(const ReportPlot &plot);
+
+/// States over time: extremes of equal intervals, from \a begin to \a end [s].
+struct ReportStates
+{
+    QString title;
+    double begin = 0.0;
+    double end = 1.0;
+    std::vector<overview::Bucket> intervals;
+    std::function<QString(double state)> nameOf;
+};
+
+/// A strip (SVG) whose pieces are the states, with their names where there is room. Intervals with
+/// several states are grey.
+QByteArray drawingOf(const ReportStates &states);
 
 /// Cycles by their lateness: counts of ranges whose borders grow by a constant factor.
 struct LatenessHistogram

@@ -17,7 +17,7 @@ struct ReportPanel
         QString name;    // for people; empty: that of the signal
         double gain = 1.0;
         double offset = 0.0;
-        bool isBands = false;  // states: they share no axis
+        bool isBands = false;  // states, as a strip
     };
 
     QString title;

@@ -353,6 +353,18 @@ class Reports(unittest.TestCase):
         self.assertEqual(labels(plain), [0, 200, 400, 600, 800])
         self.assertEqual(labels(dict(plain, gain=-1, offset=100)), [-600, -400, -200, 0])
 
+    def test_states_are_strips(self):
+        curves = [{"signal": "position_x", "bands": True, "name": "phase"}, {"signal": "position.x"}]
+        layout = {"format": "QtPLC layout", "tabs": [{"tree": {"type": "Time plot", "settings": {"curves": curves}}}]}
+        page = self.report("--layout", self.write("bands.json", json.dumps(layout).encode()), "--to", "0.05")
+        plots = page[page.index("Signals over time") : page.index("<h2>Events")]
+        self.assertEqual(re.findall("<figcaption>(.*?)</figcaption>", plots), ["phase", "position.x [m]"])
+        strip = plots[: plots.index("</svg>")]
+        self.assertEqual(re.findall('class="state (.*?)"', strip), ["c0", "c1", "c2", "c3", "c4", "c5"])
+        self.assertEqual(re.findall(r'y="30\.0" text-anchor="middle">(.*?)<', strip), list("012345"))
+        page = self.report("--layout", "bands.json")
+        self.assertIn('class="state several"', page, "more states than can be drawn")
+
     def test_pictures_are_part_of_the_page(self):
         page = self.report("--picture", self.write("kite.png", PNG))
         self.assertIn("<figcaption>kite</figcaption>", page)
