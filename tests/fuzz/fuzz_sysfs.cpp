@@ -27,7 +27,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
     fuzz::check(reading.problem || text.contains("YES"), "the checksum of a temperature is right");
     fuzz::check(!reading.problem || QByteArray(reading.problem).contains("; "), "a problem has a remedy");
 
-    const QByteArrayList files = SysfsText::iioFiles(text, "scale");
+    const QByteArrayList files = SysfsText::iioFiles("in_", text, "scale");
     fuzz::check(!files.isEmpty() && files.size() <= 4 && files.last() == "scale", "an attribute has few files");
     fuzz::check(std::isfinite(SysfsText::iioUnit(text)) && SysfsText::iioUnit(text) > 0.0, "a unit is positive");
     fuzz::check(SysfsText::hwmonUnit(text) > 0.0, "a unit is positive");

@@ -94,6 +94,8 @@ const Case cases[] = {
      "3:10: 'hwmon0' is a number that can be another one", "write the name, label or place"},
     {"thermometer that is read too often", Semantic, "[d]\ndriver = sysfs\ndevice = w1:28-1\ninterval = 100 ms\n",
      "4:12: a thermometer on a 1-wire bus measures for 0.75 s", "write an interval of 1 s or more"},
+    {"analog output without a range", Semantic, "[d]\ndriver = sysfs\ndevice = iio:a\n[d.write]\nvoltage0 = x\n",
+     "5:12: the output 'voltage0' has no range", "'range.voltage0 = 0, 4.096'"},
     {"duty in percent", Semantic, "[d]\ndriver = sysfs\ndevice = pwm:a\nperiod = 1 ms\n[d.safe]\npwm0 = 50\n",
      "6:8: 50 is not in the range 0 to 1 of 'pwm0'", "write a value of this range"},
     {"unit 0 of a serial line", Semantic, RTU "register.a = coil 1, unit 0\n", "4:14: a serial line has no unit 0",

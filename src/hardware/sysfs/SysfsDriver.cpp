@@ -2,6 +2,7 @@
 #include "QPlcDriverSettings.h"
 #include "QPlcReadChannel.h"
 #include "QPlcWriteChannel.h"
+#include "SysfsAnalogOutput.h"
 #include "SysfsClass.h"
 #include "SysfsFolder.h"
 #include "SysfsPwm.h"
@@ -10,6 +11,7 @@
 #include "hardware/DeviceHealth.h"
 #include "hardware/Drivers.h"
 #include "hardware/fake/FakeMemory.h"
+#include "signals/ConfigurationFile.h"
 #include "signals/MessageText.h"
 
 #include <QtCore/QMap>
@@ -62,7 +64,9 @@ protected:
                                              "name, label or place of the device ('qtplc_hardware FILE --monitor' "
                                              "lists the names when one is wrong)")
                                   .arg(name));
-        if (m_class->kind == SysfsClass::Counter)
+        if (m_class->kind == SysfsClass::Iio)
+            configureRanges(settings);
+        else if (m_class->kind == SysfsClass::Counter)
             configureCounter(settings);
         else if (m_class->kind == SysfsClass::Pwm)
             configurePwm(settings);
@@ -76,15 +80,14 @@ protected:
     {
         if (QPlcChannel *known = QPlcDriver::channel(name, direction, error))
             return known;
-        if (m_class && direction == QPlcChannel::Write && m_class->kind != SysfsClass::Pwm)
-            *error = QStringLiteral("%1 of %2 can only be read; of these devices, only PWM takes values")
-                         .arg(quoted(name), m_device);
-        else if (m_class)  // else the key 'device' has an error already
+        if (m_class && direction == QPlcChannel::Write)
+            *error = problemOfOutput(name);
+        if (m_class && error->isEmpty())  // else the key 'device' has an error already
             *error = problemOfName(name);
         if (!error->isEmpty())
             return nullptr;
         if (direction == QPlcChannel::Write) {
-            m_outputs.push_back(std::make_unique<Output>(this, name, settingsOf(name)));
+            m_outputs.push_back(makeOutput(name));
             return &m_outputs.back()->channel;
         }
         m_inputs.push_back(std::make_unique<Input>(this, name, settingsOf(name)));
@@ -113,8 +116,8 @@ protected:
                 return false;
         }
         for (const auto &output : m_outputs) {
-            if (!output->pwm.open(&m_folder))
-                return failAt("open", output->pwm.file());
+            if (!output->output->open(&m_folder))
+                return failAt("open", output->output->file());
         }
         return true;
     }
@@ -141,8 +144,8 @@ protected:
     {
         m_hasFailed = false;
         for (const auto &output : m_outputs) {
-            if (output->channel.hasValue() && !repeat([&] { return output->pwm.setDuty(output->channel.value()); }))
-                return keepAfter("write", output->pwm.file());
+            if (output->channel.hasValue() && !repeat([&] { return output->output->set(output->channel.value()); }))
+                return keepAfter("write", output->output->file());
         }
         return true;
     }
@@ -190,18 +193,50 @@ private:
     };
     struct Output
     {
-        Output(QPlcDriver *driver, const QString &name, const SysfsPwm::Settings &settings)
+        Output(QPlcDriver *driver, const QString &name, std::unique_ptr<SysfsOutput> deviceOutput)
             : channel(driver, name)
-            , pwm(name.toUtf8(), settings)
+            , output(std::move(deviceOutput))
         {
-            channel.setRange(0.0, 1.0);
-            channel.setRestValue(0.0);
         }
-        QPlcWriteChannel channel;  // 0 ... 1
-        SysfsPwm pwm;
+        QPlcWriteChannel channel;
+        const std::unique_ptr<SysfsOutput> output;
     };
 
+    std::unique_ptr<Output> makeOutput(const QString &name)
+    {
+        std::unique_ptr<SysfsOutput> device;
+        const bool isAnalog = m_class && m_class->kind == SysfsClass::Iio;
+        const SysfsAnalogOutput::Range range = isAnalog ? m_ranges.value(name) : SysfsAnalogOutput::Range{0.0, 1.0};
+        if (isAnalog)
+            device = std::make_unique<SysfsAnalogOutput>(name.toUtf8(), range);
+        else
+            device = std::make_unique<SysfsPwm>(name.toUtf8(), settingsOf(name));
+        auto output = std::make_unique<Output>(this, name, std::move(device));
+        output->channel.setRange(range.lowest, range.highest);
+        if (!isAnalog)
+            output->channel.setRestValue(0.0);
+        return output;
+    }
+
     // ---- keys ----
+
+    /// Of outputs: "range.voltage0 = 0, 4.096".
+    void configureRanges(QPlcDriverSettings &settings)
+    {
+        const QString prefix = QStringLiteral("range.");
+        for (const QString &name : settings.namesBehind(prefix)) {
+            const QStringList words = settings.list(prefix + name);
+            SysfsAnalogOutput::Range range;
+            const bool isRange = words.size() == 2 && finiteNumberFromText(words[0], &range.lowest)
+                && finiteNumberFromText(words[1], &range.highest) && range.lowest < range.highest;
+            if (!isRange)
+                settings.addError(prefix + name,
+                                  QStringLiteral("%1 is not a range; write the lowest and the highest value, for "
+                                                 "example '0, 4.096'")
+                                      .arg(quoted(words.join(QStringLiteral(", ")))));
+            m_ranges[name] = range;
+        }
+    }
 
     void configureCounter(QPlcDriverSettings &settings)
     {
@@ -236,6 +271,18 @@ private:
     }
 
     SysfsPwm::Settings settingsOf(const QString &name) const { return m_special.value(name, m_common); }
+
+    QString problemOfOutput(const QString &name) const
+    {
+        if (m_class->kind == SysfsClass::Pwm || (m_class->kind == SysfsClass::Iio && m_ranges.contains(name)))
+            return {};
+        if (m_class->kind == SysfsClass::Iio)
+            return QStringLiteral("the output %1 has no range; add what the device behind it can take, for example "
+                                  "'range.%2 = 0, 4.096'")
+                .arg(quoted(name), name);
+        return QStringLiteral("%1 of %2 can only be read; of these devices, PWM and IIO take values")
+            .arg(quoted(name), m_device);
+    }
 
     /// Of a channel; empty: it may be there.
     QString problemOfName(const QString &name) const
@@ -287,8 +334,8 @@ private:
         input->factor = SysfsText::iioUnit(name);
         input->offset = 0.0;
         if (isRaw) {
-            input->factor *= firstNumber(SysfsText::iioFiles(name, "scale"), 1.0);
-            input->offset = firstNumber(SysfsText::iioFiles(name, "offset"), 0.0);
+            input->factor *= m_folder.firstNumber(SysfsText::iioFiles("in_", name, "scale"), 1.0);
+            input->offset = m_folder.firstNumber(SysfsText::iioFiles("in_", name, "offset"), 0.0);
         }
         return m_folder.has(input->file);
     }
@@ -333,17 +380,6 @@ private:
                 return entry.mid(prefix.size(), isFolder ? -1 : entry.size() - prefix.size() - file.size());
         }
         return channel;
-    }
-
-    double firstNumber(const QByteArrayList &files, double fallback) const
-    {
-        for (const QByteArray &file : files) {
-            QByteArray text;
-            const std::optional<double> number = m_folder.read(file, &text) ? SysfsText::number(text) : std::nullopt;
-            if (number)
-                return *number;
-        }
-        return fallback;
     }
 
     QStringList knownChannels() const
@@ -444,7 +480,8 @@ private:
     bool m_isSigned = false;
     int m_bits = 64;
     SysfsPwm::Settings m_common;
-    QMap<QString, SysfsPwm::Settings> m_special;  // of channels with keys of their own
+    QMap<QString, SysfsPwm::Settings> m_special;       // of channels with keys of their own
+    QMap<QString, SysfsAnalogOutput::Range> m_ranges;  // of outputs
 
     SysfsFolder m_folder;
     DeviceHealth m_health;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SysfsFolder.h"
 
+#include "SysfsText.h"
+
 #include <QtCore/QDir>
 #include <QtCore/QFile>
 
@@ -82,6 +84,17 @@ bool SysfsFolder::write(const QByteArray &file, const QByteArray &text) const
 bool SysfsFolder::has(const QByteArray &file) const
 {
     return ::faccessat(m_descriptor, file.constData(), F_OK, 0) == 0;
+}
+
+double SysfsFolder::firstNumber(const QByteArrayList &files, double fallback) const
+{
+    for (const QByteArray &file : files) {
+        QByteArray text;
+        const std::optional<double> number = read(file, &text) ? SysfsText::number(text) : std::nullopt;
+        if (number)
+            return *number;
+    }
+    return fallback;
 }
 
 bool SysfsFolder::isWritable(const QByteArray &file) const

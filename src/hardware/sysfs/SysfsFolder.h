@@ -31,6 +31,8 @@ public:
     bool read(const QByteArray &file, QByteArray *text) const;
     bool write(const QByteArray &file, const QByteArray &text) const;
     bool has(const QByteArray &file) const;
+    /// The number in the first of \a files that has one.
+    double firstNumber(const QByteArrayList &files, double fallback) const;
     bool isWritable(const QByteArray &file) const;
     /// Names that fit to a pattern: "in_*_label".
     QByteArrayList files(const QString &pattern) const;

@@ -49,7 +49,7 @@ bool SysfsPwm::waitForAccess() const
     return true;
 }
 
-bool SysfsPwm::setDuty(double duty)
+bool SysfsPwm::set(double duty)
 {
     if (!m_isSetUp && !setUp())
         return false;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "SysfsFolder.h"
+#include "SysfsOutput.h"
 
 namespace qplc {
 
-/// A channel of a PWM chip in sysfs. Nothing is changed at the device before setDuty().
-class SysfsPwm
+/// A channel of a PWM chip in sysfs.
+class SysfsPwm final : public SysfsOutput
 {
 public:
     struct Settings
@@ -22,17 +22,15 @@ public:
     {
     }
 
-    /// Asks the kernel for the channel. \param chip  stays open as long as the channel is used
-    /// \return false, with errno and file()
-    bool open(const SysfsFolder *chip);
+    /// Asks the kernel for the channel.
+    bool open(const SysfsFolder *chip) override;
     /// Sets what differs, and switches the channel on. \param duty  0 ... 1; what is less or no
     /// number counts as 0, what is more as 1
-    bool setDuty(double duty);
+    bool set(double duty) override;
     /// What the kernel puts out: 0 while the channel is switched off.
     bool readDuty(double *duty) const;
 
-    /// That was used last, in the folder of the chip.
-    QByteArray file() const { return m_file; }
+    QByteArray file() const override { return m_file; }
 
 private:
     bool waitForAccess() const;

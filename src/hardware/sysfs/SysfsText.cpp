@@ -101,7 +101,7 @@ SysfsText::Thermometer SysfsText::thermometer(const QByteArray &text)
     return {nullptr, temperature};
 }
 
-QByteArrayList SysfsText::iioFiles(const QByteArray &channel, const QByteArray &attribute)
+QByteArrayList SysfsText::iioFiles(const QByteArray &direction, const QByteArray &channel, const QByteArray &attribute)
 {
     QByteArray shared;  // by all channels of the type
     for (const char character : channel) {
@@ -111,7 +111,7 @@ QByteArrayList SysfsText::iioFiles(const QByteArray &channel, const QByteArray &
             shared += character;
     }
     QByteArrayList files;
-    for (const QByteArray &name : {"in_" + channel + '_', "in_" + shared + '_', QByteArray("in_"), QByteArray()}) {
+    for (const QByteArray &name : {direction + channel + '_', direction + shared + '_', direction, QByteArray()}) {
         if (!files.contains(name + attribute))
             files << name + attribute;
     }

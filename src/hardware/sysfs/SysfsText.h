@@ -27,7 +27,8 @@ struct SysfsText
 
     /// Files of an IIO device that may have the attribute of a channel, that of the channel alone
     /// first: "in_voltage0_scale", "in_voltage_scale", "in_scale", "scale" for "voltage0".
-    static QByteArrayList iioFiles(const QByteArray &channel, const QByteArray &attribute);
+    /// \param direction  "in_" or "out_"
+    static QByteArrayList iioFiles(const QByteArray &direction, const QByteArray &channel, const QByteArray &attribute);
     /// What the unit of the kernel is in SI units; of degrees, [rad]; of temperatures, [degC].
     static double iioUnit(const QByteArray &channel);
     static double hwmonUnit(const QByteArray &channel);

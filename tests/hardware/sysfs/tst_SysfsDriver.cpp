@@ -49,6 +49,25 @@ struct Converter : Board
     const QString folder = QStringLiteral("bus/iio/devices/iio:device3/");
 };
 
+/// A converter from digital to analog: 1 mV a step, from -10 V on.
+struct AnalogOutput : Board
+{
+    explicit AnalogOutput(const QByteArray &keys = "range.voltage0 = -10, 10\n")
+        : Board("device = iio:ad5761\n" + keys)
+    {
+        set("name", "ad5761\n");
+        set("out_voltage0_raw", "10000\n");
+        set("out_voltage_scale", "1\n");
+        set("out_voltage_offset", "-10000\n");
+        set("in_voltage0_raw", "5\n");
+        bench.wireWrite("voltage0");
+    }
+    void set(const QString &file, const QByteArray &text) { sys.write(folder + file, text); }
+    QByteArray get(const QString &file) const { return sys.read(folder + file).trimmed(); }
+
+    const QString folder = QStringLiteral("bus/iio/devices/iio:device1/");
+};
+
 struct Pwm : Board
 {
     explicit Pwm(const QByteArray &keys = "period = 20 ms\n")
@@ -108,6 +127,11 @@ private Q_SLOTS:
     void dutyIsLimited_data();
     void dutyIsLimited();
     void aDutyThatSomebodyElseHasChangedIsSetAgain();
+    void analogOutputsAreWrittenInSiUnits_data();
+    void analogOutputsAreWrittenInSiUnits();
+    void anAnalogOutputIsLeftAloneUntilItHasAValue();
+    void anAnalogOutputIsSwitchedOnWithItsValue();
+    void anAnalogOutputThatIsNotThereIsNamed();
     void invalidKeysAreReported_data();
     void invalidKeysAreReported();
     void invalidChannelsAreReported_data();
@@ -538,6 +562,65 @@ void tst_SysfsDriver::aDutyThatSomebodyElseHasChangedIsSetAgain()
     QCOMPARE(pwm.get("enable"), QByteArray("1"));
 }
 
+void tst_SysfsDriver::analogOutputsAreWrittenInSiUnits_data()
+{
+    QTest::addColumn<double>("value");
+    QTest::addColumn<QByteArray>("number");
+    QTest::newRow("nothing") << 0.0 << QByteArray("10000");
+    QTest::newRow("positive") << 2.5 << QByteArray("12500");
+    QTest::newRow("negative, rounded") << -2.50049 << QByteArray("7500");
+    QTest::newRow("too much") << 1e9 << QByteArray("20000");
+    QTest::newRow("too little") << -1e300 << QByteArray("0");
+    QTest::newRow("no number leaves it") << std::nan("") << QByteArray("10000");
+}
+
+void tst_SysfsDriver::analogOutputsAreWrittenInSiUnits()
+{
+    QFETCH(double, value);
+    AnalogOutput output;
+    QCOMPARE(output.bench.errors(), QString());
+    QVERIFY2(output.bench.open(), qPrintable(output.bench.errorString()));
+    output.bench.set("voltage0", value);
+    QVERIFY2(output.bench.exchange(), qPrintable(output.bench.errorString()));
+    QTEST(output.get("out_voltage0_raw"), "number");
+    output.set("out_voltage0_raw", "1\n");  // somebody else
+    QVERIFY(output.bench.exchange());
+    if (!std::isnan(value))
+        QTEST(output.get("out_voltage0_raw"), "number");
+    QCOMPARE(output.get("in_voltage0_raw"), QByteArray("5"));
+}
+
+void tst_SysfsDriver::anAnalogOutputIsLeftAloneUntilItHasAValue()
+{
+    AnalogOutput output;
+    output.set("out_voltage0_raw", "17\n");
+    QVERIFY2(output.bench.open(), qPrintable(output.bench.errorString()));
+    QVERIFY(output.bench.exchange());
+    QCOMPARE(output.get("out_voltage0_raw"), QByteArray("17"));
+}
+
+void tst_SysfsDriver::anAnalogOutputIsSwitchedOnWithItsValue()
+{
+    AnalogOutput output;
+    output.set("out_voltage0_powerdown", "1\n");
+    QVERIFY2(output.bench.open(), qPrintable(output.bench.errorString()));
+    QVERIFY(output.bench.exchange());
+    QCOMPARE(output.get("out_voltage0_powerdown"), QByteArray("1"));
+    output.bench.set("voltage0", 1.0, true);
+    QVERIFY(output.bench.exchange());
+    QCOMPARE(output.get("out_voltage0_raw"), QByteArray("11000"));
+    QCOMPARE(output.get("out_voltage0_powerdown"), QByteArray("0"));
+}
+
+void tst_SysfsDriver::anAnalogOutputThatIsNotThereIsNamed()
+{
+    AnalogOutput output("range.voltage0 = 0, 5\nrange.voltage3 = 0, 5\n");
+    QCOMPARE(output.bench.wireWrite("voltage3"), QString());
+    QVERIFY(!output.bench.open());
+    QVERIFY2(output.bench.errorString().contains("'out_voltage3_raw' of iio:ad5761"),
+             qPrintable(output.bench.errorString()));
+}
+
 void tst_SysfsDriver::invalidKeysAreReported_data()
 {
     QTest::addColumn<QByteArray>("keys");
@@ -551,6 +634,9 @@ void tst_SysfsDriver::invalidKeysAreReported_data()
     QTest::newRow("no period") << QByteArray("device = pwm:fe20c000.pwm\n") << "period = 20 ms";
     QTest::newRow("too fast") << QByteArray("device = w1:28-00000a1b2c3d\n") << "interval = 2 s";
     QTest::newRow("bits") << QByteArray("device = counter:a\nbits = 65\n") << "from 8 to 64";
+    for (const char *range : {"4", "4, 4", "5, 0", "0, inf", "0, much", "0, 1, 2"})
+        QTest::newRow(range) << QByteArray("device = iio:a\nrange.voltage0 = ") + range + '\n'
+                             << "is not a range; write the lowest and the highest value";
     QTest::newRow("key of another class") << QByteArray("device = iio:a\nperiod = 1 ms\n") << "'period' is not a key";
 }
 
@@ -572,7 +658,9 @@ void tst_SysfsDriver::invalidChannelsAreReported_data()
     QTest::newRow("way out of the folder") << QByteArray("iio:a") << "../../power" << false << "voltage0, accel_x";
     QTest::newRow("thermometer") << QByteArray("w1:28-1") << "temp" << false << "its channel is 'temperature'";
     QTest::newRow("PWM") << QByteArray("pwm:a") << "0" << true << "they are pwm0, pwm1";
-    QTest::newRow("output of a converter") << QByteArray("iio:a") << "voltage0" << true << "can only be read";
+    QTest::newRow("output without a range")
+        << QByteArray("iio:a") << "voltage0" << true << "add what the device behind it can take, for example 'range.";
+    QTest::newRow("output of a counter") << QByteArray("counter:a") << "count0" << true << "can only be read";
 }
 
 void tst_SysfsDriver::invalidChannelsAreReported()
