@@ -57,14 +57,14 @@ void ExtendedPlant::reset()
     noticeGround();
 }
 
-Eigen::Vector3d ExtendedPlant::pointIn(const State &state, int point) const
+inline Eigen::Vector3d ExtendedPlant::pointIn(const State &state, int point) const
 {
     if (point == 0)
         return Eigen::Vector3d::Zero();
     return state.segment<3>(3 * (point - 1));
 }
 
-Eigen::Vector3d ExtendedPlant::velocityIn(const State &state, int point) const
+inline Eigen::Vector3d ExtendedPlant::velocityIn(const State &state, int point) const
 {
     if (point == 0)
         return Eigen::Vector3d::Zero();
@@ -111,7 +111,7 @@ ExtendedPlant::Sample ExtendedPlant::sampled(const PlantInputs &inputs) const
 
 // ---- forces ----
 
-ExtendedPlant::Segment ExtendedPlant::segment(const State &state, int number) const
+inline ExtendedPlant::Segment ExtendedPlant::segment(const State &state, int number) const
 {
     Segment segment;
     const Eigen::Vector3d s = pointIn(state, number + 1) - pointIn(state, number);
@@ -120,7 +120,7 @@ ExtendedPlant::Segment ExtendedPlant::segment(const State &state, int number) co
     return segment;
 }
 
-double ExtendedPlant::tension(const State &state, int number, const Segment &segment, double tetherSpeed) const
+inline double ExtendedPlant::tension(const State &state, int number, const Segment &segment, double tetherSpeed) const
 {
     const double unstretched = single(state, TetherLength) / m_points;
     const double stretch = segment.length - unstretched;
@@ -138,7 +138,8 @@ double ExtendedPlant::tension(const State &state, int number, const Segment &seg
     return std::max(0.0, stiffness * stretch + damping * growth);
 }
 
-Eigen::Vector3d ExtendedPlant::drag(const State &state, int number, const Segment &segment, const AirAt &air) const
+inline Eigen::Vector3d ExtendedPlant::drag(const State &state, int number, const Segment &segment,
+                                           const AirAt &air) const
 {
     const Eigen::Vector3d flow = air.wind - 0.5 * (velocityIn(state, number) + velocityIn(state, number + 1));
     const Eigen::Vector3d across = flow - flow.dot(segment.along) * segment.along;
