@@ -87,6 +87,10 @@ public:
     /// file: for keys that contain a name, such as `line.brake = 4`. They do not count as read.
     QStringList namesBehind(const QString &prefix) const;
 
+    /// Returns the names of the channels that the sections read, write and safe of the device use,
+    /// in the order of the file, also of channels that do not exist.
+    QStringList usedChannels() const;
+
     /// Adds an error that the driver finds in the value of a key.
     /// \param key  empty: the section as a whole
     /// \param message  what is wrong, and what to do

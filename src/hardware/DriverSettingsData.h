@@ -19,6 +19,7 @@ struct QPlcDriverSettings::Private
     QStringList failedKeys;                // that have an error
     bool hasErrorsElsewhere = false;       // in another file
     QSet<QString> used;
+    QStringList usedChannels;
     QStringList asked;  // keys that the driver knows
 
     /// The value of \a key, which is used now; null: it is missing.

@@ -207,6 +207,10 @@ std::unique_ptr<QPlcDriverSettings> HardwareConfiguration::settings(const Driver
     data->errors = errorList();
     data->warnings = &m_warnings;
     data->claims = &m_claims;
+    for (const Wire &wire : driver.wires)
+        data->usedChannels << (wire.direction == QPlcChannel::Read ? wire.source : wire.target).name;
+    for (const SafeValue &safe : driver.safeValues)
+        data->usedChannels << safe.channel;
     return std::unique_ptr<QPlcDriverSettings>(new QPlcDriverSettings(std::move(data)));
 }
 

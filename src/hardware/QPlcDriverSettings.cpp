@@ -169,6 +169,11 @@ QStringList QPlcDriverSettings::namesBehind(const QString &prefix) const
     return names;
 }
 
+QStringList QPlcDriverSettings::usedChannels() const
+{
+    return d->usedChannels;
+}
+
 void QPlcDriverSettings::addError(const QString &key, const QString &message)
 {
     d->addError(d->placeOf(key), message);

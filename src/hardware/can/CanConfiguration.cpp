@@ -9,6 +9,7 @@
 #include <QtCore/QDir>
 #include <QtCore/QHash>
 #include <QtCore/QRegularExpression>
+#include <QtCore/QSet>
 
 #include <algorithm>
 
@@ -207,28 +208,32 @@ void CanConfiguration::readSignals(QPlcDriverSettings &settings)
     }
 }
 
-// Of signals by keys each pair, of a message in a DBC file one: unions of signals are usual there.
+// Of signals by keys each pair, of a used message in a DBC file one: unions of signals are usual
+// there.
 void CanConfiguration::warnOfOverlaps(QPlcDriverSettings &settings) const
 {
-    int inFile = 0;
+    QSet<QString> used;
+    const QStringList channels = settings.usedChannels();
+    for (const QString &channel : channels)
+        used.insert(channel.section(QLatin1Char('.'), 0, 0));
     for (const CanMessage &message : m_messages) {
         const DbcMessage &description = message.description;
-        if (!description.unsupported.isEmpty() || inFile == DbcFile::MaximumErrors)
+        const QString prefix = QStringLiteral("signal.%1.").arg(description.name);
+        bool isTold = !used.contains(description.name);
+        if (!description.unsupported.isEmpty() || (isTold && settings.namesBehind(prefix).isEmpty()))
             continue;
         const auto pairs = description.overlappingSignals();
         for (const auto &pair : pairs) {
-            const QString key = QStringLiteral("signal.%1.%2").arg(description.name, pair.second);
-            const bool isByKey = settings.has(key);
-            settings.addWarning(isByKey ? key : QStringLiteral("dbc"),
+            const bool isByKey = settings.has(prefix + pair.second);
+            if (!isByKey && isTold)
+                continue;
+            isTold = isTold || !isByKey;
+            settings.addWarning(isByKey ? prefix + pair.second : QStringLiteral("dbc"),
                                 QStringLiteral("signals '%1' and '%2' of %3 '%4' have bits in common; correct start "
                                                "and length if this is not on purpose")
                                     .arg(pair.first, pair.second,
                                          isByKey ? QStringLiteral("frame") : QStringLiteral("message"),
                                          description.name));
-            if (!isByKey) {
-                ++inFile;
-                break;
-            }
         }
     }
 }

@@ -231,10 +231,13 @@ void tst_CanConfiguration::signalsThatOverlapAreWarnedOf_data()
     row(frame + "signal.A.S = m1 8|16@1+\nsignal.A.M = M 0|8@1+\nsignal.A.T = m1 16|16@1+",
         {text("signals 'S' and 'T' of frame 'A'")});
     row(frame + "signal.A.S = m1 0|16@1+\nsignal.A.M = M 0|8@1+", {text("signals 'S' and 'M' of frame 'A'")});
-    row("dbc = a.dbc", {text("signals 'S' and 'T' of message 'Same'")});
+    row("dbc = a.dbc", {});
+    row("dbc = a.dbc\n[bench.read]\nx = Same.U\ny = Pages.S", {text("signals 'S' and 'T' of message 'Same'")});
+    row("dbc = a.dbc\n[bench.write]\nPages.S = x\n[bench.safe]\nSame.T = 0",
+        {text("signals 'S' and 'T' of message 'Same'")});
 }
 
-// In a DBC file each message once, and pages apart.
+// In a DBC file each used message once, and pages apart.
 void tst_CanConfiguration::signalsThatOverlapAreWarnedOf()
 {
     QFETCH(QByteArray, keys);
