@@ -59,6 +59,7 @@ OPTIONS = [
     ("realistic: all of these", "realistic", ()),
     ("realistic, tuned gains", "realistic", ("--gains=tuned",)),
     ("turbines on board", "drag", ()),
+    ("turbines on board, tuned gains", "drag", ("--gains=tuned",)),
 ]
 
 

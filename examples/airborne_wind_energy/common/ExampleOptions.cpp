@@ -205,8 +205,9 @@ static bool readGains(QPlcCoreApplication &application, const PlantConfiguration
     QString error;
     if (!isTuned && set != QLatin1String("default"))
         error = QStringLiteral("--gains %1: use default or tuned").arg(set);
-    else if (isTuned && plant.options.hasTurbines)
-        error = QStringLiteral("--gains tuned: there is no tuned set for turbines on board; use default");
+    else if (isTuned && isSteered && plant.options.hasTurbines)
+        error = QStringLiteral("--gains tuned: there is no tuned set for turbines on a wing that the air turns; use "
+                               "default");
     if (!accept(application, error))
         return false;
     if (isSteered) {
@@ -216,6 +217,8 @@ static bool readGains(QPlcCoreApplication &application, const PlantConfiguration
         *gains = isTuned ? AutopilotGains::tuned() : AutopilotGains::safe();
     }
     if (plant.options.hasTurbines) {
+        if (isTuned)
+            *gains = AutopilotGains::dragTuned();
         gains->reelOutPitch = AutopilotGains::drag().reelOutPitch;
         gains->constantTether = plant.turbines.tetherLength;
         gains->turbineCoefficient = plant.turbines.coefficient;

@@ -164,6 +164,17 @@ AutopilotGains AutopilotGains::drag()
     return gains;
 }
 
+// Heights alone: other eights have more power in weak wind, and less from 7 m/s on.
+AutopilotGains AutopilotGains::dragTuned()
+{
+    const AutopilotGains low = tuned();
+    AutopilotGains gains = drag();
+    gains.lowestHeight = low.lowestHeight;
+    gains.lowestElevation = low.lowestElevation;
+    gains.guardFactor = low.guardFactor;
+    return gains;
+}
+
 std::string AutopilotGains::validate() const
 {
     RangeCheck check;

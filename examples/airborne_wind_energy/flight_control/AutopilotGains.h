@@ -120,6 +120,8 @@ struct AutopilotGains
     AutopilotGains invertedFor(double turnRate, double weight) const;
     /// For turbines on board: a tether of 150 m that stays as it is.
     static AutopilotGains drag();
+    /// The same with more power, less height: the heights of tuned().
+    static AutopilotGains dragTuned();
 
     /// \return empty when all is well, otherwise one sentence with the gain, its value and the
     ///         remedy

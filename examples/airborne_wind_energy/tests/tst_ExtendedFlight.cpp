@@ -20,6 +20,8 @@ private Q_SLOTS:
     void everyWindIsFlownRealistically_data();
     void everyWindIsFlownRealistically();
     void turbinesOnBoardReachTheirFigures();
+    void tunedTurbinesFlyLowerWithMorePower();
+    void turbinesOnBoardSurviveTurbulence_data();
     void turbinesOnBoardSurviveTurbulence();
     void resetRepeatsTheFlightBitForBit();
 
@@ -148,9 +150,31 @@ void tst_ExtendedFlight::turbinesOnBoardReachTheirFigures()
     QVERIFY(!report.crashed);
 }
 
-void tst_ExtendedFlight::turbinesOnBoardSurviveTurbulence()
+void tst_ExtendedFlight::tunedTurbinesFlyLowerWithMorePower()
 {
     ClosedLoopParameters parameters = drag();
+    parameters.gains = AutopilotGains::dragTuned();
+    QCOMPARE(parameters.gains.validate(), std::string());
+    const FlightReport report = fly(parameters);
+    QVERIFY2(report.turbinePower >= 3100.0, qPrintable(QString::number(report.turbinePower)));
+    QVERIFY2(report.minimumAltitude >= 17.0, qPrintable(QString::number(report.minimumAltitude)));
+    QCOMPARE(report.recoveries, 0);
+    QVERIFY(!report.crashed);
+}
+
+void tst_ExtendedFlight::turbinesOnBoardSurviveTurbulence_data()
+{
+    QTest::addColumn<bool>("isTuned");
+    QTest::newRow("default gains") << false;
+    QTest::newRow("tuned gains") << true;
+}
+
+void tst_ExtendedFlight::turbinesOnBoardSurviveTurbulence()
+{
+    QFETCH(bool, isTuned);
+    ClosedLoopParameters parameters = drag();
+    if (isTuned)
+        parameters.gains = AutopilotGains::dragTuned();
     parameters.wind.turbulenceIntensity = 0.15;
     for (parameters.wind.seed = 10; parameters.wind.seed <= 13; ++parameters.wind.seed) {
         ClosedLoopFlight flight(parameters);

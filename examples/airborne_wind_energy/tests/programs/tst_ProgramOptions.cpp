@@ -152,7 +152,8 @@ void tst_ProgramOptions::badOptionsAreRefusedWithOneSentence_data()
     }
     for (const char *program : {"awe_autopilot", "awe_sil"}) {
         row(program, "--gains best", "--gains best: use default or tuned");
-        row(program, "--gains tuned --plant drag", "--gains tuned: there is no tuned set for turbines on board");
+        row(program, "--gains tuned --plant realistic --winch ideal --mode drag",
+            "--gains tuned: there is no tuned set for turbines on a wing that the air turns; use default");
         row(program, "--force-limit 99", "--force-limit 99");
         row(program, "--force-limit strong", "--force-limit strong");
         row(program, "--dead-time 1", "--dead-time 1: use a whole number of 2 ...");
