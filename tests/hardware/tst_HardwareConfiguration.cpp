@@ -5,6 +5,7 @@
 #include "hardware/HardwareConfiguration.h"
 #include "signals/MessageText.h"
 
+#include <QtCore/QDir>
 #include <QtTest/QtTest>
 
 using namespace qplc;
@@ -45,6 +46,8 @@ private Q_SLOTS:
     void settingsReturnTheRequestedType();
     void invalidSettingsAreReported_data();
     void invalidSettingsAreReported();
+    void examplesOfThePagesAreAccepted_data();
+    void examplesOfThePagesAreAccepted();
 };
 
 void tst_HardwareConfiguration::termsAreNamesWithFactorAndOffset_data()
@@ -330,6 +333,30 @@ void tst_HardwareConfiguration::invalidSettingsAreReported()
     QCOMPARE(configuration.errors().size(), 1);
     QCOMPARE(configuration.errors().first().message, error);
     QCOMPARE(configuration.errors().first().line, 3);
+}
+
+/// Each block of a page that has a driver. The files that they name are those of the example.
+void tst_HardwareConfiguration::examplesOfThePagesAreAccepted_data()
+{
+    QTest::addColumn<QByteArray>("text");
+    const QDir pages(QStringLiteral(QTPLC_SOURCES "/docs/hardware"));
+    for (const QString &name : pages.entryList({QStringLiteral("*.md")})) {
+        QFile page(pages.filePath(name));
+        QVERIFY2(page.open(QIODevice::ReadOnly), qPrintable(page.errorString()));
+        const QList<QByteArray> parts = page.readAll().replace("```ini\n", "\f").replace("```", "\f").split('\f');
+        for (int i = 1; i < parts.size(); i += 2) {
+            if (parts[i].contains("\ndriver = "))
+                QTest::newRow(qPrintable(QStringLiteral("%1, block %2").arg(name).arg(i / 2 + 1))) << parts[i];
+        }
+    }
+}
+
+void tst_HardwareConfiguration::examplesOfThePagesAreAccepted()
+{
+    QFETCH(QByteArray, text);
+    QPlcHardwareNode node;
+    node.configure(text, QStringLiteral(QTPLC_SOURCES "/examples/airborne_wind_energy/hardware/page.ini"));
+    QCOMPARE(QPlcParseError::toString(node.configurationErrors()), QString());
 }
 
 QTEST_GUILESS_MAIN(tst_HardwareConfiguration)
