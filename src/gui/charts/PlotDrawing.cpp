@@ -67,6 +67,13 @@ void QPlcTimePlot::Private::draw()
     }
     showOverlay();
     showLiveButton();
+    // Who moves the playhead wants to read, and does not wait for the next tick.
+    constexpr int numbersPause = 33;  // [ms]
+    const bool isRested = !sinceMoved.isValid() || sinceMoved.elapsed() >= numbersPause;
+    if (isRested && time.shared()->playhead() != numberedPlayhead) {
+        sinceMoved.start();
+        showNumbers();
+    }
 }
 
 /// A mouse that rests points at another time when the view moves below it.
@@ -187,6 +194,7 @@ void QPlcTimePlot::Private::showNumbers()
     if (!q->isVisible())
         return;
     const QPlcTimeAxis *shared = time.shared();
+    numberedPlayhead = shared->playhead();
     if (time.view()->isLive())
         pointAtMouse();
     std::optional<Time> moment = shared->pointer() ? shared->pointer() : shared->playhead();

@@ -18,6 +18,7 @@
 #include "ValueRanges.h"
 #include "gui/plot/RedrawRule.h"
 
+#include <QtCore/QElapsedTimer>
 #include <QtWidgets/QAction>
 
 #include <vector>
@@ -153,9 +154,11 @@ public:
     std::vector<qplc::RedrawRule> redraw;  // for each store
     quint64 version = 0;                   // of all but data and time that is seen
     int drawnPictures = 0;
-    Time reference = 0;              // 0 of labels in seconds: the live edge
-    std::optional<Time> drawnEvent;  // of the trigger
-    QJsonObject shownTrigger;        // settings that its bar has
+    Time reference = 0;                    // 0 of labels in seconds: the live edge
+    std::optional<Time> drawnEvent;        // of the trigger
+    std::optional<Time> numberedPlayhead;  // whose numbers are shown
+    QElapsedTimer sinceMoved;
+    QJsonObject shownTrigger;  // settings that its bar has
     QRect box;
     QAction *removeAction = nullptr;
     QAction *toggleAction = nullptr;

@@ -163,13 +163,19 @@ struct QPlcPanelContext::Private : public QObject
         frame.setSingleShot(true);
         frame.setInterval(frameTime);
         connect(&frame, &QTimer::timeout, this, &Private::tell);
+        timeTurn.setSingleShot(true);
+        timeTurn.setInterval(0);
+        connect(&timeTurn, &QTimer::timeout, this, &Private::touch);
         panel->installEventFilter(this);
     }
 
     bool eventFilter(QObject *watched, QEvent *event) override
     {
-        if (watched == panel && (event->type() == QEvent::Show || event->type() == DrawNow::Kind))
+        if (watched == panel && (event->type() == QEvent::Show || event->type() == DrawNow::Kind)) {
+            isDue = isDue || timeTurn.isActive();
+            timeTurn.stop();
             tell();
+        }
         return QObject::eventFilter(watched, event);
     }
 
@@ -203,7 +209,7 @@ struct QPlcPanelContext::Private : public QObject
               &QPlcTimeAxis::playheadChanged, &QPlcTimeAxis::displayTimeChanged})
             connect(time, changed, this, [this] {
                 Q_EMIT q->timeChanged();
-                touch();
+                timeTurn.start();
             });
     }
 
@@ -239,7 +245,8 @@ struct QPlcPanelContext::Private : public QObject
     QPointer<WindowContext> window;
     QPlcTimeAxis ownTime;  // outside of a window
     QHash<QString, CurveSource> formulas;
-    QTimer frame;  // runs while the panel was told so recently that it has to wait
+    QTimer frame;     // runs while the panel was told so recently that it has to wait
+    QTimer timeTurn;  // the time that is shown changes in several steps: panels draw the last of them
     bool isDue = false;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a time plot shows, with a real plant, and what people do with the mouse.
 #include "../../common/Waiting.h"
+#include "FedPlotWindow.h"
 #include "PlotFixtures.h"
 
 #include <QtCore/QJsonArray>
@@ -64,6 +65,7 @@ class tst_TimePlot : public QObject
 {
     Q_OBJECT
 private Q_SLOTS:
+    void numbersComeWithThePlayhead();
     void plotWithoutContextAcceptsSignalsAndActions();
     void emptyPlotShowsAHint();
     void missingSignalIsReportedAndFoundLater();
@@ -413,6 +415,18 @@ void tst_TimePlot::wholeNumbersHaveNoTicksBetweenThem()
     QCOMPARE(ticks(), (QList<double>{0.0, 1.0, 2.0}));
     canvas.setRange(PlotCurveSettings::Left, 0.0, 1000.0, PlotCanvas::WholeTicks);
     QVERIFY(ticks().size() > 3 && ticks().size() < 30);
+}
+
+void tst_TimePlot::numbersComeWithThePlayhead()
+{
+    FedPlotWindow window(R"({"curves":[{"signal":"speed"}]})");
+    QVERIFY(window.show());
+    const SignalStore *store = window.plant->store();
+    window.context.timeAxis()->setPlayhead(store->time(store->firstRow() + 150));
+    const auto *overlay = window.plot->findChild<PlotOverlay *>();
+    QVERIFY(waitUntil([overlay] { return overlay->picture().playhead.has_value(); }));
+    const QString value = window.legend()->entries().first().value;
+    QVERIFY2(value.startsWith(QLatin1String("150")), qPrintable(value));
 }
 
 QTEST_MAIN(tst_TimePlot)
