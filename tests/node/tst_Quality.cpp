@@ -191,6 +191,7 @@ void tst_Quality::aWriterThatIsKilledIsHeldAndThenSafe()
     writer.kill();
     QVERIFY(writer.waitForFinished());
     QTRY_COMPARE(master.signalQuality("echo").kind(), QPlcQuality::Safe);
+    QVERIFY(master.waitForCycles(master.statistics().cycles + 3));
     master.stop();
     int last = actuator.record.size() - 1;
     while (last >= 0 && !actuator.record.at(last).endsWith("good"))
