@@ -6,6 +6,7 @@ docs/design/layers.md says why.
 usage: layers.py SOURCE_FOLDER
 """
 import functools
+import os
 import re
 import sys
 from pathlib import Path
@@ -426,6 +427,8 @@ class Check:
     def __init__(self, root):
         self.root, self.errors = root.resolve(), []
         self.source, self.public = self.root / "src", self.root / "include/QtPlc"
+        # Each check looks at the same files.
+        self.files, self.text, self.room = map(functools.lru_cache(maxsize=None), (files, Path.read_text, self.room))
         self.homes = {p.stem: p.relative_to(self.source).parts[0] for p in self.source.rglob("*.cpp")}
 
     def error(self, path, line, text):
@@ -443,19 +446,19 @@ class Check:
         return room if room in ARROWS else folder
 
     def arrows(self):
-        for path in files(self.source) + [p for p in files(self.public) if p.suffix == ".h"]:
+        known = {str(path): path for path in self.files(self.source) + self.files(self.public)}
+        for path in self.files(self.source) + [p for p in self.files(self.public) if p.suffix == ".h"]:
             room = self.room(path)
             if room not in ARROWS and room != "all":
                 self.error(path, 1, f"belongs to no room (found: {room}): name it in tests/layers/layers.py")
                 continue
-            for number, line in lines_with(path.read_text(), INCLUDE):
+            for number, line in lines_with(self.text(path), INCLUDE):
                 match = re.match(INCLUDE, line)
-                target = next(
-                    (f for f in (d / match[1] for d in (path.parent, self.source, self.public)) if f.is_file()), None
-                )
+                names = (f"{folder}/{match[1]}" for folder in (path.parent, self.source, self.public))
+                target = next(filter(None, map(known.get, map(os.path.normpath, names))), None)
                 if target is None:
                     continue
-                other = self.room(target.resolve())
+                other = self.room(target)
                 if other is None and target.suffix == "":
                     if room != "tools":
                         self.error(path, number, f"includes the umbrella {match[1]}: include what is used")
@@ -464,18 +467,18 @@ class Check:
 
     def words(self):
         for folder, rules in FORBIDDEN.items():
-            of_room = [p for p in files(self.public) if folder == f"src/{self.room(p)}"]
-            for path in files(self.root / folder) + of_room:
+            of_room = [p for p in self.files(self.public) if folder == f"src/{self.room(p)}"]
+            for path in self.files(self.root / folder) + of_room:
                 for pattern, what in rules:
-                    for number, line in lines_with(path.read_text(), pattern):
+                    for number, line in lines_with(self.text(path), pattern):
                         self.error(path, number, f"{folder} may not know {what}: {line.strip()}")
 
     def fields(self):
-        for path in files(self.source):
+        for path in self.files(self.source):
             room = self.room(path)
             if str(room).startswith("protocol"):
                 continue
-            text = path.read_text()
+            text = self.text(path)
             foreign = READS_JSON if room == "tools" else None if room in HAS_JSON else JSON
             found = first_with(text, BY_NAME) or (foreign and first_with(text, foreign))
             if found:
@@ -484,22 +487,22 @@ class Check:
 
     def panels(self):
         folders = [self.source / "gui" / room for room in PANEL_ROOMS] + [self.source / "gui3d"]
-        for path in [path for folder in folders for path in files(folder)]:
-            for number, line in lines_with(path.read_text(), WINDOW):
+        for path in [path for folder in folders for path in self.files(folder)]:
+            for number, line in lines_with(self.text(path), WINDOW):
                 self.error(path, number, f"a panel knows the window by QPlcPanelContext alone: {line.strip()}")
-        for path in files(self.root / "examples"):
-            for number, line in lines_with(path.read_text(), PRIVATE_INCLUDE):
+        for path in self.files(self.root / "examples"):
+            for number, line in lines_with(self.text(path), PRIVATE_INCLUDE):
                 header = re.match(PRIVATE_INCLUDE, line)[1]
                 self.error(path, number, f"an example knows the public headers alone, not {header}")
 
     def kernel(self):
         """What a file asks of the machine, and may not, or no longer does."""
-        for path in files(self.source) + [p for p in files(self.public) if p.suffix == ".h"]:
+        for path in self.files(self.source) + [p for p in self.files(self.public) if p.suffix == ".h"]:
             room = str(self.room(path)).split("/")[0]
             if room not in HOSTED and room != "all":
                 continue
             name = str(path.relative_to(self.source if self.source in path.parents else self.public))
-            asked = asked_of_machine(path.read_text())
+            asked = asked_of_machine(self.text(path))
             for what, (number, line) in asked.items():
                 if (name, what) not in EXCUSED and what not in OF_ROOM.get(room, ()):
                     self.error(path, number, f"asks the machine for {what}, ask Host::current() for it: {line}")
@@ -513,7 +516,7 @@ class Check:
                 self.error(path, 1, "public headers stand side by side in include/QtPlc")
             elif path.suffix == ".h" and not path.stem.endswith("Global"):
                 # Definitions at the left margin outside of namespaces for internals.
-                text = re.sub(r"^namespace \w+ \{\n.*?^\} +// namespace", "", path.read_text(), flags=re.S | re.M)
+                text = re.sub(r"^namespace \w+ \{\n.*?^\} +// namespace", "", self.text(path), flags=re.S | re.M)
                 classes = re.findall(
                     r"^(?:class|struct|union)\s+(?:QTPLC_\w*EXPORT\s+)?(\w+)[^;\n]*$", text, flags=re.M
                 )
@@ -537,10 +540,10 @@ class Check:
     def lengths_and_licences(self):
         lengths = []
         for folder in SOURCES:
-            for path in files(self.root / folder):
-                if "SPDX-License-Identifier: Apache-2.0" not in path.read_text().split("\n")[0]:
+            for path in self.files(self.root / folder):
+                if "SPDX-License-Identifier: Apache-2.0" not in self.text(path).split("\n")[0]:
                     self.error(path, 1, "does not begin with // SPDX-License-Identifier: Apache-2.0")
-                for line, length, is_table in functions_of(path.read_text()):
+                for line, length, is_table in functions_of(self.text(path)):
                     if length > MOST_LINES and not is_table:
                         self.error(path, line, f"a function of {length} lines, more than {MOST_LINES}: split it")
                     if folder in ("include", "src"):
