@@ -38,7 +38,7 @@ private:
     {
         messages::Hex64 localKey;
 
-        static constexpr auto fields = std::make_tuple(messages::field("localKey", &Request::localKey));
+        static constexpr auto fields = messages::fieldList(messages::field("localKey", &Request::localKey));
     };
 };
 

@@ -28,7 +28,7 @@ protected:
     {
         int udpPort = 0;
 
-        static constexpr auto fields = std::make_tuple(messages::field("udpPort", &Request::udpPort));
+        static constexpr auto fields = messages::fieldList(messages::field("udpPort", &Request::udpPort));
     };
 };
 

@@ -79,8 +79,8 @@ private:
         QString group;  // of IPv4
         quint16 groupPort = 0;
 
-        static constexpr auto fields = std::make_tuple(messages::field("group", &Answer::group),
-                                                       messages::field("groupPort", &Answer::groupPort));
+        static constexpr auto fields = messages::fieldList(messages::field("group", &Answer::group),
+                                                           messages::field("groupPort", &Answer::groupPort));
     };
 };
 

@@ -106,9 +106,9 @@ public:
 
 private:
     template<typename... Fields>
-    void addAll(const std::tuple<Fields...> &fields, const QString &path)
+    void addAll(const messages::FieldList<Fields...> &fields, const QString &path)
     {
-        std::apply([&](const auto &...each) { (addOne(each, path), ...); }, fields);
+        fields.forEach([&](const auto &each) { addOne(each, path); });
     }
     template<typename Owner, typename Value>
     void addOne(const messages::Field<Owner, Value> &field, const QString &path)

@@ -14,11 +14,10 @@ struct Complete : GetEvents
     std::vector<EventEntry> entries;
     QJsonObject others;
 
-    static constexpr auto fields
-        = std::tuple_cat(GetEvents::fields,
-                         std::make_tuple(field("text", &Complete::text), field("number", &Complete::number),
-                                         field("duration", &Complete::duration), field("entries", &Complete::entries),
-                                         rest(&Complete::others)));
+    static constexpr auto fields = joined(GetEvents::fields,
+                                          fieldList(field("text", &Complete::text), field("number", &Complete::number),
+                                                    field("duration", &Complete::duration),
+                                                    field("entries", &Complete::entries), rest(&Complete::others)));
 };
 const QJsonObject complete = toObject(Complete());
 using CompleteRow
@@ -31,7 +30,7 @@ struct MissingField
 {
     int listed = 0;
     std::optional<Hex64> missing;
-    static constexpr auto fields = std::make_tuple(field("listed", &MissingField::listed));
+    static constexpr auto fields = fieldList(field("listed", &MissingField::listed));
 };
 const QJsonObject a = toObject(MissingField());
 // refused: a member of this struct of messages is missing in its `fields`
@@ -40,8 +39,7 @@ struct SameMember
 {
     bool first = false;
     bool second = false;
-    static constexpr auto fields
-        = std::make_tuple(field("first", &SameMember::first), field("second", &SameMember::first));
+    static constexpr auto fields = fieldList(field("first", &SameMember::first), field("second", &SameMember::first));
 };
 const QJsonObject b = toObject(SameMember());
 // refused: two entries in `fields` have the same name, or the same member
@@ -51,7 +49,7 @@ struct HasConstructor
     HasConstructor() = default;
     explicit HasConstructor(int);
     int listed = 0;
-    static constexpr auto fields = std::make_tuple(field("listed", &HasConstructor::listed));
+    static constexpr auto fields = fieldList(field("listed", &HasConstructor::listed));
 };
 const QJsonObject c = toObject(HasConstructor());
 // refused: a struct of messages needs public members and no constructor
@@ -59,7 +57,7 @@ const QJsonObject c = toObject(HasConstructor());
 struct WithoutAnswer
 {
     static constexpr QPlcMessage::Kind kind = QPlcMessage::GetEvents;
-    static constexpr auto fields = std::make_tuple();
+    static constexpr auto fields = fieldList();
 };
 const Use d
     = Row<WithoutAnswer, Sender::Operators, Purpose::Command, Turn::InOrder, Outcome::Prompt, Writes::Nothing>::use;

@@ -26,7 +26,7 @@ template<typename Message>
 QStringList namesOf()
 {
     QStringList names;
-    std::apply([&](const auto &...each) { (collect(each, &names), ...); }, Message::fields);
+    Message::fields.forEach([&names](const auto &each) { collect(each, &names); });
     return names;
 }
 

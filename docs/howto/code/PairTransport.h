@@ -180,7 +180,7 @@ private:
     {
         int pairEnd = -1;  // descriptor of the node's socket
 
-        static constexpr auto fields = std::make_tuple(qplc::messages::field("pairEnd", &Answer::pairEnd));
+        static constexpr auto fields = qplc::messages::fieldList(qplc::messages::field("pairEnd", &Answer::pairEnd));
     };
     mutable std::mutex m_mutex;
     mutable std::set<int> m_offered;  // ends that no node has taken yet

@@ -34,7 +34,7 @@ struct EventEntry
     QString alarm;  // name of a condition that lasts; empty: none
     std::optional<bool> active;
 
-    static constexpr auto fields = std::make_tuple(
+    static constexpr auto fields = fieldList(
         field("sequence", &EventEntry::sequence, Presence::Required), field("time", &EventEntry::time),
         field("severity", &EventEntry::severity), field("kind", &EventEntry::kind),
         field("source", &EventEntry::source), field("text", &EventEntry::text),
@@ -48,7 +48,7 @@ struct Events
     std::optional<bool> more;  // there are newer ones; absent in what comes unasked
 
     static constexpr auto fields
-        = std::make_tuple(field("events", &Events::events), field("more", &Events::more, Presence::WhenSet));
+        = fieldList(field("events", &Events::events), field("more", &Events::more, Presence::WhenSet));
 };
 
 struct GetEvents
@@ -57,7 +57,7 @@ struct GetEvents
     using Answer = Events;
     std::optional<quint64> since;  // those after this sequence number
 
-    static constexpr auto fields = std::make_tuple(field("since", &GetEvents::since, Presence::Checked));
+    static constexpr auto fields = fieldList(field("since", &GetEvents::since, Presence::Checked));
 };
 
 /// A remark of a person about what happens now: an event, and so in recordings.
@@ -69,8 +69,8 @@ struct Note
     QString text;
     QString whoever;  // the person
 
-    static constexpr auto fields = std::make_tuple(field("text", &Note::text, Presence::Required),
-                                                   field("whoever", &Note::whoever, Presence::WhenSet));
+    static constexpr auto fields = fieldList(field("text", &Note::text, Presence::Required),
+                                             field("whoever", &Note::whoever, Presence::WhenSet));
 };
 
 }  // namespace qplc::messages

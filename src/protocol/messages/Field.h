@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "FieldList.h"
 #include "Members.h"
 #include "Wire.h"
 
 #include <limits>
-#include <tuple>
 
 namespace qplc::messages {
 
@@ -116,9 +116,9 @@ void write(const Struct &value, const Field<Owner, Value> &field, QJsonObject *o
 }
 
 template<typename Struct, typename... Fields>
-void write(const Struct &value, const std::tuple<Fields...> &fields, QJsonObject *object)
+void write(const Struct &value, const FieldList<Fields...> &fields, QJsonObject *object)
 {
-    std::apply([&](const auto &...each) { (write(value, each, object), ...); }, fields);
+    fields.forEach([&](const auto &each) { write(value, each, object); });
 }
 
 template<typename Struct>
@@ -162,9 +162,9 @@ bool read(const QJsonObject &object, const Field<Owner, Value> &field, Struct *v
 }
 
 template<typename Struct, typename... Fields>
-bool read(const QJsonObject &object, const std::tuple<Fields...> &fields, Struct *value, QString *error)
+bool read(const QJsonObject &object, const FieldList<Fields...> &fields, Struct *value, QString *error)
 {
-    return std::apply([&](const auto &...each) { return (read(object, each, value, error) && ...); }, fields);
+    return fields.visit([&](const auto &...each) { return (read(object, each, value, error) && ...); });
 }
 
 /// Reads all fields of \a Struct. Fields that it does not know are ignored.
@@ -209,8 +209,7 @@ template<typename Struct, typename Owner>
 bool read(const QJsonObject &object, const Rest<Owner> &rest, Struct *value, QString *)
 {
     QJsonObject others = object;
-    const auto removeThose = [&others](const auto &...each) { (others.remove(QLatin1String(each.name)), ...); };
-    std::apply(removeThose, fieldsIn<Struct>());
+    fieldsIn<Struct>().forEach([&others](const auto &each) { others.remove(QLatin1String(each.name)); });
     value->*rest.member = others;
     return true;
 }

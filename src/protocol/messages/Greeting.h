@@ -41,7 +41,7 @@ struct ClientHello
     QStringList features;            // that it offers
     bool wantsTable = true;          // if it has another one
 
-    static constexpr auto fields = std::make_tuple(
+    static constexpr auto fields = fieldList(
         field("protocol", &ClientHello::protocol), field("name", &ClientHello::name), field("uuid", &ClientHello::uuid),
         field("role", &ClientHello::role), field("tableHash", &ClientHello::tableHash, Presence::WhenSet),
         field("features", &ClientHello::features), field("wantsTable", &ClientHello::wantsTable, Presence::WhenSet));
@@ -69,7 +69,7 @@ struct MasterHello
     QString role;
     QString faults;
 
-    static constexpr auto fields = std::make_tuple(
+    static constexpr auto fields = fieldList(
         field("protocol", &MasterHello::protocol), field("name", &MasterHello::name), field("uuid", &MasterHello::uuid),
         field("session", &MasterHello::session), field("tableHash", &MasterHello::tableHash),
         field("table", &MasterHello::table, Presence::WhenSet), field("state", &MasterHello::state),
@@ -86,21 +86,21 @@ struct Rejected
     QString error;  // a word of section 5.5
     QString text;   // a sentence
 
-    static constexpr auto fields = std::make_tuple(field("error", &Rejected::error), field("text", &Rejected::text));
+    static constexpr auto fields = fieldList(field("error", &Rejected::error), field("text", &Rejected::text));
 };
 
 /// The master ends as wanted.
 struct MasterEnds
 {
     static constexpr QPlcMessage::Kind kind = QPlcMessage::MasterEnds;
-    static constexpr auto fields = std::make_tuple();
+    static constexpr auto fields = fieldList();
 };
 
 /// A request was carried out.
 struct Done
 {
     static constexpr QPlcMessage::Kind kind = QPlcMessage::Done;
-    static constexpr auto fields = std::make_tuple();
+    static constexpr auto fields = fieldList();
 };
 
 /// A request was refused; the connection stays.
@@ -110,7 +110,7 @@ struct Failed
     QString error;  // a word of section 5.5
     QString text;   // a sentence
 
-    static constexpr auto fields = std::make_tuple(field("error", &Failed::error), field("text", &Failed::text));
+    static constexpr auto fields = fieldList(field("error", &Failed::error), field("text", &Failed::text));
 };
 
 }  // namespace qplc::messages

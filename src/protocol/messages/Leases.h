@@ -27,9 +27,9 @@ struct LeaseEntry
     LeaseState lease = LeaseState::Held;
     std::chrono::nanoseconds timeout{0};
 
-    static constexpr auto fields = std::make_tuple(
-        field("signal", &LeaseEntry::signal, Presence::Required), field("holder", &LeaseEntry::holder),
-        field("lease", &LeaseEntry::lease), field("timeout", &LeaseEntry::timeout));
+    static constexpr auto fields
+        = fieldList(field("signal", &LeaseEntry::signal, Presence::Required), field("holder", &LeaseEntry::holder),
+                    field("lease", &LeaseEntry::lease), field("timeout", &LeaseEntry::timeout));
 };
 
 struct Leases
@@ -37,7 +37,7 @@ struct Leases
     static constexpr QPlcMessage::Kind kind = QPlcMessage::Leases;
     std::vector<LeaseEntry> leases;
 
-    static constexpr auto fields = std::make_tuple(field("leases", &Leases::leases));
+    static constexpr auto fields = fieldList(field("leases", &Leases::leases));
 };
 
 struct LeasesChanged
@@ -45,14 +45,14 @@ struct LeasesChanged
     static constexpr QPlcMessage::Kind kind = QPlcMessage::LeasesChanged;
     std::vector<LeaseEntry> leases;
 
-    static constexpr auto fields = std::make_tuple(field("leases", &LeasesChanged::leases));
+    static constexpr auto fields = fieldList(field("leases", &LeasesChanged::leases));
 };
 
 struct GetLeases
 {
     static constexpr QPlcMessage::Kind kind = QPlcMessage::GetLeases;
     using Answer = Leases;
-    static constexpr auto fields = std::make_tuple();
+    static constexpr auto fields = fieldList();
 };
 
 struct TakeLease
@@ -66,12 +66,11 @@ struct TakeLease
     std::chrono::nanoseconds timeout{1'000'000'000};
     bool takeOver = false;  // also from another holder
 
-    static constexpr auto fields
-        = std::make_tuple(field("signals", &TakeLease::signals, Presence::Required),
-                          field("values", &TakeLease::values, Presence::Checked),
-                          field("whoever", &TakeLease::whoever, Presence::Checked),
-                          field("timeout", &TakeLease::timeout, Presence::Checked, timeoutRange),
-                          field("takeOver", &TakeLease::takeOver, Presence::WhenSet));
+    static constexpr auto fields = fieldList(field("signals", &TakeLease::signals, Presence::Required),
+                                             field("values", &TakeLease::values, Presence::Checked),
+                                             field("whoever", &TakeLease::whoever, Presence::Checked),
+                                             field("timeout", &TakeLease::timeout, Presence::Checked, timeoutRange),
+                                             field("takeOver", &TakeLease::takeOver, Presence::WhenSet));
 };
 
 struct ReleaseLease
@@ -80,7 +79,7 @@ struct ReleaseLease
     using Answer = Done;
     std::optional<QStringList> signals;  // without it all that the asker holds
 
-    static constexpr auto fields = std::make_tuple(field("signals", &ReleaseLease::signals, Presence::Checked));
+    static constexpr auto fields = fieldList(field("signals", &ReleaseLease::signals, Presence::Checked));
 };
 
 }  // namespace qplc::messages

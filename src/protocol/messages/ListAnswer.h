@@ -51,7 +51,7 @@ std::unique_ptr<ListAnswer> makeListAnswer(const Message &head, std::vector<Elem
         if constexpr (std::is_same_v<std::decay_t<decltype(field.member)>, std::vector<Element> Message::*>)
             name = field.member == list ? field.name : name;
     };
-    std::apply([&](const auto &...each) { (look(each), ...); }, Message::fields);
+    Message::fields.forEach(look);
     QJsonObject others = toObject(head);
     others.remove(QLatin1String(name));
     return std::make_unique<ListAnswer>(kindOf<Message>(), tooLong, others, name, count,

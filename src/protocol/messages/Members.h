@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstddef>
+#include "FieldList.h"
+
 #include <initializer_list>
 #include <string_view>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -52,10 +52,10 @@ constexpr bool areMembersOf()
     return hasMembers<Owner, own + std::size_t(hasBase)>;
 }
 
-/// Whether a tuple of fields describes all members of \a Struct, and of its base if it names any of
+/// Whether a list of fields describes all members of \a Struct, and of its base if it names any of
 /// them.
-template<typename Struct, typename... Fields>
-constexpr bool areAllMembers(const std::tuple<Fields...> *)
+template<typename Struct, typename Indexes, typename... Fields>
+constexpr bool areAllMembers(const FieldList<Indexes, Fields...> *)
 {
     return areMembersOf<Struct, Struct, Fields...>()
         && (areMembersOf<Struct, typename Fields::Struct, Fields...>() && ...);
@@ -91,13 +91,12 @@ constexpr bool areDistinctNames(std::initializer_list<std::string_view> names)
     return true;
 }
 
-/// Whether a tuple has one field for each of its members, with a name of its own.
+/// Whether a list has one field for each of its members, with a name of its own.
 template<typename... Fields>
-constexpr bool isEachOnce(const std::tuple<Fields...> &fields)
+constexpr bool isEachOnce(const FieldList<Fields...> &fields)
 {
-    const auto look
-        = [](const auto &...each) { return areDistinctNames({each.name...}) && areDistinctMembers(each.member...); };
-    return std::apply(look, fields);
+    return fields.visit(
+        [](const auto &...each) { return areDistinctNames({each.name...}) && areDistinctMembers(each.member...); });
 }
 
 }  // namespace qplc::messages

@@ -13,7 +13,7 @@ struct InitializeAllStates
 {
     static constexpr QPlcMessage::Kind kind = QPlcMessage::InitializeAllStates;
     using Answer = Done;
-    static constexpr auto fields = std::make_tuple();
+    static constexpr auto fields = fieldList();
 };
 
 struct SendYourInitialOutputStates
@@ -21,8 +21,7 @@ struct SendYourInitialOutputStates
     static constexpr QPlcMessage::Kind kind = QPlcMessage::SendYourInitialOutputStates;
     std::optional<Hex64> phase;  // cycleZero of the phase that the node joins
 
-    static constexpr auto fields
-        = std::make_tuple(field("phase", &SendYourInitialOutputStates::phase, Presence::WhenSet));
+    static constexpr auto fields = fieldList(field("phase", &SendYourInitialOutputStates::phase, Presence::WhenSet));
 };
 
 struct ReceiveMyInitialOutputStates
@@ -32,9 +31,8 @@ struct ReceiveMyInitialOutputStates
     QByteArray values;    // packed output payload
     bool goesOn = false;  // the node has kept its state
 
-    static constexpr auto fields
-        = std::make_tuple(field("values", &ReceiveMyInitialOutputStates::values, Presence::Required),
-                          field("goesOn", &ReceiveMyInitialOutputStates::goesOn, Presence::WhenSet));
+    static constexpr auto fields = fieldList(field("values", &ReceiveMyInitialOutputStates::values, Presence::Required),
+                                             field("goesOn", &ReceiveMyInitialOutputStates::goesOn, Presence::WhenSet));
 };
 
 struct InitializeWithValues
@@ -42,14 +40,14 @@ struct InitializeWithValues
     static constexpr QPlcMessage::Kind kind = QPlcMessage::InitializeWithValues;
     QByteArray values;  // packed input payload
 
-    static constexpr auto fields = std::make_tuple(field("values", &InitializeWithValues::values, Presence::Required));
+    static constexpr auto fields = fieldList(field("values", &InitializeWithValues::values, Presence::Required));
 };
 
 struct Initialized
 {
     static constexpr QPlcMessage::Kind kind = QPlcMessage::Initialized;
     using Answer = NoAnswer;
-    static constexpr auto fields = std::make_tuple();
+    static constexpr auto fields = fieldList();
 };
 
 struct StatesInitialized
@@ -58,8 +56,8 @@ struct StatesInitialized
     bool ok = false;
     QString text;  // why not
 
-    static constexpr auto fields = std::make_tuple(field("ok", &StatesInitialized::ok),
-                                                   field("text", &StatesInitialized::text, Presence::WhenSet));
+    static constexpr auto fields
+        = fieldList(field("ok", &StatesInitialized::ok), field("text", &StatesInitialized::text, Presence::WhenSet));
 };
 
 struct StartRealTime
@@ -69,8 +67,8 @@ struct StartRealTime
     std::optional<quint64> cycles;  // the master stops by itself after so many
     std::optional<Hex64> token;     // of Armed
 
-    static constexpr auto fields = std::make_tuple(field("cycles", &StartRealTime::cycles, Presence::Checked),
-                                                   field("token", &StartRealTime::token, Presence::WhenSet));
+    static constexpr auto fields = fieldList(field("cycles", &StartRealTime::cycles, Presence::Checked),
+                                             field("token", &StartRealTime::token, Presence::WhenSet));
 };
 
 /// Where the inputs of a node lie in the datagrams of a group.
@@ -81,7 +79,7 @@ struct GroupPlace
     int size = 0;    // [byte]
     Hex64 hash;
 
-    static constexpr auto fields = std::make_tuple(
+    static constexpr auto fields = fieldList(
         field("part", &GroupPlace::part, Presence::Required), field("offset", &GroupPlace::offset, Presence::Required),
         field("size", &GroupPlace::size, Presence::Required), field("hash", &GroupPlace::hash, Presence::Required));
     friend bool operator==(const GroupPlace &a, const GroupPlace &b)
@@ -101,7 +99,7 @@ struct RealTimeStarted
     Hex64 cycleZero;
     std::optional<GroupPlace> group;
 
-    static constexpr auto fields = std::make_tuple(
+    static constexpr auto fields = fieldList(
         field("period", &RealTimeStarted::period, Presence::Checked),
         field("clock", &RealTimeStarted::clock, Presence::Required), field("scale", &RealTimeStarted::scale),
         field("profile", &RealTimeStarted::profile, Presence::WhenSet),
@@ -113,7 +111,7 @@ struct RealTimeReady
 {
     static constexpr QPlcMessage::Kind kind = QPlcMessage::RealTimeReady;
     using Answer = NoAnswer;
-    static constexpr auto fields = std::make_tuple();
+    static constexpr auto fields = fieldList();
 };
 
 struct Stop
@@ -123,8 +121,8 @@ struct Stop
     QString whoever;  // the person
     QString how;      // "Esc Esc"
 
-    static constexpr auto fields = std::make_tuple(field("whoever", &Stop::whoever, Presence::WhenSet),
-                                                   field("how", &Stop::how, Presence::WhenSet));
+    static constexpr auto fields
+        = fieldList(field("whoever", &Stop::whoever, Presence::WhenSet), field("how", &Stop::how, Presence::WhenSet));
 };
 
 struct RealTimeStopped
@@ -134,9 +132,9 @@ struct RealTimeStopped
     std::optional<Hex64> lastCycle;  // number on the wire of the last cycle that was sent to the node; none: none was
     quint64 before = 0;              // as in the frames of that cycle
 
-    static constexpr auto fields = std::make_tuple(
-        field("reason", &RealTimeStopped::reason), field("lastCycle", &RealTimeStopped::lastCycle, Presence::WhenSet),
-        field("before", &RealTimeStopped::before, Presence::WhenSet, {0, 65535}));
+    static constexpr auto fields = fieldList(field("reason", &RealTimeStopped::reason),
+                                             field("lastCycle", &RealTimeStopped::lastCycle, Presence::WhenSet),
+                                             field("before", &RealTimeStopped::before, Presence::WhenSet, {0, 65535}));
 };
 
 struct SafeStop
@@ -145,7 +143,7 @@ struct SafeStop
     using Answer = Done;
     QString reason;
 
-    static constexpr auto fields = std::make_tuple(field("reason", &SafeStop::reason, Presence::WhenSet));
+    static constexpr auto fields = fieldList(field("reason", &SafeStop::reason, Presence::WhenSet));
 };
 
 struct Reset
@@ -154,7 +152,7 @@ struct Reset
     using Answer = Done;
     quint64 latch = 0;  // as in State: the safe stop or fault that the sender has seen
 
-    static constexpr auto fields = std::make_tuple(field("latch", &Reset::latch, Presence::Required));
+    static constexpr auto fields = fieldList(field("latch", &Reset::latch, Presence::Required));
 };
 
 /// Somebody goes, and does not come back before Admit.
@@ -164,7 +162,7 @@ struct Evict
     using Answer = Done;
     QString name;  // of a node or person
 
-    static constexpr auto fields = std::make_tuple(field("name", &Evict::name, Presence::Required));
+    static constexpr auto fields = fieldList(field("name", &Evict::name, Presence::Required));
 };
 
 struct Admit
@@ -173,7 +171,7 @@ struct Admit
     using Answer = Done;
     QString name;
 
-    static constexpr auto fields = std::make_tuple(field("name", &Admit::name, Presence::Required));
+    static constexpr auto fields = fieldList(field("name", &Admit::name, Presence::Required));
 };
 
 struct Armed
@@ -183,14 +181,14 @@ struct Armed
     std::chrono::nanoseconds validFor{0};
 
     static constexpr auto fields
-        = std::make_tuple(field("token", &Armed::token, Presence::Required), field("validFor", &Armed::validFor));
+        = fieldList(field("token", &Armed::token, Presence::Required), field("validFor", &Armed::validFor));
 };
 
 struct Arm
 {
     static constexpr QPlcMessage::Kind kind = QPlcMessage::Arm;
     using Answer = Armed;
-    static constexpr auto fields = std::make_tuple();
+    static constexpr auto fields = fieldList();
 };
 
 }  // namespace qplc::messages

@@ -12,8 +12,8 @@ struct RecordedEvent : EventEntry
 {
     QString address;  // of who did it; empty: nobody over a connection
 
-    static constexpr auto fields = std::tuple_cat(
-        std::make_tuple(field("address", &RecordedEvent::address, Presence::WhenSet)), EventEntry::fields);
+    static constexpr auto fields
+        = joined(fieldList(field("address", &RecordedEvent::address, Presence::WhenSet)), EventEntry::fields);
 };
 
 /// `/commands`: a value that was set.
@@ -29,7 +29,7 @@ struct RecordedSetting
     QString how;                   // "set", "program", "lease", "came back", "lease lost"
     std::optional<quint64> count;  // of values that are told together
 
-    static constexpr auto fields = std::make_tuple(
+    static constexpr auto fields = fieldList(
         field("by", &RecordedSetting::by), field("role", &RecordedSetting::role, Presence::WhenSet),
         field("address", &RecordedSetting::address, Presence::WhenSet),
         field("client", &RecordedSetting::client, Presence::WhenSet), field("signal", &RecordedSetting::signal),
@@ -46,7 +46,7 @@ struct RecordedCommand
     QString client;
     QString command;  // "Stop"
 
-    static constexpr auto fields = std::make_tuple(
+    static constexpr auto fields = fieldList(
         field("by", &RecordedCommand::by), field("role", &RecordedCommand::role, Presence::WhenSet),
         field("address", &RecordedCommand::address, Presence::WhenSet),
         field("client", &RecordedCommand::client, Presence::WhenSet), field("command", &RecordedCommand::command));
@@ -64,12 +64,12 @@ struct RecordedLease
     QStringList from;  // who had them
     QString reason;    // of a loss
 
-    static constexpr auto fields = std::make_tuple(
-        field("by", &RecordedLease::by), field("role", &RecordedLease::role, Presence::WhenSet),
-        field("address", &RecordedLease::address, Presence::WhenSet),
-        field("client", &RecordedLease::client, Presence::WhenSet), field("what", &RecordedLease::what),
-        field("signals", &RecordedLease::signals), field("from", &RecordedLease::from, Presence::WhenSet),
-        field("reason", &RecordedLease::reason, Presence::WhenSet));
+    static constexpr auto fields
+        = fieldList(field("by", &RecordedLease::by), field("role", &RecordedLease::role, Presence::WhenSet),
+                    field("address", &RecordedLease::address, Presence::WhenSet),
+                    field("client", &RecordedLease::client, Presence::WhenSet), field("what", &RecordedLease::what),
+                    field("signals", &RecordedLease::signals), field("from", &RecordedLease::from, Presence::WhenSet),
+                    field("reason", &RecordedLease::reason, Presence::WhenSet));
 };
 
 /// Durations of the last 10 s [ns].
@@ -79,9 +79,8 @@ struct RecordedDuration
     qint64 p99 = 0;
     qint64 maximum = 0;
 
-    static constexpr auto fields
-        = std::make_tuple(field("p50", &RecordedDuration::p50), field("p99", &RecordedDuration::p99),
-                          field("maximum", &RecordedDuration::maximum));
+    static constexpr auto fields = fieldList(field("p50", &RecordedDuration::p50), field("p99", &RecordedDuration::p99),
+                                             field("maximum", &RecordedDuration::maximum));
 };
 
 struct RecordedNodeStatistics
@@ -92,7 +91,7 @@ struct RecordedNodeStatistics
     RecordedDuration slack;
     QMap<QString, double> counters;
 
-    static constexpr auto fields = std::make_tuple(
+    static constexpr auto fields = fieldList(
         field("name", &RecordedNodeStatistics::name), field("execution", &RecordedNodeStatistics::execution),
         field("roundTrip", &RecordedNodeStatistics::roundTrip), field("slack", &RecordedNodeStatistics::slack),
         field("counters", &RecordedNodeStatistics::counters));
@@ -108,7 +107,7 @@ struct RecordedStatistics
     QMap<QString, double> counters;
     std::vector<RecordedNodeStatistics> nodes;
 
-    static constexpr auto fields = std::make_tuple(
+    static constexpr auto fields = fieldList(
         field("lateness", &RecordedStatistics::lateness), field("execution", &RecordedStatistics::execution),
         field("roundTrip", &RecordedStatistics::roundTrip), field("slack", &RecordedStatistics::slack),
         field("counters", &RecordedStatistics::counters), field("nodes", &RecordedStatistics::nodes));

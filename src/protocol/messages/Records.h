@@ -32,9 +32,9 @@ struct Records
     Hex64 startTime;   // of cycle 0 [ns since 1970]; 0: not yet, or the clock is not timed
 
     static constexpr auto fields
-        = std::make_tuple(field("ring", &Records::ring), field("part", &Records::part), field("from", &Records::from),
-                          field("bytes", &Records::bytes), field("head", &Records::head),
-                          field("capacity", &Records::capacity), field("startTime", &Records::startTime));
+        = fieldList(field("ring", &Records::ring), field("part", &Records::part), field("from", &Records::from),
+                    field("bytes", &Records::bytes), field("head", &Records::head),
+                    field("capacity", &Records::capacity), field("startTime", &Records::startTime));
 };
 
 struct GetRecords
@@ -50,7 +50,7 @@ struct GetRecords
     bool ends = false;  // this recorder needs no more of this ring
     std::optional<RecorderEntry> recorder;
 
-    static constexpr auto fields = std::make_tuple(
+    static constexpr auto fields = fieldList(
         field("ring", &GetRecords::ring, Presence::Checked), field("part", &GetRecords::part, Presence::Checked),
         field("from", &GetRecords::from, Presence::Checked), field("saved", &GetRecords::saved, Presence::Checked),
         field("bytes", &GetRecords::bytes, Presence::Checked, {0, double(most)}),

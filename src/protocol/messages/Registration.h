@@ -18,11 +18,11 @@ struct DeclaredSignal
     bool sameCycle = false;       // inputs only
     std::optional<Hex64> safety;  // of its safety parameters; none: the node takes those of the master
 
-    static constexpr auto fields = std::make_tuple(field("name", &DeclaredSignal::name, Presence::Required),
-                                                   field("type", &DeclaredSignal::type, Presence::Required),
-                                                   field("unit", &DeclaredSignal::unit),
-                                                   field("sameCycle", &DeclaredSignal::sameCycle, Presence::Checked),
-                                                   field("safety", &DeclaredSignal::safety, Presence::Checked));
+    static constexpr auto fields
+        = fieldList(field("name", &DeclaredSignal::name, Presence::Required),
+                    field("type", &DeclaredSignal::type, Presence::Required), field("unit", &DeclaredSignal::unit),
+                    field("sameCycle", &DeclaredSignal::sameCycle, Presence::Checked),
+                    field("safety", &DeclaredSignal::safety, Presence::Checked));
 };
 
 struct Register
@@ -48,19 +48,19 @@ struct Register
     QString faults;
     QJsonObject transport;  // with the fields that the transport adds
 
-    static constexpr auto fields = std::make_tuple(
-        field("name", &Register::name, Presence::Required), field("uuid", &Register::uuid),
-        field("policy", &Register::policy, Presence::Required), field("listener", &Register::listener),
-        field("critical", &Register::critical, Presence::Checked),
-        field("every", &Register::every, Presence::Checked, Range{1, longestInterval}),
-        field("inputs", &Register::inputs, Presence::Required),
-        field("outputs", &Register::outputs, Presence::Required),
-        field("twoPhase", &Register::twoPhase, Presence::Checked),
-        field("quality", &Register::quality, Presence::Checked),
-        field("outputQuality", &Register::outputQuality, Presence::Checked),
-        field("watchdog", &Register::watchdog, Presence::Checked, Range{0, longestWatchdog}),
-        field("cyclic", &Register::cyclic, Presence::Required), field("faults", &Register::faults, Presence::WhenSet),
-        rest(&Register::transport));
+    static constexpr auto fields
+        = fieldList(field("name", &Register::name, Presence::Required), field("uuid", &Register::uuid),
+                    field("policy", &Register::policy, Presence::Required), field("listener", &Register::listener),
+                    field("critical", &Register::critical, Presence::Checked),
+                    field("every", &Register::every, Presence::Checked, Range{1, longestInterval}),
+                    field("inputs", &Register::inputs, Presence::Required),
+                    field("outputs", &Register::outputs, Presence::Required),
+                    field("twoPhase", &Register::twoPhase, Presence::Checked),
+                    field("quality", &Register::quality, Presence::Checked),
+                    field("outputQuality", &Register::outputQuality, Presence::Checked),
+                    field("watchdog", &Register::watchdog, Presence::Checked, Range{0, longestWatchdog}),
+                    field("cyclic", &Register::cyclic, Presence::Required),
+                    field("faults", &Register::faults, Presence::WhenSet), rest(&Register::transport));
 };
 
 /// Keys of one registration, a direction each.
@@ -69,8 +69,8 @@ struct Seal
     QByteArray inputs;
     QByteArray outputs;
 
-    static constexpr auto fields = std::make_tuple(field("inputs", &Seal::inputs, Presence::Required),
-                                                   field("outputs", &Seal::outputs, Presence::Required));
+    static constexpr auto fields = fieldList(field("inputs", &Seal::inputs, Presence::Required),
+                                             field("outputs", &Seal::outputs, Presence::Required));
     friend bool operator==(const Seal &a, const Seal &b) { return a.inputs == b.inputs && a.outputs == b.outputs; }
 };
 
@@ -80,8 +80,8 @@ struct Probe
     Hex64 question;
     Hex64 answer;
 
-    static constexpr auto fields = std::make_tuple(field("question", &Probe::question, Presence::Required),
-                                                   field("answer", &Probe::answer, Presence::Required));
+    static constexpr auto fields = fieldList(field("question", &Probe::question, Presence::Required),
+                                             field("answer", &Probe::answer, Presence::Required));
     friend bool operator==(const Probe &a, const Probe &b) { return a.question == b.question && a.answer == b.answer; }
 };
 
@@ -97,7 +97,7 @@ struct Registered
     std::optional<Probe> probe;
     QJsonObject transport;  // with the fields that the transport adds
 
-    static constexpr auto fields = std::make_tuple(
+    static constexpr auto fields = fieldList(
         field("node", &Registered::node, Presence::Required, Range{1, 65535}),
         field("inputsHash", &Registered::inputsHash, Presence::Required),
         field("outputsHash", &Registered::outputsHash, Presence::Required), field("state", &Registered::state),
@@ -115,15 +115,15 @@ struct AttachCyclicChannel
     Hex64 token;
     QString cyclic;  // the transport that the node has chosen; empty: that of its Register
 
-    static constexpr auto fields = std::make_tuple(field("node", &AttachCyclicChannel::node, Presence::Required),
-                                                   field("token", &AttachCyclicChannel::token, Presence::Required),
-                                                   field("cyclic", &AttachCyclicChannel::cyclic, Presence::WhenSet));
+    static constexpr auto fields = fieldList(field("node", &AttachCyclicChannel::node, Presence::Required),
+                                             field("token", &AttachCyclicChannel::token, Presence::Required),
+                                             field("cyclic", &AttachCyclicChannel::cyclic, Presence::WhenSet));
 };
 
 struct CyclicChannelAttached
 {
     static constexpr QPlcMessage::Kind kind = QPlcMessage::CyclicChannelAttached;
-    static constexpr auto fields = std::make_tuple();
+    static constexpr auto fields = fieldList();
 };
 
 /// The node cannot go on.
@@ -135,7 +135,7 @@ struct NodeFault
     std::optional<Hex64> phase;  // cycleZero of the phase in whose cycles the node failed
 
     static constexpr auto fields
-        = std::make_tuple(field("text", &NodeFault::text), field("phase", &NodeFault::phase, Presence::WhenSet));
+        = fieldList(field("text", &NodeFault::text), field("phase", &NodeFault::phase, Presence::WhenSet));
 };
 
 }  // namespace qplc::messages

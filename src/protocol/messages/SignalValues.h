@@ -19,13 +19,13 @@ struct SignalEntry
     QString holder;                 // of a lease
     std::optional<LeaseState> lease;
 
-    static constexpr auto fields = std::make_tuple(
-        field("name", &SignalEntry::name, Presence::Required), field("type", &SignalEntry::type),
-        field("unit", &SignalEntry::unit), field("description", &SignalEntry::description),
-        field("value", &SignalEntry::value), field("writer", &SignalEntry::writer),
-        field("quality", &SignalEntry::quality), field("source", &SignalEntry::source, Presence::WhenSet),
-        field("holder", &SignalEntry::holder, Presence::WhenSet),
-        field("lease", &SignalEntry::lease, Presence::WhenSet));
+    static constexpr auto fields
+        = fieldList(field("name", &SignalEntry::name, Presence::Required), field("type", &SignalEntry::type),
+                    field("unit", &SignalEntry::unit), field("description", &SignalEntry::description),
+                    field("value", &SignalEntry::value), field("writer", &SignalEntry::writer),
+                    field("quality", &SignalEntry::quality), field("source", &SignalEntry::source, Presence::WhenSet),
+                    field("holder", &SignalEntry::holder, Presence::WhenSet),
+                    field("lease", &SignalEntry::lease, Presence::WhenSet));
 };
 
 struct Signals
@@ -33,7 +33,7 @@ struct Signals
     static constexpr QPlcMessage::Kind kind = QPlcMessage::Signals;
     std::vector<SignalEntry> signals;
 
-    static constexpr auto fields = std::make_tuple(field("signals", &Signals::signals));
+    static constexpr auto fields = fieldList(field("signals", &Signals::signals));
 };
 
 struct GetSignals
@@ -42,7 +42,7 @@ struct GetSignals
     using Answer = Signals;
     QStringList names;  // empty: all
 
-    static constexpr auto fields = std::make_tuple(field("names", &GetSignals::names, Presence::Checked));
+    static constexpr auto fields = fieldList(field("names", &GetSignals::names, Presence::Checked));
 };
 
 struct SetSignals
@@ -54,8 +54,8 @@ struct SetSignals
     std::optional<std::chrono::nanoseconds> duration;
 
     static constexpr auto fields
-        = std::make_tuple(field("values", &SetSignals::values, Presence::Required),
-                          field("duration", &SetSignals::duration, Presence::Checked, durationRange));
+        = fieldList(field("values", &SetSignals::values, Presence::Required),
+                    field("duration", &SetSignals::duration, Presence::Checked, durationRange));
 };
 
 }  // namespace qplc::messages

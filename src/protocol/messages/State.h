@@ -17,7 +17,7 @@ template<>
 struct Description<QPlcNodeInfo>
 {
     using N = QPlcNodeInfo;
-    static constexpr auto fields = std::make_tuple(
+    static constexpr auto fields = fieldList(
         field("name", &N::name, Presence::Required), field("id", &N::id), field("inputs", &N::inputs),
         field("outputs", &N::outputs), field("listener", &N::listener), field("critical", &N::critical),
         field("state", &N::state), field("every", &N::every), field("policy", &N::policy),
@@ -35,8 +35,8 @@ struct EvictedEntry
     QString by;  // for people, as in the refusals: 'anna'
     Hex64 time;  // [ns] since 1970
 
-    static constexpr auto fields = std::make_tuple(field("name", &EvictedEntry::name, Presence::Required),
-                                                   field("by", &EvictedEntry::by), field("time", &EvictedEntry::time));
+    static constexpr auto fields = fieldList(field("name", &EvictedEntry::name, Presence::Required),
+                                             field("by", &EvictedEntry::by), field("time", &EvictedEntry::time));
 };
 
 /// A Stop that ended the phase that ran last.
@@ -47,8 +47,8 @@ struct StopEntry
     Hex64 time;          // [ns] since 1970
     bool yours = false;  // the connection that reads this has sent it
 
-    static constexpr auto fields = std::make_tuple(field("whoever", &StopEntry::whoever), field("how", &StopEntry::how),
-                                                   field("time", &StopEntry::time), field("yours", &StopEntry::yours));
+    static constexpr auto fields = fieldList(field("whoever", &StopEntry::whoever), field("how", &StopEntry::how),
+                                             field("time", &StopEntry::time), field("yours", &StopEntry::yours));
 };
 
 /// What a master has counted. They go by their names: another version may have more of them.
@@ -56,7 +56,7 @@ template<>
 struct Counters<QPlcMasterStatistics>
 {
     using M = QPlcMasterStatistics;
-    static constexpr auto fields = std::make_tuple(
+    static constexpr auto fields = fieldList(
         field("cycles", &M::cycles), field("overruns", &M::overruns), field("skippedCycles", &M::skippedCycles),
         field("lateAnswers", &M::lateAnswers), field("strangers", &M::strangers), field("floods", &M::floods),
         field("refusedConnections", &M::refusedConnections), field("failedHandshakes", &M::failedHandshakes),
@@ -95,7 +95,7 @@ struct RecorderEntry
     quint64 missing = 0;        // cycles of the phase that are in no recording
     QString error;              // the newest one of the recorder; empty: there was none
 
-    static constexpr auto fields = std::make_tuple(
+    static constexpr auto fields = fieldList(
         field("state", &RecorderEntry::state), field("file", &RecorderEntry::file),
         field("bytesPerSecond", &RecorderEntry::bytesPerSecond), field("freeBytes", &RecorderEntry::freeBytes),
         field("missing", &RecorderEntry::missing), field("error", &RecorderEntry::error));
@@ -127,7 +127,7 @@ struct State
     QString faults;
     std::optional<RecorderEntry> recorder;  // none: no phase was recorded from yet
 
-    static constexpr auto fields = std::make_tuple(
+    static constexpr auto fields = fieldList(
         field("state", &State::state), field("reason", &State::reason), field("remains", &State::remains),
         field("missing", &State::missing, Presence::WhenSet), field("evicted", &State::evicted, Presence::WhenSet),
         field("latch", &State::latch), field("armed", &State::armed), field("armingRequired", &State::armingRequired),
@@ -143,7 +143,7 @@ struct GetState
 {
     static constexpr QPlcMessage::Kind kind = QPlcMessage::GetState;
     using Answer = State;
-    static constexpr auto fields = std::make_tuple();
+    static constexpr auto fields = fieldList();
 };
 
 template<>
@@ -157,8 +157,7 @@ template<>
 struct Description<QPlcSchedule::Turn>
 {
     using T = QPlcSchedule::Turn;
-    static constexpr auto fields
-        = std::make_tuple(field("node", &T::node, Presence::Required), field("phase", &T::phase));
+    static constexpr auto fields = fieldList(field("node", &T::node, Presence::Required), field("phase", &T::phase));
 };
 
 template<>
@@ -166,22 +165,21 @@ struct Description<QPlcSchedule::Link>
 {
     using L = QPlcSchedule::Link;
     static constexpr auto fields
-        = std::make_tuple(field("signal", &L::signal, Presence::Required), field("from", &L::from), field("to", &L::to),
-                          field("age", &L::age), field("sameCycle", &L::sameCycle));
+        = fieldList(field("signal", &L::signal, Presence::Required), field("from", &L::from), field("to", &L::to),
+                    field("age", &L::age), field("sameCycle", &L::sameCycle));
 };
 
 struct Schedule : QPlcSchedule
 {
     static constexpr QPlcMessage::Kind kind = QPlcMessage::Schedule;
-    static constexpr auto fields
-        = std::make_tuple(field("stages", &Schedule::stages), field("links", &Schedule::links));
+    static constexpr auto fields = fieldList(field("stages", &Schedule::stages), field("links", &Schedule::links));
 };
 
 struct GetSchedule
 {
     static constexpr QPlcMessage::Kind kind = QPlcMessage::GetSchedule;
     using Answer = Schedule;
-    static constexpr auto fields = std::make_tuple();
+    static constexpr auto fields = fieldList();
 };
 
 }  // namespace qplc::messages

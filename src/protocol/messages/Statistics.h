@@ -34,24 +34,24 @@ template<>
 struct Description<QPlcDistribution>
 {
     using D = QPlcDistribution;
-    static constexpr auto fields = std::make_tuple(
-        field("count", &D::count), field("minimum", &D::minimum), field("mean", &D::mean), field("p001", &D::p001),
-        field("p01", &D::p01), field("p50", &D::p50), field("p99", &D::p99), field("p999", &D::p999),
-        field("maximum", &D::maximum), field("bins", &D::bins, Presence::WhenSet));
+    static constexpr auto fields
+        = fieldList(field("count", &D::count), field("minimum", &D::minimum), field("mean", &D::mean),
+                    field("p001", &D::p001), field("p01", &D::p01), field("p50", &D::p50), field("p99", &D::p99),
+                    field("p999", &D::p999), field("maximum", &D::maximum), field("bins", &D::bins, Presence::WhenSet));
 };
 
 template<>
 struct Description<QPlcDurationStatistics>
 {
     using D = QPlcDurationStatistics;
-    static constexpr auto fields = std::make_tuple(field("sinceStart", &D::sinceStart), field("last10s", &D::last10s));
+    static constexpr auto fields = fieldList(field("sinceStart", &D::sinceStart), field("last10s", &D::last10s));
 };
 
 template<>
 struct Description<QPlcWorstCycle::Stage>
 {
     using S = QPlcWorstCycle::Stage;
-    static constexpr auto fields = std::make_tuple(field("name", &S::name), field("duration", &S::duration));
+    static constexpr auto fields = fieldList(field("name", &S::name), field("duration", &S::duration));
 };
 
 template<>
@@ -59,9 +59,9 @@ struct Description<QPlcWorstCycle>
 {
     using W = QPlcWorstCycle;
     static constexpr auto fields
-        = std::make_tuple(field("cycle", &W::cycle), field("skipped", &W::skipped), field("lateness", &W::lateness),
-                          field("roundTrip", &W::roundTrip), field("execution", &W::execution),
-                          field("slack", &W::slack), field("stages", &W::stages));
+        = fieldList(field("cycle", &W::cycle), field("skipped", &W::skipped), field("lateness", &W::lateness),
+                    field("roundTrip", &W::roundTrip), field("execution", &W::execution), field("slack", &W::slack),
+                    field("stages", &W::stages));
 };
 
 /// The names of the counters of \a Statistics. They go by their names: another version may have
@@ -74,17 +74,17 @@ struct Counters<QPlcNodeStatistics>
 {
     using N = QPlcNodeStatistics;
     static constexpr auto fields
-        = std::make_tuple(field("answers", &N::answers), field("late", &N::late), field("lost", &N::lost),
-                          field("duplicated", &N::duplicated), field("reordered", &N::reordered),
-                          field("rejected", &N::rejected), field("forged", &N::forged), field("resent", &N::resent),
-                          field("nonFinite", &N::nonFinite), field("outOfRange", &N::outOfRange));
+        = fieldList(field("answers", &N::answers), field("late", &N::late), field("lost", &N::lost),
+                    field("duplicated", &N::duplicated), field("reordered", &N::reordered),
+                    field("rejected", &N::rejected), field("forged", &N::forged), field("resent", &N::resent),
+                    field("nonFinite", &N::nonFinite), field("outOfRange", &N::outOfRange));
 };
 
 template<>
 struct Counters<QPlcCycleStatistics>
 {
     using C = QPlcCycleStatistics;
-    static constexpr auto fields = std::make_tuple(
+    static constexpr auto fields = fieldList(
         field("cycles", &C::cycles), field("overruns", &C::overruns), field("skippedCycles", &C::skippedCycles),
         field("caughtUpCycles", &C::caughtUpCycles), field("shiftedTime", &C::shiftedTime),
         field("lateAnswers", &C::lateAnswers), field("incompleteCycles", &C::incompleteCycles),
@@ -97,7 +97,7 @@ QMap<QString, double> countersOf(const Statistics &statistics)
     QMap<QString, double> counters;
     const auto add
         = [&](const auto &field) { counters.insert(QLatin1String(field.name), double(statistics.*field.member)); };
-    std::apply([&](const auto &...each) { (add(each), ...); }, Counters<Statistics>::fields);
+    Counters<Statistics>::fields.forEach(add);
     return counters;
 }
 
@@ -111,7 +111,7 @@ void setCounters(const QMap<QString, double> &counters, Statistics *statistics)
         Wire<Value>::fromJson(counters.value(QLatin1String(field.name)), &value);
         statistics->*field.member = value;
     };
-    std::apply([&](const auto &...each) { (set(each), ...); }, Counters<Statistics>::fields);
+    Counters<Statistics>::fields.forEach(set);
 }
 
 /// Durations and counters of the master or of a node. Absent durations: that one has none.
@@ -123,11 +123,11 @@ struct MasterMeasures
     std::optional<QPlcDurationStatistics> slack;
     QMap<QString, double> counters;
 
-    static constexpr auto fields = std::make_tuple(field("lateness", &MasterMeasures::lateness, Presence::WhenSet),
-                                                   field("execution", &MasterMeasures::execution, Presence::WhenSet),
-                                                   field("roundTrip", &MasterMeasures::roundTrip, Presence::WhenSet),
-                                                   field("slack", &MasterMeasures::slack, Presence::WhenSet),
-                                                   field("counters", &MasterMeasures::counters));
+    static constexpr auto fields = fieldList(field("lateness", &MasterMeasures::lateness, Presence::WhenSet),
+                                             field("execution", &MasterMeasures::execution, Presence::WhenSet),
+                                             field("roundTrip", &MasterMeasures::roundTrip, Presence::WhenSet),
+                                             field("slack", &MasterMeasures::slack, Presence::WhenSet),
+                                             field("counters", &MasterMeasures::counters));
 };
 
 struct NodeMeasures
@@ -138,11 +138,11 @@ struct NodeMeasures
     std::optional<QPlcDurationStatistics> slack;
     QMap<QString, double> counters;
 
-    static constexpr auto fields = std::make_tuple(field("name", &NodeMeasures::name, Presence::Required),
-                                                   field("execution", &NodeMeasures::execution, Presence::WhenSet),
-                                                   field("roundTrip", &NodeMeasures::roundTrip, Presence::WhenSet),
-                                                   field("slack", &NodeMeasures::slack, Presence::WhenSet),
-                                                   field("counters", &NodeMeasures::counters));
+    static constexpr auto fields = fieldList(field("name", &NodeMeasures::name, Presence::Required),
+                                             field("execution", &NodeMeasures::execution, Presence::WhenSet),
+                                             field("roundTrip", &NodeMeasures::roundTrip, Presence::WhenSet),
+                                             field("slack", &NodeMeasures::slack, Presence::WhenSet),
+                                             field("counters", &NodeMeasures::counters));
 };
 
 inline QPlcCycleStatistics statisticsOf(const MasterMeasures &measures)
@@ -174,8 +174,8 @@ struct Statistics
     std::vector<NodeMeasures> nodes;
     std::vector<QPlcWorstCycle> worst;
 
-    static constexpr auto fields = std::make_tuple(
-        field("master", &Statistics::master), field("nodes", &Statistics::nodes), field("worst", &Statistics::worst));
+    static constexpr auto fields = fieldList(field("master", &Statistics::master), field("nodes", &Statistics::nodes),
+                                             field("worst", &Statistics::worst));
 };
 
 struct GetStatistics
@@ -184,7 +184,7 @@ struct GetStatistics
     using Answer = Statistics;
     bool histograms = false;
 
-    static constexpr auto fields = std::make_tuple(field("histograms", &GetStatistics::histograms, Presence::WhenSet));
+    static constexpr auto fields = fieldList(field("histograms", &GetStatistics::histograms, Presence::WhenSet));
 };
 
 }  // namespace qplc::messages

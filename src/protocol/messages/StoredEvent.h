@@ -15,11 +15,11 @@ struct StoredEvent : EventEntry
     std::optional<quint64> cycle;  // absent: no cycle ran
 
     static constexpr auto fields
-        = std::tuple_cat(std::make_tuple(field("utc", &StoredEvent::utc), field("monotonic", &StoredEvent::monotonic),
-                                         field("run", &StoredEvent::run, Presence::Required),
-                                         field("address", &StoredEvent::address, Presence::WhenSet),
-                                         field("cycle", &StoredEvent::cycle, Presence::WhenSet)),
-                         EventEntry::fields);
+        = joined(fieldList(field("utc", &StoredEvent::utc), field("monotonic", &StoredEvent::monotonic),
+                           field("run", &StoredEvent::run, Presence::Required),
+                           field("address", &StoredEvent::address, Presence::WhenSet),
+                           field("cycle", &StoredEvent::cycle, Presence::WhenSet)),
+                 EventEntry::fields);
 
     /// With its end.
     QByteArray toLine() const;

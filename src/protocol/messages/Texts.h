@@ -24,7 +24,7 @@ void changeTexts(Value *value, const Change &change)
         if (value->has_value())
             changeTexts(&**value, change);
     } else if constexpr (std::is_base_of_v<WireOfStruct<Value>, Wire<Value>>) {
-        std::apply([&](const auto &...each) { (changeTextsOf(value, each, change), ...); }, fieldsIn<Value>());
+        fieldsIn<Value>().forEach([&](const auto &each) { changeTextsOf(value, each, change); });
     } else if constexpr (IsContainer<Value>::value) {
         for (auto &each : *value)
             changeTexts(&each, change);
