@@ -66,9 +66,8 @@ const Use d
 const Use e = Row<Stop, Sender::Everybody, Purpose::Command, Turn::Urgent, Outcome::None, Writes::Nothing>::use;
 // refused: a message needs Outcome::None with NoAnswer, and another Outcome with any other Answer
 
-const Use f
-    = Row<GetState, Sender::Operators, Purpose::Question, Turn::InOrder, Outcome::Certain, Writes::Nothing>::use;
-// refused: only commands can be kept to operators
+const Use f = Row<NodeFault, Sender::Operators, Purpose::Report, Turn::InOrder, Outcome::None, Writes::Nothing>::use;
+// refused: only commands and questions can be kept to operators
 
 const QPlcMessage g = toMessage(WithoutAnswer());
 // refused: a message that is sent needs a row in ClientTable, or a place in the lists of FromMaster
