@@ -21,6 +21,7 @@ BLOCK = re.compile(
 MARK = re.compile(r"<!-- (?:file|begin of|end of): ")
 TEST = re.compile(r"`(tst_\w+)::(\w+)`")
 LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)\s]*)?\)")
+LINK_INSIDE = re.compile(r"\]\((#[^)\s]*)\)")
 
 
 def shown(path):
@@ -68,6 +69,11 @@ def check_links(root, document, errors):
     for link in LINK.findall(text):
         if not re.match(r"\w+:", link) and not (document.parent / link).exists():
             errors.append(f"{document.relative_to(root)}: the link to {link} leads nowhere")
+    for part in LINK_INSIDE.findall(text):
+        errors.append(
+            f"{document.relative_to(root)}: the link to {part} needs the name of the page, as Doxygen wants it; "
+            f"remedy: {document.name}{part}"
+        )
 
 
 def sources_of_tests(root):
@@ -129,7 +135,7 @@ def check_rooms(root, errors):
             path for path in (root / parent).iterdir() if path.is_dir() and not path.name.startswith("__")
         ):
             if parent != "tests" and parent != "src":
-                line = re.search(rf"^{parent} .*$", text, re.M)
+                line = re.search(rf"^{parent} .*(?:\n +.*)*", text, re.M)
                 named = line is not None and re.search(rf"\b{room.name}\b", line[0])
             else:
                 named = f"{parent}/{room.name}" in text or re.search(
