@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "CampaignPrograms.h"
 
+#include "realtime/Distributions.h"
+
 #include <QtCore/QProcess>
 #include <QtCore/QStandardPaths>
 
-#include <algorithm>
 #include <csignal>
 #include <sched.h>
 #include <sys/prctl.h>
@@ -22,18 +23,6 @@ constexpr int histogramRows = 20'000;       // of the histogram of cyclictest [u
 QString quoted(const QString &path)
 {
     return QLatin1Char('\'') + QString(path).replace(QLatin1Char('\''), QLatin1String("'\\''")) + QLatin1Char('\'');
-}
-
-/// The value that a share of the values does not exceed [ns].
-qint64 quantile(const QVector<QPlcDistribution::Bin> &bins, quint64 count, double share)
-{
-    quint64 below = 0;
-    for (const QPlcDistribution::Bin &bin : bins) {
-        below += bin.count;
-        if (double(below) >= share * double(count))
-            return bin.upperBorder;
-    }
-    return 0;
 }
 
 void append(const QByteArray &bytes, QByteArray *kept)
@@ -156,37 +145,28 @@ QString cyclictestCommand(std::chrono::nanoseconds period, int priority, std::ch
 
 QPlcDistribution cyclictestResult(const QByteArray &output)
 {
-    QPlcDistribution result;
-    double sum = 0.0;
+    QVector<QPlcDistribution::Bin> bins;
+    qplc::ExactFigures exact;
+    const auto add = [&](qint64 latency, quint64 count) {
+        if (count == 0)
+            return;
+        bins.append({latency, count});
+        exact.add({latency, latency, latency * qint64(count)});
+    };
+    qint64 maximum = 0;
     quint64 beyond = 0;
     const QList<QByteArray> lines = output.split('\n');
     for (const QByteArray &line : lines) {
         const QList<QByteArray> words = line.simplified().split(' ');
         if (line.startsWith("# Max Latencies:"))
-            result.maximum = words.last().toLongLong() * 1000;
+            maximum = words.last().toLongLong() * 1000;
         else if (line.startsWith("# Histogram Overflows:"))
             beyond = words.last().toULongLong();
-        if (line.startsWith('#') || words.size() != 2)
-            continue;
-        const qint64 latency = words.first().toLongLong() * 1000;
-        const quint64 count = words.last().toULongLong();
-        if (count == 0)
-            continue;
-        result.bins.append({latency, count});
-        result.count += count;
-        sum += double(latency) * double(count);
+        if (!line.startsWith('#') && words.size() == 2)
+            add(words.first().toLongLong() * 1000, words.last().toULongLong());
     }
-    if (beyond > 0)
-        result.bins.append({result.maximum, beyond});
-    result.count += beyond;
-    if (result.count == 0)
-        return {};
-    result.minimum = result.bins.first().upperBorder;
-    result.mean = (sum + double(result.maximum) * double(beyond)) / double(result.count);
-    result.p50 = quantile(result.bins, result.count, 0.5);
-    result.p99 = quantile(result.bins, result.count, 0.99);
-    result.p999 = quantile(result.bins, result.count, 0.999);
-    return result;
+    add(maximum, beyond);
+    return qplc::distributionOf(bins, exact);
 }
 
 }  // namespace tools
