@@ -106,6 +106,33 @@ QVector<SystemFacts::IdleState> idleStatesOf(const Reader &reader)
     return states;
 }
 
+/// What follows the colon in the first line of this name: "MemTotal:  1024 kB".
+QString valueOf(const Reader &reader, const QString &path, const QString &name)
+{
+    const QStringList lines = reader.lines(path);
+    for (const QString &line : lines) {
+        if (line.startsWith(name))
+            return line.section(QLatin1Char(':'), 1).simplified();
+    }
+    return {};
+}
+
+/// A board tells its model with a zero at the end; others have that of the processor.
+QString modelOf(const Reader &reader)
+{
+    const QString board = reader.text(QStringLiteral("proc/device-tree/model")).value_or(QString());
+    return board.isEmpty() ? valueOf(reader, QStringLiteral("proc/cpuinfo"), QStringLiteral("model name"))
+                           : QString(board).remove(QChar(0)).simplified();
+}
+
+bool isVirtualMachine(const Reader &reader)
+{
+    const QStringList flags = valueOf(reader, QStringLiteral("proc/cpuinfo"), QStringLiteral("flags"))
+                                  .split(QLatin1Char(' '), Qt::SkipEmptyParts);
+    const QString vendor = reader.text(QStringLiteral("sys/class/dmi/id/sys_vendor")).value_or(QString());
+    return flags.contains(QLatin1String("hypervisor")) || vendor.contains(QLatin1String("QEMU"));
+}
+
 /// The soft limit of this name: the names have blanks, columns are at least two blanks apart.
 QString limitOf(const Reader &reader, const QString &name)
 {
@@ -139,6 +166,11 @@ SystemFacts SystemFacts::read(const QString &root)
     facts.idleStates = idleStatesOf(reader);
     facts.priorityLimit = limitOf(reader, QStringLiteral("Max realtime priority"));
     facts.memoryLimit = limitOf(reader, QStringLiteral("Max locked memory"));
+    facts.model = modelOf(reader);
+    facts.memory = valueOf(reader, QStringLiteral("proc/meminfo"), QStringLiteral("MemTotal"));
+    facts.isVirtual = isVirtualMachine(reader);
+    facts.load = reader.words(QStringLiteral("proc/loadavg")).value(0);
+    facts.kernelParameters = reader.words(QStringLiteral("proc/cmdline"));
     return facts;
 }
 

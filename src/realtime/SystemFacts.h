@@ -33,6 +33,11 @@ struct SystemFacts
     QVector<IdleState> idleStates;     // of the first processor
     QString priorityLimit;             // soft limit as `ulimit -r` shows it: "0", "99", "unlimited"
     QString memoryLimit;               // that of locked memory: "8388608" [byte], "unlimited"
+    QString model;                     // of the computer or its processor: "Raspberry Pi 4 Model B"
+    QString memory;                    // "3884028 kB"
+    bool isVirtual = false;            // it says that it is a virtual machine
+    QString load;                      // mean of the last minute: "0.12"
+    QStringList kernelParameters;      // all of the command line
 
     /// \param root  folder that has proc and sys
     static SystemFacts read(const QString &root = QStringLiteral("/"));

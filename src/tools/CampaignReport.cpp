@@ -8,8 +8,6 @@
 #include "signals/DurationText.h"
 
 #include <QtCore/QDateTime>
-#include <QtCore/QDir>
-#include <QtCore/QFile>
 #include <QtCore/QRegularExpression>
 
 #include <algorithm>
@@ -112,45 +110,20 @@ QByteArray detailsOf(const CampaignResult &result)
         + "</div></div>\n";
 }
 
-QString firstLine(const QDir &root, const char *path)
-{
-    QFile file(root.filePath(QLatin1String(path)));
-    if (!file.open(QIODevice::ReadOnly))
-        return {};
-    return QString::fromUtf8(file.read(4096)).remove(QChar(0)).section(QLatin1Char('\n'), 0, 0).simplified();
-}
-
-/// The value of the first line of /proc/cpuinfo or /proc/meminfo with this name.
-QString valueOf(const QByteArray &text, const char *name)
-{
-    const QList<QByteArray> lines = text.split('\n');
-    for (const QByteArray &line : lines) {
-        if (line.startsWith(name))
-            return QString::fromUtf8(line.mid(line.indexOf(':') + 1)).simplified();
-    }
-    return {};
-}
-
 QString orUnknown(const QString &text)
 {
     return text.isEmpty() ? QStringLiteral("unknown") : text;
 }
 
-/// Those of \a line that change when threads run; others may name disks or users.
-QString kernelParameters(const QString &line)
+/// Those of \a all that change when threads run; others may name disks or users.
+QString kernelParameters(const QStringList &all)
 {
     static const QRegularExpression matters(QStringLiteral(
         "^(isolcpus|nohz|nohz_full|rcu_nocbs|irqaffinity|threadirqs|preempt|idle|skew_tick|tsc|clocksource|mitigations|"
         "nosmt|maxcpus|cpufreq\\..*|cpuidle\\..*|processor\\..*|intel_idle\\..*|intel_pstate|amd_pstate|dwc_otg\\..*)"
         "(=.*)?$"));
-    const QStringList words = line.split(QLatin1Char(' '), Qt::SkipEmptyParts).filter(matters);
+    const QStringList words = all.filter(matters);
     return words.isEmpty() ? QStringLiteral("none that matters") : words.join(QLatin1Char(' '));
-}
-
-QByteArray contentOf(const QDir &root, const char *path)
-{
-    QFile file(root.filePath(QLatin1String(path)));
-    return file.open(QIODevice::ReadOnly) ? file.read(1 << 20) : QByteArray();
 }
 
 }  // namespace
@@ -171,22 +144,13 @@ QString caseText(const CampaignCase &of)
 
 QVector<CampaignFact> computerFacts(const QString &folder)
 {
-    const QDir root(folder);
-    const QByteArray processors = contentOf(root, "proc/cpuinfo");
-    QString model = firstLine(root, "proc/device-tree/model");
-    if (model.isEmpty())
-        model = valueOf(processors, "model name");
-    const QString flags = QLatin1Char(' ') + valueOf(processors, "flags") + QLatin1Char(' ');
-    const bool isVirtual = flags.contains(QLatin1String(" hypervisor "))
-        || firstLine(root, "sys/class/dmi/id/sys_vendor").contains(QLatin1String("QEMU"));
-    QVector<CampaignFact> facts{
-        {QStringLiteral("computer"), orUnknown(model)},
-        {QStringLiteral("memory"), orUnknown(valueOf(contentOf(root, "proc/meminfo"), "MemTotal"))},
-        {QStringLiteral("virtual machine"), isVirtual ? QStringLiteral("yes") : QStringLiteral("no sign of one")},
-        {QStringLiteral("load average before"),
-         orUnknown(firstLine(root, "proc/loadavg").section(QLatin1Char(' '), 0, 0))},
-        {QStringLiteral("kernel parameters"), kernelParameters(firstLine(root, "proc/cmdline"))}};
     const qplc::SystemFacts system = qplc::SystemFacts::read(folder);
+    QVector<CampaignFact> facts{{QStringLiteral("computer"), orUnknown(system.model)},
+                                {QStringLiteral("memory"), orUnknown(system.memory)},
+                                {QStringLiteral("virtual machine"),
+                                 system.isVirtual ? QStringLiteral("yes") : QStringLiteral("no sign of one")},
+                                {QStringLiteral("load average before"), orUnknown(system.load)},
+                                {QStringLiteral("kernel parameters"), kernelParameters(system.kernelParameters)}};
     const QVector<qplc::Finding> findings
         = QVector<qplc::Finding>{qplc::judgeVersions(system)} + qplc::judgeFacts(system);
     for (const qplc::Finding &finding : findings)

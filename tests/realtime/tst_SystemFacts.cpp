@@ -54,6 +54,8 @@ void tst_SystemFacts::emptyRootGivesNoFacts()
     QVERIFY(!facts.isolated && !facts.swapSpace && !facts.realTimeShare);
     QVERIFY(facts.governors.isEmpty() && facts.clockSource.isEmpty() && facts.clockSources.isEmpty());
     QVERIFY(facts.idleStates.isEmpty() && facts.priorityLimit.isEmpty() && facts.memoryLimit.isEmpty());
+    QVERIFY(facts.model.isEmpty() && facts.memory.isEmpty() && !facts.isVirtual);
+    QVERIFY(facts.load.isEmpty() && facts.kernelParameters.isEmpty());
 }
 
 void tst_SystemFacts::preemptionIsReadFromTheVersion_data()
