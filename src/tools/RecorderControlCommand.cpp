@@ -2,16 +2,13 @@
 // record start, stop, mark, status, list: the recorder of a folder.
 #include "Commands.h"
 #include "TerminalText.h"
+#include "WaitFor.h"
 #include "recording/RecorderControl.h"
 #include "recording/RecordingFolder.h"
 
 #include <QtCore/QDateTime>
 #include <QtCore/QDir>
-#include <QtCore/QEventLoop>
 #include <QtCore/QJsonArray>
-#include <QtCore/QTimer>
-
-#include <functional>
 
 namespace tools {
 
@@ -20,23 +17,14 @@ namespace {
 using qplc::RecorderControl;
 using qplc::RecordingFolder;
 
-constexpr int LookAfter = 20;  // [ms]
-constexpr int MostLooks = 500;
+constexpr std::chrono::seconds LongestAnswer{10};
+constexpr std::chrono::milliseconds LookAfter{20};
 
-/// Looks again and again. \return false: for 10 s it was not true
-bool waitUntil(const std::function<bool()> &isTrue)
+/// Asks \a isTrue again and again. \return false: for 10 s it was not true
+template<typename Condition>
+bool waitUntil(Condition isTrue)
 {
-    QEventLoop loop;
-    QTimer timer;
-    int looks = 0;
-    QObject::connect(&timer, &QTimer::timeout, &loop, [&] {
-        if (isTrue() || ++looks >= MostLooks)
-            loop.quit();
-    });
-    timer.start(LookAfter);
-    if (!isTrue())
-        loop.exec();
-    return isTrue();
+    return isTrue() || waitFor(LongestAnswer, LookAfter, isTrue) == Waited::Done || isTrue();
 }
 
 int fail(const QString &text)
