@@ -244,7 +244,7 @@ QString take(PlantReader *reader, const QString &fileName, const QByteArray &con
 /// \return empty, or which word of the command line is wrong and the remedy
 QString takeWords(const PlantWords &words, PlantConfiguration *configuration)
 {
-    if (!words.winch.isEmpty() && !winchKindFromText(words.winch, &configuration->winch))
+    if (!words.winch.isEmpty() && !setWinch(configuration, {}, kindKey, words.winch).isEmpty())
         return QStringLiteral("--winch %1: use ideal, machine or drive").arg(words.winch);
     if (!words.mode.isEmpty() && !configuration->kite.setMode(words.mode))
         return QStringLiteral("--mode %1: use pumping or drag").arg(words.mode);
@@ -395,19 +395,6 @@ bool PlantConfiguration::read(const QString &plant, PlantConfiguration *configur
     configuration->options.hasMachine = configuration->winch == WinchKind::Machine;
     configuration->options.hasTurbines = configuration->kite.mode == FlightMode::Drag;
     return error->isEmpty();
-}
-
-bool winchKindFromText(const QString &word, WinchKind *kind)
-{
-    if (word == QLatin1String("ideal"))
-        *kind = WinchKind::Ideal;
-    else if (word == QLatin1String("machine"))
-        *kind = WinchKind::Machine;
-    else if (word == QLatin1String("drive"))
-        *kind = WinchKind::Drive;
-    else
-        return false;
-    return true;
 }
 
 const char *winchSpeedSignal(WinchKind kind)

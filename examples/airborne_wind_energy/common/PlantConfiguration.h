@@ -66,10 +66,6 @@ struct PlantConfiguration
                      const PlantWords &words = PlantWords());
 };
 
-/// Sets the kind that \a word names: "ideal", "machine" or "drive".
-/// \return false when \a word is none of them
-bool winchKindFromText(const QString &word, WinchKind *kind);
-
 /// The signal that tells the speed of the tether [m/s]: what is wanted, or what the drive does.
 const char *winchSpeedSignal(WinchKind kind);
 
