@@ -83,23 +83,28 @@ QString builtInOptionSignals()
     return QStringLiteral(":/signals/airborne_wind_energy_options.ini");
 }
 
+bool addOptionSignals(const PlantOptions &options, QPlcSignalTable *table, QString *error)
+{
+    const QStringList wanted = optionSignalNames(options);
+    QVector<QPlcParseError> errors;
+    const QPlcSignalTable all = QPlcSignalTable::fromIniFile(builtInOptionSignals(), &errors);
+    *error = QPlcParseError::toString(errors);
+    for (const QPlcSignalDefinition &signal : all) {
+        if (error->isEmpty() && wanted.contains(signal.name) && !table->contains(signal.name))
+            table->append(signal, error);
+    }
+    return error->isEmpty();
+}
+
 bool addOptionSignals(QPlcCoreApplication &application, const PlantOptions &options)
 {
     if (options.isThesis())
         return true;
-    const QStringList wanted = optionSignalNames(options);
-    QVector<QPlcParseError> errors;
-    const QPlcSignalTable all = QPlcSignalTable::fromIniFile(builtInOptionSignals(), &errors);
-    QString error = QPlcParseError::toString(errors);
+    QString error;
     QPlcSignalTable table = QPlcSignalIndexTable::current();
-    for (const QPlcSignalDefinition &signal : all) {
-        if (error.isEmpty() && wanted.contains(signal.name) && !table.contains(signal.name))
-            table.append(signal, &error);
-    }
-    if (!accept(application, error))
-        return false;
-    QPlcSignalIndexTable::setCurrent(table);
-    return true;
+    if (addOptionSignals(options, &table, &error))
+        QPlcSignalIndexTable::setCurrent(table);
+    return accept(application, error);
 }
 
 QHostAddress defaultMulticastGroup()

@@ -35,8 +35,10 @@ QString builtInSignals();
 /// Those of the options of a plant; addOptionSignals() adds some of them to a table.
 QString builtInOptionSignals();
 
-/// Adds the signals that the options of a plant need to the table of the process, unless the table
-/// has them already.
+/// Adds the signals that the options of a plant need to \a table, unless it has them already.
+/// \return false when the table of the options is wrong; \a error is a message for people then
+bool addOptionSignals(const PlantOptions &options, QPlcSignalTable *table, QString *error);
+/// The same for the table of the process.
 /// \return false, with the message out, when a table is wrong
 bool addOptionSignals(QPlcCoreApplication &application, const PlantOptions &options);
 

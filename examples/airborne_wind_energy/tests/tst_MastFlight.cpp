@@ -21,18 +21,6 @@ namespace {
 constexpr int second = 100;      // [cycles]
 constexpr int patience = 20000;  // [ms] with a connection, far more than a loaded machine needs
 
-/// The signals of a flight with these options.
-QPlcSignalTable tableOf(const PlantOptions &options)
-{
-    const QStringList wanted = optionSignalNames(options);
-    QPlcSignalTable table = QPlcSignalTable::fromIniFile(builtInSignals());
-    for (const QPlcSignalDefinition &signal : QPlcSignalTable::fromIniFile(builtInOptionSignals())) {
-        if (wanted.contains(signal.name))
-            table.append(signal);
-    }
-    return table;
-}
-
 /// Master, model, autopilot and observer of a plant, cycle by cycle.
 class Flight
 {
@@ -89,7 +77,10 @@ public:
 private:
     bool begin()
     {
-        QPlcSignalIndexTable::setCurrent(tableOf(m_plant.options));
+        QPlcSignalTable table = QPlcSignalTable::fromIniFile(builtInSignals());
+        if (!addOptionSignals(m_plant.options, &table, &m_error))
+            return false;
+        QPlcSignalIndexTable::setCurrent(table);
         const WindParameters &wind = m_plant.kite.wind;
         AutopilotGains gains;
         gains.mast = m_plant.gainsOfMast();
