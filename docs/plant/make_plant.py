@@ -296,24 +296,26 @@ def draw_turbines(flights):
     )
 
 
-def dockings(mast, plant, is_turbulent):
-    """Of the flights that docked: wind, seed and speed."""
+def flights_of(mast, plant, is_turbulent):
     return [
-        flight
-        for flight in mast["flights"]
-        if flight["plant"] == plant and (flight["turbulence"] > 0) == is_turbulent and flight["docked"]
+        flight for flight in mast["flights"] if flight["plant"] == plant and (flight["turbulence"] > 0) == is_turbulent
     ]
+
+
+def docked(flights):
+    return [flight for flight in flights if flight["docked"]]
 
 
 def fastest(flights):
     """Points (wind, fastest docking)."""
-    winds = sorted({flight["wind"] for flight in flights})
-    return [(wind, max(each["dockingSpeed"] for each in flights if each["wind"] == wind)) for wind in winds]
+    landed = docked(flights)
+    winds = sorted({flight["wind"] for flight in landed})
+    return [(wind, max(each["dockingSpeed"] for each in landed if each["wind"] == wind)) for wind in winds]
 
 
 def draw_dockings(mast):
     lines = [
-        (f"{name}{', turbulent' if is_turbulent else ', calm'}", fastest(dockings(mast, plant, is_turbulent)), dash)
+        (f"{name}{', turbulent' if is_turbulent else ', calm'}", fastest(flights_of(mast, plant, is_turbulent)), dash)
         for plant, name in (("spring", "spring tether"), ("realistic", "realistic"))
         for is_turbulent, dash in ((False, ""), (True, "6 3"))
     ]
@@ -344,20 +346,17 @@ def of_all(flights, all_flights):
 
 
 def mast_row(mast, plant, is_turbulent):
-    flown = [
-        flight for flight in mast["flights"] if flight["plant"] == plant and (flight["turbulence"] > 0) == is_turbulent
-    ]
-    docked = dockings(mast, plant, is_turbulent)
+    flown = flights_of(mast, plant, is_turbulent)
     winds = ", ".join(f"{wind:g}" for wind in sorted({flight["wind"] for flight in flown}))
-    speeds = ", ".join(f"{speed:.2f}" for _, speed in fastest(docked))
+    speeds = ", ".join(f"{speed:.2f}" for _, speed in fastest(flown))
     air = "turbulent" if is_turbulent else "calm"
-    return f"| {MAST_PLANTS[plant]} | {air} | {winds} | {of_all(docked, flown)} | {speeds} |"
+    return f"| {MAST_PLANTS[plant]} | {air} | {winds} | {of_all(docked(flown), flown)} | {speeds} |"
 
 
 def mast_table(mast):
     turbulent = [day for day in mast["days"] if day["turbulence"] > 0]
     calm = next(day for day in mast["days"] if day["turbulence"] == 0)
-    speeds = [day["dockingSpeed"] for day in turbulent if day["docked"]]
+    speeds = [day["dockingSpeed"] for day in docked(turbulent)]
     cycles = [day["cycles"] for day in turbulent]
     return "\n".join(
         [
