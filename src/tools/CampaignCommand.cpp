@@ -42,7 +42,7 @@ struct Campaign
 
 QStringList words(const CommandCall &call, const char *option)
 {
-    QStringList list = call.application.value(QLatin1String(option)).split(QLatin1Char(','), Qt::SkipEmptyParts);
+    QStringList list = call.listOf(option);
     for (QString &word : list)
         word = word.trimmed();
     list.removeDuplicates();

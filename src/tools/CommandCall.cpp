@@ -50,6 +50,11 @@ std::shared_ptr<const bool> CommandCall::quitOnSignals() const
     return isWanted;
 }
 
+QStringList CommandCall::listOf(const char *option) const
+{
+    return application.value(QLatin1String(option)).split(QLatin1Char(','), Qt::SkipEmptyParts);
+}
+
 bool CommandCall::readNumber(const char *option, double minimum, double maximum, double *result) const
 {
     const QString name = QString::fromLatin1(option);

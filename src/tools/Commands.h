@@ -43,6 +43,8 @@ struct CommandCall
     /// From now on SIGINT and SIGTERM end the event loop in an orderly way.
     /// \return what becomes true then, for those that come before the loop has begun
     std::shared_ptr<const bool> quitOnSignals() const;
+    /// The words of \a option, with commas between them.
+    QStringList listOf(const char *option) const;
     /// A number given as \a option, in \a minimum ... \a maximum; \a result stays when the option
     /// is not there. \return false, with the message out
     bool readNumber(const char *option, double minimum, double maximum, double *result) const;

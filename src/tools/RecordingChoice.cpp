@@ -71,10 +71,8 @@ bool readTimes(const CommandCall &call, const qplc::Recording &recording, Record
 
 bool readSignals(const CommandCall &call, const qplc::Recording &recording, std::vector<int> *numbers)
 {
-    const QStringList wanted
-        = call.application.value(QStringLiteral("signals")).split(QLatin1Char(','), Qt::SkipEmptyParts);
     QStringList names;
-    if (!selectSignalsOrAll(call.application, recording.table(), wanted, &names))
+    if (!selectSignalsOrAll(call.application, recording.table(), call.listOf("signals"), &names))
         return false;
     for (const QString &name : qAsConst(names))
         numbers->push_back(recording.indexOf(name));

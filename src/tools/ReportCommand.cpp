@@ -41,16 +41,10 @@ bool readFile(const CommandCall &call, const char *option, const QString &name, 
     return false;
 }
 
-/// The files of an option, with commas between them.
-QStringList filesOf(const CommandCall &call, const char *option)
-{
-    return call.application.value(QLatin1String(option)).split(QLatin1Char(','), Qt::SkipEmptyParts);
-}
-
 /// The files of --section; -: the standard input.
 bool readSections(const CommandCall &call, QStringList *sections)
 {
-    const QStringList names = filesOf(call, "section");
+    const QStringList names = call.listOf("section");
     for (const QString &name : names) {
         QByteArray text;
         if (!readFile(call, "section", name, LargestSection, &text, Input::FilesAndStandardInput))
@@ -63,7 +57,7 @@ bool readSections(const CommandCall &call, QStringList *sections)
 /// The files of --picture.
 bool readPictures(const CommandCall &call, std::vector<qplc::ReportSelection::Picture> *pictures)
 {
-    const QStringList names = filesOf(call, "picture");
+    const QStringList names = call.listOf("picture");
     for (const QString &name : names) {
         QByteArray bytes;
         if (!readFile(call, "picture", name, LargestPicture, &bytes))
