@@ -102,10 +102,10 @@ void quitAtTheEndOfThePhase(QPlcRecorder *recorder)
     });
 }
 
-/// Records until the end.
-/// \param isOnePhase  which is this end then; else people want it
-/// \param begin  gives the recorder what it records. \return false: the recorder refuses it
-/// \param end  what is to do when the recorder has stopped. \return what went wrong; empty: nothing
+/// Records until a person ends it.
+/// \param isOnePhase  the end of a phase ends it, too
+/// \param begin       tells the recorder what to record. \return false when the recorder refuses it
+/// \param end         runs after the recorder has stopped. \return empty, or what went wrong
 int record(const CommandCall &call, QPlcRecorder *recorder, bool isOnePhase, const std::function<bool()> &begin,
            const std::function<QString()> &end)
 {

@@ -21,7 +21,7 @@ constexpr qint64 LargestLayout = 4 << 20;    // [byte]
 
 enum class Input { Files, FilesAndStandardInput };
 
-/// \param from  where - is the standard input
+/// \param from  with FilesAndStandardInput the name - means the standard input
 /// \return false, with the message out
 bool readFile(const CommandCall &call, const char *option, const QString &name, qint64 largest, QByteArray *bytes,
               Input from = Input::Files)

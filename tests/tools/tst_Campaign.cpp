@@ -119,7 +119,7 @@ void tst_Campaign::programHasOrdinaryScheduling()
 {
     const sched_param realTime{1};
     if (::sched_setscheduler(0, SCHED_FIFO, &realTime) != 0)
-        QSKIP("this user has no right to real-time priority");
+        QSKIP("SCHED_FIFO is refused: run it as root, or with 'ulimit -r' of at least 1");
     CampaignProgram program("cut -d ' ' -f 41 /proc/$$/stat");  // the policy
     const sched_param ordinary{};
     QCOMPARE(::sched_setscheduler(0, SCHED_OTHER, &ordinary), 0);
