@@ -16,7 +16,6 @@ constexpr qint64 LongestGarbage = std::chrono::nanoseconds(1s).count();
 constexpr quint64 LeastGarbage = 20;  // [byte] less may be half a sentence of a sensor that was switched off
 constexpr qint64 LongestSilence = std::chrono::nanoseconds(5s).count();
 constexpr std::chrono::nanoseconds UsualTimeout = 2500ms;  // instruments talk once or several times a second
-constexpr int MostBytesAtOnce = 4096;                      // in one call: a line that never rests must not hold us
 
 }  // namespace
 
@@ -63,20 +62,15 @@ QString NmeaDriver::remedy(int errorNumber) const
 
 bool NmeaDriver::readLine()
 {
-    char bytes[256];
-    int taken = 0;
-    for (int count = 1; count > 0 && taken < MostBytesAtOnce; taken += count) {
-        count = m_line.read(bytes, sizeof bytes);
-        if (count < 0)
-            return fail(QStringLiteral("cannot read from the serial line '%1': %2; %3")
-                            .arg(m_keys.device, qt_error_string(errno), remedy(errno)));
-        for (int i = 0; i < count; ++i) {
-            if (m_bytesWithoutSentence++ == 0)
-                m_firstWithout = now();
-            if (m_stream.feed(bytes[i]))
-                take(m_stream.sentence());
-        }
-    }
+    const int taken = m_line.readEach([this](char byte) {
+        if (m_bytesWithoutSentence++ == 0)
+            m_firstWithout = now();
+        if (m_stream.feed(byte))
+            take(m_stream.sentence());
+    });
+    if (taken < 0)
+        return fail(QStringLiteral("cannot read from the serial line '%1': %2; %3")
+                        .arg(m_keys.device, qt_error_string(errno), remedy(errno)));
     if (taken > 0)
         m_lastByte = now();
     return true;

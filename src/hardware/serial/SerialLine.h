@@ -44,6 +44,11 @@ public:
     /// \return how many bytes have come, at most \a size; 0: none; -1, with errno, when the line is
     ///         gone (ENODEV: unplugged)
     int read(char *bytes, int size) noexcept;
+    /// Calls \a take with each byte that has come, up to a limit: a line that never rests does not
+    /// hold the caller.
+    /// \return how many bytes have come; -1, with errno, when the line is gone
+    template<typename Take>
+    int readEach(Take take);
     /// \return how many bytes were taken; -1, with errno, when the line is gone
     int write(const char *bytes, int size) noexcept;
 
@@ -55,10 +60,27 @@ public:
     static QString remedy(int errorNumber);
 
 private:
+    static constexpr int MostBytesAtOnce = 4096;  // of readEach()
+
     bool setUp(const SerialSettings &settings, QString *error);
 
     int m_descriptor = -1;
     QString m_device;
 };
+
+template<typename Take>
+int SerialLine::readEach(Take take)
+{
+    char bytes[256];
+    int taken = 0;
+    for (int count = 1; count > 0 && taken < MostBytesAtOnce; taken += count) {
+        count = read(bytes, sizeof bytes);
+        if (count < 0)
+            return -1;
+        for (int i = 0; i < count; ++i)
+            take(bytes[i]);
+    }
+    return taken;
+}
 
 }  // namespace qplc

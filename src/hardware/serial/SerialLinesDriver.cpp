@@ -19,8 +19,7 @@ using namespace std::chrono_literals;
 
 constexpr qint64 LongestSilenceOfLines = std::chrono::nanoseconds(5s).count();
 constexpr std::chrono::nanoseconds UsualTimeoutOfLines = 2500ms;  // of instruments that talk by themselves
-constexpr int MostBytesOfLines = 4096;  // in one call: a line that never rests must not hold us
-constexpr int MostOfAskedText = 256;    // [byte]
+constexpr int MostOfAskedText = 256;                              // [byte]
 
 /// Kind `serial-lines`: any instrument that sends lines of text with numbers, by itself or when it
 /// is asked. See docs/hardware/serial.md.
@@ -83,17 +82,12 @@ protected:
         if (m_isFirstRead)
             m_lastByte = m_lastMatch = now();
         m_isFirstRead = false;
-        char bytes[256];
-        int taken = 0;
-        for (int count = 1; count > 0 && taken < MostBytesOfLines; taken += count) {
-            count = m_line.read(bytes, sizeof bytes);
-            if (count < 0)
-                return failAt(QStringLiteral("read from"));
-            for (int i = 0; i < count; ++i) {
-                if (m_stream.feed(bytes[i]))
-                    apply(m_stream.line());
-            }
-        }
+        const int taken = m_line.readEach([this](char byte) {
+            if (m_stream.feed(byte))
+                apply(m_stream.line());
+        });
+        if (taken < 0)
+            return failAt(QStringLiteral("read from"));
         if (taken > 0)
             m_lastByte = now();
         m_errors.set(double(m_bad + m_stream.refused()));
