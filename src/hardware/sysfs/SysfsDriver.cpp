@@ -7,8 +7,7 @@
 #include "SysfsFolder.h"
 #include "SysfsPwm.h"
 #include "SysfsText.h"
-#include "hardware/DeviceFiles.h"
-#include "hardware/DeviceHealth.h"
+#include "hardware/DeviceAccess.h"
 #include "hardware/Drivers.h"
 #include "hardware/fake/FakeMemory.h"
 #include "signals/ConfigurationFile.h"
@@ -46,8 +45,7 @@ protected:
         const QString root = settings.text(QStringLiteral("root"), QStringLiteral("/sys"));
         m_root = FakeMemory::isFake(root) ? FakeMemory::path(root) : root;
         m_device = settings.requiredText(QStringLiteral("device"), QStringLiteral("iio:ads1015"));
-        m_retries = int(
-            settings.integer(QStringLiteral("retries"), DeviceHealth::DefaultRetries, 0, DeviceHealth::MostRetries));
+        m_access.configure(settings);
         m_class = SysfsClass::of(m_device.section(QLatin1Char(':'), 0, 0));
         const QString name = m_device.section(QLatin1Char(':'), 1);
         if (!m_class || name.isEmpty()) {
@@ -105,8 +103,7 @@ protected:
     {
         QString error;
         const QString path = m_class->find(m_root, m_device.section(QLatin1Char(':'), 1), &error);
-        m_health.reset();
-        m_hasFailed = false;
+        m_access.reset();
         if (path.isEmpty())
             return fail(error);
         if (!m_folder.open(path))
@@ -126,25 +123,25 @@ protected:
 
     bool read() override
     {
-        if (m_hasFailed)
+        if (m_access.hasFailed())
             return true;  // as write() has told
         for (const auto &input : m_inputs) {
             double value = 0.0;
-            if (!repeat([&] { return readInput(input.get(), &value); }))
+            if (!m_access.repeat([&] { return readInput(input.get(), &value); }))
                 return keepAfter("read", input->file);
             input->channel.set(value);
         }
-        m_health.succeed(now());
-        m_errors.set(double(m_health.errors()), now());
+        m_access.succeed(now());
         return true;
     }
 
     // In each interval: what somebody else has changed gets its value back.
     bool write() override
     {
-        m_hasFailed = false;
+        m_access.begin();
         for (const auto &output : m_outputs) {
-            if (output->channel.hasValue() && !repeat([&] { return output->output->set(output->channel.value()); }))
+            if (output->channel.hasValue()
+                && !m_access.repeat([&] { return output->output->set(output->channel.value()); }))
                 return keepAfter("write", output->output->file());
         }
         return true;
@@ -432,33 +429,11 @@ private:
         return number.has_value();
     }
 
-    template<typename Access>
-    bool repeat(Access access)
-    {
-        for (int left = m_health.attempts(m_retries); left > 0; --left) {
-            if (access())
-                return true;
-            m_errorNumber = errno;
-            m_health.countError();
-            if (isGone())
-                break;
-        }
-        m_hasFailed = true;
-        errno = m_errorNumber;
-        return false;
-    }
-
-    bool isGone() const { return m_errorNumber == ENODEV || m_errorNumber == ENOENT; }
-
     /// \return false when the device is lost
     bool keepAfter(const char *operation, const QByteArray &file)
     {
-        const int errorNumber = m_errorNumber;
-        m_health.fail(now(), timeout().count());
-        m_errors.set(double(m_health.errors()), now());
-        errno = errorNumber;
         failAt(operation, file);
-        return !isGone() && !m_health.isLost(now(), timeout().count());
+        return m_access.keep(now(), timeout().count());
     }
 
     bool failAt(const char *operation, const QByteArray &file)
@@ -475,7 +450,6 @@ private:
     QString m_root;
     QString m_device;  // "iio:ads1015"
     const SysfsClass *m_class = nullptr;
-    int m_retries = DeviceHealth::DefaultRetries;
     QByteArray m_function;  // of a counter
     bool m_isSigned = false;
     int m_bits = 64;
@@ -484,11 +458,8 @@ private:
     QMap<QString, SysfsAnalogOutput::Range> m_ranges;  // of outputs
 
     SysfsFolder m_folder;
-    DeviceHealth m_health;
-    bool m_hasFailed = false;         // in this turn
-    int m_errorNumber = 0;            // of the last access
-    const char *m_problem = nullptr;  // with what the last one said
-    QPlcReadChannel m_errors{this, QStringLiteral("@errors")};
+    DeviceAccess m_access{this};
+    const char *m_problem = nullptr;  // with what the last access read; null: none
     std::vector<std::unique_ptr<Input>> m_inputs;
     std::vector<std::unique_ptr<Output>> m_outputs;
 };
