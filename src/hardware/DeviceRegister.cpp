@@ -2,9 +2,8 @@
 #include "DeviceRegister.h"
 
 #include "RegisterBus.h"
+#include "signals/ConfigurationFile.h"
 #include "signals/MessageText.h"
-
-#include <cmath>
 
 namespace qplc {
 
@@ -37,11 +36,7 @@ bool readType(const QString &name, DeviceRegister *result)
 
 bool readNumber(const QString &word, const QString &name, double *number)
 {
-    if (!word.startsWith(name + QLatin1Char(' ')))
-        return false;
-    bool isNumber = false;
-    *number = word.mid(name.size()).trimmed().toDouble(&isNumber);
-    return isNumber && std::isfinite(*number);
+    return word.startsWith(name + QLatin1Char(' ')) && finiteNumberFromText(word.mid(name.size()).trimmed(), number);
 }
 
 /// "bits 4-15", or "bits 3"

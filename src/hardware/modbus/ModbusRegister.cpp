@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ModbusRegister.h"
 
+#include "signals/ConfigurationFile.h"
 #include "signals/MessageText.h"
 
 #include <QtCore/QStringList>
 #include <QtCore/QtEndian>
 
 #include <algorithm>
-#include <cmath>
 
 namespace qplc {
 
@@ -39,13 +39,6 @@ bool toWhole(const QString &text, qint64 minimum, qint64 maximum, qint64 *result
     const bool isHexadecimal = text.startsWith(QLatin1String("0x"), Qt::CaseInsensitive);
     *result = isHexadecimal ? text.midRef(2).toLongLong(&ok, 16) : text.toLongLong(&ok);
     return ok && *result >= minimum && *result <= maximum;
-}
-
-bool toFinite(const QString &text, double *result)
-{
-    bool ok = false;
-    *result = text.toDouble(&ok);
-    return ok && std::isfinite(*result);
 }
 
 /// One attribute after the other, each of one or two words.
@@ -106,9 +99,10 @@ private:
         const QString key = part.section(QLatin1Char(' '), 0, 0);
         const QString value = part.section(QLatin1Char(' '), 1);
         if (key == QLatin1String("factor"))
-            return (toFinite(value, &m_register.factor) && m_register.factor != 0.0) || refuse(part, "a number, not 0");
+            return (finiteNumberFromText(value, &m_register.factor) && m_register.factor != 0.0)
+                || refuse(part, "a number, not 0");
         if (key == QLatin1String("offset"))
-            return toFinite(value, &m_register.offset) || refuse(part, "a number");
+            return finiteNumberFromText(value, &m_register.offset) || refuse(part, "a number");
         if (key == QLatin1String("bit"))
             return readBits(part, value, value, "a number of 0 ... 15");
         if (key == QLatin1String("bits"))

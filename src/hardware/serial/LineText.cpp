@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LineText.h"
 
+#include "signals/ConfigurationFile.h"
 #include "signals/MessageText.h"
-
-#include <cmath>
 
 namespace qplc {
 
@@ -58,9 +57,9 @@ QVector<std::optional<double>> LinePattern::match(const QByteArray &line) const
     if (!match.hasMatch())
         return values;
     for (const int group : m_groups) {
-        bool isNumber = false;
-        const double value = match.captured(group).simplified().remove(QLatin1Char(' ')).toDouble(&isNumber);
-        values << (isNumber && std::isfinite(value) ? std::optional<double>(value) : std::nullopt);
+        double value = 0.0;
+        const bool isNumber = finiteNumberFromText(match.captured(group).simplified().remove(QLatin1Char(' ')), &value);
+        values << (isNumber ? std::optional<double>(value) : std::nullopt);
     }
     return values;
 }
