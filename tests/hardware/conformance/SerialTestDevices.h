@@ -64,8 +64,44 @@ private:
     double m_speed = 0.0;
 };
 
+/// An instrument at a pseudo-terminal that sends its only value as often as it may.
+class TalkingDevice : public TestDevice
+{
+public:
+    bool plugIn() override
+    {
+        m_isTalking = m_pseudo.plugIn(name());
+        return m_isTalking;
+    }
+    bool unplug() override
+    {
+        m_isTalking = false;
+        m_pseudo.unplug();
+        return true;
+    }
+    bool fallSilent() override
+    {
+        m_isTalking = false;
+        return true;
+    }
+    void live() override
+    {
+        if (m_isTalking)
+            m_pseudo.send(lineOf(m_value));
+    }
+    void give(const QString &, double value) override { m_value = value; }
+
+protected:
+    virtual QByteArray lineOf(double value) const = 0;
+
+private:
+    PseudoTerminal m_pseudo;
+    bool m_isTalking = false;
+    double m_value = 0.0;
+};
+
 /// A receiver for satellite navigation that rises.
-class GnssReceiverDevice : public TestDevice
+class GnssReceiverDevice : public TalkingDevice
 {
 public:
     QString kind() const override { return QStringLiteral("nmea-gnss"); }
@@ -74,38 +110,15 @@ public:
     QStringList inputs() const override { return {QStringLiteral("altitude")}; }
     QVector<double> values() const override { return {-3.5, 545.25}; }
 
-    bool plugIn() override
+protected:
+    QByteArray lineOf(double altitude) const override
     {
-        m_isTalking = m_pseudo.plugIn(name());
-        return m_isTalking;
+        return nmeaLine("GPGGA,120000,4807.038,N,01131.000,E,1,08,0.9," + QByteArray::number(altitude) + ",M,46.9,M,,");
     }
-    bool unplug() override
-    {
-        m_isTalking = false;
-        m_pseudo.unplug();
-        return true;
-    }
-    bool fallSilent() override
-    {
-        m_isTalking = false;
-        return true;
-    }
-    void live() override
-    {
-        if (m_isTalking)
-            m_pseudo.send(nmeaLine("GPGGA,120000,4807.038,N,01131.000,E,1,08,0.9," + QByteArray::number(m_altitude)
-                                   + ",M,46.9,M,,"));
-    }
-    void give(const QString &, double value) override { m_altitude = value; }
-
-private:
-    PseudoTerminal m_pseudo;
-    bool m_isTalking = false;
-    double m_altitude = 0.0;
 };
 
 /// A scale that sends its weight.
-class ScaleDevice : public TestDevice
+class ScaleDevice : public TalkingDevice
 {
 public:
     QString kind() const override { return QStringLiteral("serial-lines"); }
@@ -114,33 +127,8 @@ public:
     QStringList inputs() const override { return {QStringLiteral("weight")}; }
     QVector<double> values() const override { return {-3.5, 12.25}; }
 
-    bool plugIn() override
-    {
-        m_isTalking = m_pseudo.plugIn(name());
-        return m_isTalking;
-    }
-    bool unplug() override
-    {
-        m_isTalking = false;
-        m_pseudo.unplug();
-        return true;
-    }
-    bool fallSilent() override
-    {
-        m_isTalking = false;
-        return true;
-    }
-    void live() override
-    {
-        if (m_isTalking)
-            m_pseudo.send(QByteArray::number(m_weight) + " kg\r\n");
-    }
-    void give(const QString &, double value) override { m_weight = value; }
-
-private:
-    PseudoTerminal m_pseudo;
-    bool m_isTalking = false;
-    double m_weight = 0.0;
+protected:
+    QByteArray lineOf(double weight) const override { return QByteArray::number(weight) + " kg\r\n"; }
 };
 
 inline void addSerialDevices(TestDevices *devices)
