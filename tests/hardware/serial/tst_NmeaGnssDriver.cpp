@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "../DriverBench.h"
-#include "../FakeDevices.h"
+#include "FarEnd.h"
 #include "NmeaLines.h"
-#include "PseudoTerminal.h"
 #include "hardware/serial/NmeaFix.h"
 
 #include <QtTest/QtTest>
@@ -27,23 +25,17 @@ NmeaFix fixOf(const QByteArray &body)
 }
 
 /// A receiver at the far end of a line.
-struct Receiver
+struct Receiver : FarEnd
 {
     explicit Receiver(const QByteArray &keys = {})
-        : bench(QStringLiteral("nmea-gnss"), "device = fake:gnss\n" + keys)
+        : FarEnd("nmea-gnss", "fake:gnss", keys)
     {
-        if (!far.plugIn(QStringLiteral("fake:gnss")))
-            qFatal("no pseudo-terminal");
         for (const char *name : {"latitude", "longitude", "altitude", "geoidSeparation", "speed", "course", "time",
                                  "fixQuality", "satellites", "hdop", "correctionAge", "status"})
             errors += bench.wireRead(name);
     }
-    bool say(const QByteArray &bytes) { return far.send(bytes) && bench.exchange(); }
 
     QString errors;
-    const FakeDevices devices;
-    PseudoTerminal far;
-    DriverBench bench;
 };
 
 }  // namespace

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "../DriverBench.h"
-#include "../FakeDevices.h"
+#include "FarEnd.h"
 #include "NmeaLines.h"
-#include "PseudoTerminal.h"
 
 #include <QtTest/QtTest>
 
@@ -12,22 +10,14 @@ using namespace std::chrono_literals;
 namespace {
 
 /// A sensor at the far end of a line.
-struct Sensor
+struct Sensor : FarEnd
 {
     explicit Sensor(const QByteArray &keys = {})
-        : bench(QStringLiteral("nmea-wind"), "device = fake:wind\n" + keys)
+        : FarEnd("nmea-wind", "fake:wind", keys)
     {
-        if (!far.plugIn(QStringLiteral("fake:wind")))
-            qFatal("no pseudo-terminal");
         for (const char *name : {"relativeSpeed", "relativeAngle", "trueSpeed", "direction", "temperature", "status"})
             bench.wireRead(name);
     }
-    /// The driver reads what the sensor sends.
-    bool say(const QByteArray &bytes) { return far.send(bytes) && bench.exchange(); }
-
-    const FakeDevices devices;
-    PseudoTerminal far;
-    DriverBench bench;
 };
 
 }  // namespace

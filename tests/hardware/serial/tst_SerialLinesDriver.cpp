@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "../DriverBench.h"
-#include "../FakeDevices.h"
-#include "PseudoTerminal.h"
+#include "FarEnd.h"
 #include "hardware/serial/LineText.h"
 
 #include <QtTest/QtTest>
@@ -14,19 +12,12 @@ namespace {
 const QByteArray scalePattern = "pattern = ^(?:ST|US),GS,\\s*(?<weight>[-+0-9. ]+)kg$\n";
 
 /// An instrument at the far end of a line.
-struct Instrument
+struct Instrument : FarEnd
 {
     explicit Instrument(const QByteArray &keys)
-        : bench(QStringLiteral("serial-lines"), "device = fake:scale\n" + keys)
+        : FarEnd("serial-lines", "fake:scale", keys)
     {
-        if (!far.plugIn(QStringLiteral("fake:scale")))
-            qFatal("no pseudo-terminal");
     }
-    bool say(const QByteArray &bytes) { return far.send(bytes) && bench.exchange(); }
-
-    const FakeDevices devices;
-    PseudoTerminal far;
-    DriverBench bench;
 };
 
 }  // namespace
