@@ -29,7 +29,7 @@ QString DeviceFiles::errorText(const QString &device, int errorNumber) const
     if (errorNumber == EACCES || errorNumber == EPERM)
         remedy = permissionRemedy(group, errorNumber);
     else if (names.isEmpty())
-        remedy = whenNone;
+        remedy = whenMissing;
     else if (errorNumber == ENOENT || errorNumber == ENODEV || errorNumber == ENXIO)
         remedy = QStringLiteral("there are %1").arg(names.join(QStringLiteral(", ")));
     return QStringLiteral("cannot open %1 '%2': %3; %4").arg(what, device, qt_error_string(errorNumber), remedy);

@@ -8,10 +8,10 @@ namespace qplc {
 /// The files of one kind of device in /dev.
 struct DeviceFiles
 {
-    QString what;      // "the I2C bus"
-    QString pattern;   // "i2c-*"
-    QString group;     // that may use them: "i2c"
-    QString whenNone;  // what to do when there is none
+    QString what;         // "the I2C bus"
+    QString pattern;      // "i2c-*"
+    QString group;        // that may use them: "i2c"
+    QString whenMissing;  // what to do when /dev has no such file
 
     /// "/dev/i2c-1" of "i2c-1".
     static QString path(const QString &device);

@@ -38,8 +38,8 @@ struct DeviceRegister
 
     RawNumber::Limits limits() const;
     double valueOf(const quint8 *bytes) const;
-    /// The nearest number that the registers can hold. Bits of \a bytes that are not of the field
-    /// stay.
+    /// Writes the nearest number that the registers can hold. Bits of \a bytes outside of the field
+    /// keep their values.
     void bytesOf(double value, quint8 *bytes) const;
 
 private:

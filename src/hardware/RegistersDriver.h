@@ -10,15 +10,15 @@
 
 namespace qplc {
 
-/// Any device with registers, which the configuration names: what such devices have in common,
-/// whatever their bus is. Keys `register-numbers`, `burst`, `identity`, `setup`, `register.NAME`.
+/// A device whose registers the configuration names, independent of its bus. Keys
+/// `register-numbers`, `burst`, `identity`, `setup`, `register.NAME`.
 class RegistersDriver : public QPlcDriver
 {
 protected:
-    /// How far a device can be believed.
+    /// How the bus tells that a device is missing.
     enum Answer : quint8 {
-        Acknowledged,  // who is not there does not answer
-        Silent         // nobody notices; so `identity` is read before all values
+        Acknowledged,  // transfers fail
+        Silent         // not at all: the driver reads `identity` before the values
     };
 
     explicit RegistersDriver(Answer answer)

@@ -32,7 +32,7 @@ protected:
     /// Lets the driver have the read channel \a name. \param number  its value, without memory
     void addOwn(const char *name, std::function<quint64()> number);
     QStringList ownNames() const;
-    /// \return null: there is none of this name
+    /// \return null if the driver has no channel of this name
     QPlcChannel *ownChannel(const QString &name);
 
     // ---- in the cycle; without memory ----
@@ -51,7 +51,7 @@ private:
     {
         const char *name;
         std::function<quint64()> number;
-        std::unique_ptr<QPlcReadChannel> channel;  // null: nobody wants it
+        std::unique_ptr<QPlcReadChannel> channel;  // null until it is wired
     };
 
     static constexpr int BatchSize = 64;

@@ -52,7 +52,7 @@ public:
     int bitRate() const { return m_bitRate; }          ///< [bit/s]; 0: not said
     int dataBitRate() const { return m_dataBitRate; }  ///< likewise, of the data of CAN FD
     const QVector<CanMessage> &messages() const { return m_messages; }
-    /// Null when there is none.
+    /// Null if the bus has no such message.
     const CanMessage *find(const QString &message) const;
 
     /// Reads a bit rate, which is an error for a bus that does not set its own. \return 0: not said

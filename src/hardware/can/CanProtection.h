@@ -11,8 +11,8 @@ namespace qplc {
 struct DbcMessage;
 struct DbcSignal;
 
-/// Alive counter and checksum in the frames of a message: by them, a receiver sees frames that were
-/// repeated by a sender that hangs, or changed on the way. Names are those of signals.
+/// Alive counter and checksum in the frames of a message. They tell a receiver that a sender hangs
+/// and repeats its frames, or that a frame was changed on the way. Names are those of signals.
 struct CanProtection
 {
     enum Method : quint8 { Crc8, Xor, Sum };
@@ -27,13 +27,13 @@ struct CanProtection
     quint8 finalXor = 0;       // combined with the result by exclusive or
     QByteArray prefix;         // bytes in front of those of the frame
 
-    /// Reads `SIGNAL, up to 14`. \return what is wrong; empty: nothing
+    /// Reads `SIGNAL, up to 14`. \return an error text with a remedy; empty if \a words are right
     QString readCounter(const QStringList &words, const DbcMessage &message);
-    /// Reads `SIGNAL, crc8, polynomial 0x2F, initial 0xFF, final 0xFF, prefix 12 34`, of which what
-    /// stands behind the method may be missing; or `SIGNAL, xor`, or `SIGNAL, sum`.
+    /// Reads `SIGNAL, crc8, polynomial 0x2F, initial 0xFF, final 0xFF, prefix 12 34`, or the same
+    /// with `xor` or `sum` and without a polynomial. The words behind the method are optional.
     QString readChecksum(const QStringList &words, const DbcMessage &message);
 
-    /// Of a frame with \a size bytes.
+    /// Returns the checksum of a frame with \a size bytes.
     quint8 checksumOf(const quint8 *data, int size) const noexcept;
 
 private:

@@ -29,7 +29,7 @@ public:
     /// message has none of this name
     QPlcWriteChannel *channel(const QString &name);
 
-    /// The signal that has a channel and bits in common with another one; empty: there is none.
+    /// Returns the signal with a channel that has bits in common with \a signal, or an empty name.
     QString overlapWith(const DbcSignal &signal) const;
 
     /// Before the cycles: memory is taken here. Frames that it sends at a time are at most

@@ -29,7 +29,7 @@ struct DbcMessage
     const DbcSignal *find(const QString &signal) const;
     bool isMultiplexed() const;
     /// Gives each multiplexed signal its multiplexor, if the file has not said which one it is.
-    /// \return what is wrong; empty: nothing
+    /// \return an error text; empty if each has one
     QString connectMultiplexors();
 
     // ---- after connectMultiplexors() ----
@@ -74,7 +74,7 @@ public:
     /// Checks what holds between the parts of a message and the message. \return what is wrong,
     /// empty when nothing is
     static QString problemOf(const DbcMessage &message, const DbcSignal &signal);
-    /// Why no frame has the size of a message; empty: one has it.
+    /// Why no frame can have the size of a message; empty if one can.
     static QString sizeProblemOf(const DbcMessage &message);
 
     bool isEmpty() const { return m_messages.isEmpty(); }

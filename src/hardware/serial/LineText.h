@@ -38,13 +38,13 @@ private:
 class LinePattern
 {
 public:
-    /// \return an empty text, or what is wrong and what to do
+    /// \return an error text with a remedy; empty if \a text is right
     static QString parse(const QString &text, LinePattern *pattern);
 
     /// Names of the groups, in their order.
     QStringList names() const { return m_names; }
-    /// The numbers of names(); what is no finite number has no value. Empty: the line does not
-    /// match.
+    /// Returns the numbers of names(), without a value where a group is not a finite number; empty
+    /// if the line does not match.
     QVector<std::optional<double>> match(const QByteArray &line) const;
 
 private:
@@ -53,7 +53,7 @@ private:
     QVector<int> m_groups;
 };
 
-/// The bytes of a text with \r, \n, \t, \\ and \xNN. \return false when it has another one
+/// Reads the bytes of a text with \r, \n, \t, \\ and \xNN. \return false if it has another escape
 bool bytesOfText(const QString &text, QByteArray *bytes);
 
 }  // namespace qplc

@@ -9,8 +9,8 @@
 
 namespace qplc {
 
-/// An instrument on a serial line that speaks NMEA 0183: reads the line, and says what a person who
-/// wires it does wrong. See docs/hardware/serial.md.
+/// An instrument on a serial line that speaks NMEA 0183. The driver reads the line, and its errors
+/// name mistakes of wiring and set-up. See docs/hardware/serial.md.
 class NmeaDriver : public QPlcDriver
 {
 public:
@@ -29,7 +29,7 @@ protected:
     {
     }
 
-    /// Channels that the instrument gives values, again and again.
+    /// Channels that get values from the instrument.
     virtual std::vector<QPlcReadChannel *> values() = 0;
     /// \return false when the sentence says nothing about the quantity of the instrument
     virtual bool apply(const NmeaSentence &sentence) = 0;

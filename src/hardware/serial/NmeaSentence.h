@@ -37,7 +37,7 @@ public:
     QByteArray field(int index) const { return m_fields.value(index); }
     /// Whether a field is exactly \a letter.
     bool isLetter(int index, char letter) const;
-    /// \return false when the field is empty or no number
+    /// \return false if the field is empty or not a number
     bool number(int index, double *number) const;
 
 private:

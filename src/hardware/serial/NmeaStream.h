@@ -6,7 +6,7 @@
 namespace qplc {
 
 /// Finds the sentences of NMEA 0183 in what comes from a serial line, in whatever pieces it comes.
-/// What is no sentence is counted and thrown away.
+/// Other bytes are thrown away; lines that are not sentences are counted.
 class NmeaStream
 {
 public:

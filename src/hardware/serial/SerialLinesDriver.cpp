@@ -41,8 +41,9 @@ protected:
                 QStringLiteral("ask"),
                 QStringLiteral("it has %1 bytes; write at most %2").arg(m_ask.size()).arg(MostOfAskedText));
         if (!m_ask.isEmpty() && !settings.has(QStringLiteral("interval")))
-            settings.addError(QStringLiteral("ask"),
-                              QStringLiteral("nothing says how often to ask; add for example 'interval = 200 ms'"));
+            settings.addError(
+                QStringLiteral("ask"),
+                QStringLiteral("the driver asks once in each interval; add for example 'interval = 200 ms'"));
         const QByteArray ends = bytes(settings, QStringLiteral("end"), QStringLiteral("\\r\\n"));
         m_stream.setEnds(ends.isEmpty() ? QByteArray("\r\n") : ends);
         const QString prefix = QStringLiteral("pattern.");
@@ -70,7 +71,7 @@ protected:
 
     void close() override { m_line.close(); }
 
-    // What does not fit into the line now is left out: the next question comes with the interval.
+    // Bytes that do not fit into the buffer of the line are dropped: the next interval asks again.
     bool write() override
     {
         return m_ask.isEmpty() || m_line.write(m_ask.constData(), m_ask.size()) >= 0

@@ -14,8 +14,8 @@ using namespace std::chrono_literals;
 
 constexpr __u32 DirectionFlags = SER_RS485_ENABLED | SER_RS485_RTS_ON_SEND | SER_RS485_RTS_AFTER_SEND;
 
-/// What drivers of the kernel do not know, they leave out without an error: what they have got is
-/// compared.
+/// Drivers of the kernel drop flags that they do not know, without an error. So the flags are read
+/// back and compared.
 bool setDirection(int descriptor, const SerialMode &mode)
 {
     serial_rs485 wanted = {};

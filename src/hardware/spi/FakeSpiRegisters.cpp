@@ -18,7 +18,7 @@ bool FakeSpiRegisters::transfer(const quint8 *sent, quint8 *received, int count)
         errno = ENODEV;
         return false;
     }
-    std::fill_n(received, count, quint8(0xff));  // nobody drives the wire, and its pull-up does
+    std::fill_n(received, count, quint8(0xff));  // without an answer, the pull-up drives the wire
     if (m_memory.at(Power).load() == 0)
         return true;
     const int commandSize = std::min<int>(m_memory.at(CommandSize).load(), 2);

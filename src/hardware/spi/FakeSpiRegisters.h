@@ -6,8 +6,8 @@
 
 namespace qplc {
 
-/// A device with registers that is played: see FakeMemory. It has a protocol of its own, so that a
-/// wrong question gets the wrong answer. Byte 0 of the file is 1 while the device has power; byte 1
+/// A fake device with registers: see FakeMemory. It has its own protocol, so that a wrong question
+/// gets a wrong answer. Byte 0 of the file is 1 while the device has power; byte 1
 /// is the bit of the first byte of a command that marks reading; byte 2 is the number of bytes
 /// between command and values; byte 3 is the size of a command (0: it has no registers). From byte
 /// FirstRegister on the file has the registers. Without registers it sends those from 0 on, and

@@ -35,10 +35,12 @@ private:
         m_protocol.dummyBytes
             = int(settings.integer(QStringLiteral("dummy-bytes"), 0, 0, SpiRegisterBus::MostDummyBytes));
         if (!settings.has(QStringLiteral("identity")))
-            settings.addWarning(QString(),
-                                QStringLiteral("nobody notices when the device at %1 is gone, its values are 0 or all "
-                                               "bits then; add 'identity = REGISTER VALUE', if it has such a register")
-                                    .arg(m_device));
+            settings.addWarning(
+                QString(),
+                QStringLiteral("the driver cannot see that the device at %1 is gone: its "
+                               "values are 0 or all their bits 1 then; add 'identity = REGISTER VALUE', "
+                               "if it has such a register")
+                    .arg(m_device));
     }
 
     int mask(QPlcDriverSettings &settings, const QString &key, int usual) const

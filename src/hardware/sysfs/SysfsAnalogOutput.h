@@ -23,7 +23,7 @@ public:
     }
 
     bool open(const SysfsFolder *device) override;
-    /// \param value  is limited to the range; what is no number leaves the output as it is
+    /// \param value  is limited to the range; NaN leaves the output unchanged
     bool set(double value) override;
     QByteArray file() const override { return m_file; }
 

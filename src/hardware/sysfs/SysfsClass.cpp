@@ -34,7 +34,8 @@ const SysfsClass sysfsClasses[] = {
                     "Pi)")},
 };
 
-/// Of the device on its bus: "1-0048". A link of a class names the device, one of a bus lies in it.
+/// The place of a device on its bus: "1-0048". The link of a class leads to the device, and that of
+/// a bus into its folder.
 QString placeOf(const QString &folder)
 {
     const QFileInfo device(folder + QStringLiteral("/device"));
@@ -116,7 +117,7 @@ QString SysfsClass::find(const QString &root, const QString &name, QString *erro
                      .arg(what, name, firstOf(places));
     else if (known.isEmpty())
         *error = QStringLiteral("there is no %1 '%2:%3': the kernel has none in %4; %5")
-                     .arg(what, prefix, name, all, whenNone);
+                     .arg(what, prefix, name, all, whenMissing);
     else
         *error = QStringLiteral("there is no %1 '%2:%3'%4").arg(what, prefix, name, knownAre(known));
     return {};

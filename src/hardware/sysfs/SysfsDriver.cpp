@@ -29,8 +29,8 @@ using namespace std::chrono_literals;
 
 constexpr std::chrono::nanoseconds ShortestThermometerInterval = 1s;  // it measures for 0.75 s
 
-/// Kind `sysfs`: what the kernel has a driver for: converters, inertial sensors, encoders,
-/// counters, thermometers, PWM. See docs/hardware/sysfs.md.
+/// Kind `sysfs`: devices for which the kernel has a driver, such as converters, inertial sensors,
+/// counters, thermometers and PWM. See docs/hardware/sysfs.md.
 class SysfsDriver final : public QPlcDriver
 {
 public:
@@ -135,7 +135,7 @@ protected:
         return true;
     }
 
-    // In each interval: what somebody else has changed gets its value back.
+    // In each interval: this corrects a value that another program has changed.
     bool write() override
     {
         m_access.begin();
@@ -166,7 +166,7 @@ protected:
             return QStringLiteral("look at the device, or name another channel");
         case EFBIG:
         case ENOTSUP:
-            return QStringLiteral("this is no file of the kernel: look at 'root'");
+            return QStringLiteral("this is not a regular file of sysfs: check 'root'");
         case EINVAL:
             return QStringLiteral("the chip cannot do this: look at 'period' and 'polarity', or 'function'");
         default:
@@ -281,7 +281,7 @@ private:
             .arg(quoted(name), m_device);
     }
 
-    /// Of a channel; empty: it may be there.
+    /// Why no device of this class has a channel of this name; empty if one may have it.
     QString problemOfName(const QString &name) const
     {
         static const QRegularExpression usual(QStringLiteral("^[A-Za-z0-9][A-Za-z0-9_.:#-]*$"));
@@ -367,7 +367,7 @@ private:
         return true;
     }
 
-    /// The channel whose label is \a channel; \a channel itself, if none has it.
+    /// Returns the channel whose label is \a channel, or else \a channel itself.
     QByteArray labelled(const QByteArray &channel, const QByteArray &prefix, const QByteArray &file) const
     {
         const bool isFolder = file.startsWith('/');
@@ -425,7 +425,7 @@ private:
         if (number)
             *value = (*number + input->offset) * input->factor;
         else
-            m_problem = "what it says is no number; look at the device, or name another channel";
+            m_problem = "it does not contain a number; check the device, or use another channel";
         return number.has_value();
     }
 
@@ -459,7 +459,7 @@ private:
 
     SysfsFolder m_folder;
     DeviceAccess m_access{this};
-    const char *m_problem = nullptr;  // with what the last access read; null: none
+    const char *m_problem = nullptr;  // with the text of the last access; null if it is right
     std::vector<std::unique_ptr<Input>> m_inputs;
     std::vector<std::unique_ptr<Output>> m_outputs;
 };

@@ -16,9 +16,9 @@ namespace qplc {
 namespace {
 
 /// \return a descriptor; -1, with errno
-int openPlainFile(int folder, const QByteArray &file, int flags)
+int openRegularFile(int folder, const QByteArray &file, int flags)
 {
-    // O_NONBLOCK: what is no plain file must not hold us here.
+    // O_NONBLOCK: a pipe must not block here.
     const int descriptor = ::openat(folder, file.constData(), flags | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
     struct stat status = {};
     if (descriptor < 0 || (::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode)))
@@ -52,7 +52,7 @@ void SysfsFolder::close()
 
 bool SysfsFolder::read(const QByteArray &file, QByteArray *text) const
 {
-    const int descriptor = openPlainFile(m_descriptor, file, O_RDONLY);
+    const int descriptor = openRegularFile(m_descriptor, file, O_RDONLY);
     if (descriptor < 0)
         return false;
     char bytes[MostBytes + 1];
@@ -71,7 +71,7 @@ bool SysfsFolder::read(const QByteArray &file, QByteArray *text) const
 
 bool SysfsFolder::write(const QByteArray &file, const QByteArray &text) const
 {
-    const int descriptor = openPlainFile(m_descriptor, file, O_WRONLY | O_TRUNC);
+    const int descriptor = openRegularFile(m_descriptor, file, O_WRONLY | O_TRUNC);
     if (descriptor < 0)
         return false;
     const bool isWritten = ::write(descriptor, text.constData(), std::size_t(text.size())) == text.size();

@@ -8,9 +8,9 @@ namespace qplc {
 
 /// The folder of a device in sysfs, with its small files of text.
 ///
-/// Each access opens its file anew, so that a device that is gone is noticed. A file that is no
-/// plain one, or longer than MostBytes, is refused: no call waits for anything but the driver of
-/// the kernel.
+/// Each access opens its file anew, so that it fails when the device is gone. A file that is not a
+/// regular one, or longer than MostBytes, is refused. So a call waits only for the driver of the
+/// kernel.
 class SysfsFolder
 {
 public:
@@ -27,14 +27,14 @@ public:
     QString path() const { return m_path; }
 
     /// \return false, with errno: ENOENT and ENODEV when the device is gone, EFBIG for a file that
-    ///         is too long, ENOTSUP for what is no plain file
+    ///         is too long, ENOTSUP for one that is not a regular file
     bool read(const QByteArray &file, QByteArray *text) const;
     bool write(const QByteArray &file, const QByteArray &text) const;
     bool has(const QByteArray &file) const;
-    /// The number in the first of \a files that has one.
+    /// Returns the number in the first of \a files that contains one, or \a fallback.
     double firstNumber(const QByteArrayList &files, double fallback) const;
     bool isWritable(const QByteArray &file) const;
-    /// Names that fit to a pattern: "in_*_label".
+    /// Returns the names that match a pattern: "in_*_label".
     QByteArrayList files(const QString &pattern) const;
 
 private:

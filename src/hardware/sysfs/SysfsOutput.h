@@ -5,7 +5,7 @@
 
 namespace qplc {
 
-/// A value that the kernel puts out: nothing is changed at the device before set().
+/// A value that the kernel puts out. The first set() changes the device, open() does not.
 class SysfsOutput
 {
 public:
@@ -17,9 +17,9 @@ public:
     /// \param device  its folder; it stays open as long as the output is used
     /// \return false, with errno and file()
     virtual bool open(const SysfsFolder *device) = 0;
-    /// Writes what differs. \return false, with errno and file()
+    /// Writes the files whose content differs. \return false, with errno and file()
     virtual bool set(double value) = 0;
-    /// That was used last, in the folder of the device.
+    /// The file that was used last, in the folder of the device.
     virtual QByteArray file() const = 0;
 };
 

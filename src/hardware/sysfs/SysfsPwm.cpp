@@ -68,9 +68,9 @@ bool SysfsPwm::readDuty(double *duty) const
     return true;
 }
 
-/// A channel that runs already as it should goes on without a gap, after a restart of the program
-/// for example. The kernel refuses a polarity before there is a period, and a period that is
-/// shorter than the time on.
+/// A channel that already runs with these settings continues without a gap, for example after a
+/// restart of the program. The kernel refuses a polarity before a period is set, and a period that
+/// is shorter than the time on.
 bool SysfsPwm::setUp()
 {
     qint64 period = 0;

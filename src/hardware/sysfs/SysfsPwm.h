@@ -24,10 +24,11 @@ public:
 
     /// Asks the kernel for the channel.
     bool open(const SysfsFolder *chip) override;
-    /// Sets what differs, and switches the channel on. \param duty  0 ... 1; what is less or no
-    /// number counts as 0, what is more as 1
+    /// Sets what differs, and switches the channel on. \param duty  0 ... 1; lower values and NaN
+    /// count as 0, higher ones as 1
     bool set(double duty) override;
-    /// What the kernel puts out: 0 while the channel is switched off.
+    /// Reads the present duty: 0 while the channel is switched off. \return false, with errno and
+    /// file()
     bool readDuty(double *duty) const;
 
     QByteArray file() const override { return m_file; }

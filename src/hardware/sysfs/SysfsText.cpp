@@ -20,7 +20,7 @@ struct Unit
     double factor;
 };
 
-/// Letters at the begin: "voltage" of "voltage0-voltage1", "accel" of "accel_x".
+/// Letters at the beginning: "voltage" of "voltage0-voltage1", "accel" of "accel_x".
 QByteArray typeOf(const QByteArray &channel)
 {
     const auto end = std::find_if_not(channel.cbegin(), channel.cend(),
@@ -53,8 +53,8 @@ bool readScratchpad(const QByteArray &line, quint8 *bytes)
     return true;
 }
 
-/// What a sensor has before its first measurement, and after its power has failed: 85 degC. A
-/// measured 85 degC has another byte 6.
+/// A sensor holds 85 degC before its first measurement and after its power has failed. A measured
+/// 85 degC has another byte 6.
 bool isOfPowerOn(const quint8 *bytes)
 {
     return bytes[0] == 0x50 && bytes[1] == 0x05 && bytes[6] == 0x0c;
@@ -85,11 +85,11 @@ SysfsText::Thermometer SysfsText::thermometer(const QByteArray &text)
     const int place = lines.value(1).indexOf("t=");
     const std::optional<double> thousandths = place < 0 ? std::nullopt : number(lines[1].mid(place + 2));
     if (!readScratchpad(lines.first(), bytes) || !thousandths)
-        return {"what it says is no temperature; look whether it is a thermometer (its id begins with 10, 22, 28, 3b "
-                "or 42)"};
+        return {"it does not contain a temperature; check that the device is a thermometer (its id begins with 10, 22, "
+                "28, 3b or 42)"};
     if (!lines.first().trimmed().endsWith("YES"))
         return {"its checksum is wrong; look at the wires, the pull-up resistor (4.7 kOhm) and the length of the bus"};
-    // The checksum of nothing is right.
+    // Zeros alone have the right checksum.
     if (std::all_of(std::begin(bytes), std::end(bytes), [](quint8 byte) { return byte == 0; }))
         return {"its data line stays low; look for a short circuit"};
     if (isOfPowerOn(bytes))

@@ -305,7 +305,7 @@ void tst_SysfsDriver::aFileThatWouldBlockIsRefused()
     QVERIFY(QFile::remove(file));
     QCOMPARE(::mkfifo(file.constData(), 0600), 0);
     QVERIFY(!converter.bench.open());
-    QVERIFY2(converter.bench.errorString().contains("this is no file of the kernel"),
+    QVERIFY2(converter.bench.errorString().contains("this is not a regular file of sysfs"),
              qPrintable(converter.bench.errorString()));
 }
 
@@ -403,10 +403,11 @@ void tst_SysfsDriver::aWrongThermometerGivesNoTemperature_data()
 {
     QTest::addColumn<QByteArray>("text");
     QTest::addColumn<QByteArray>("problem");
-    QTest::newRow("nothing") << QByteArray() << QByteArray("no temperature");
+    QTest::newRow("nothing") << QByteArray() << QByteArray("does not contain a temperature");
     QTest::newRow("one line") << goodThermometer.left(goodThermometer.indexOf('\n') + 1)
-                              << QByteArray("no temperature");
-    QTest::newRow("cut off") << goodThermometer.left(goodThermometer.size() - 6) << QByteArray("no temperature");
+                              << QByteArray("does not contain a temperature");
+    QTest::newRow("cut off") << goodThermometer.left(goodThermometer.size() - 6)
+                             << QByteArray("does not contain a temperature");
     QTest::newRow("wrong checksum") << QByteArray(goodThermometer).replace("YES", "NO") << QByteArray("checksum");
     QTest::newRow("line held low") << QByteArray(
         "00 00 00 00 00 00 00 00 00 : crc=00 YES\n00 00 00 00 00 00 00 00 00 t=0\n")
@@ -416,7 +417,7 @@ void tst_SysfsDriver::aWrongThermometerGivesNoTemperature_data()
                                       << QByteArray("its power has failed");
     QTest::newRow("too hot") << QByteArray("d1 07 4b 46 7f ff 0f 10 ce : crc=ce YES\n.. t=125063\n")
                              << QByteArray("-55 to 125 degC");
-    QTest::newRow("another device") << QByteArray("ff\n") << QByteArray("no temperature");
+    QTest::newRow("another device") << QByteArray("ff\n") << QByteArray("does not contain a temperature");
 }
 
 void tst_SysfsDriver::aWrongThermometerGivesNoTemperature()
