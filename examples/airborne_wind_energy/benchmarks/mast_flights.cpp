@@ -2,7 +2,7 @@
 // Starts the wing from a mast and lands it there, in calm and turbulent air, and flies days at the
 // mast. What it prints as JSON is the source of the table and the pictures of docs/plant.md.
 
-#include "ClosedLoopFlight.h"
+#include "MastFlights.h"
 
 #include <cstdio>
 #include <cstring>
@@ -13,12 +13,8 @@ namespace {
 
 using namespace awe;
 
-const Eigen::Vector3d downwind = Eigen::Vector3d(5.0, 3.0, 0.0).normalized();
 constexpr std::uint64_t firstSeed = 10, lastSeed = 17;
 constexpr double turbulence = 0.15;
-constexpr double flightTime = 240.0;                                // before the landing is requested [s]
-constexpr int longestLanding = 180;                                 // [s]
-constexpr double dayDuration = 2400.0;                              // [s]
 constexpr double curvePeriod = 10.0;                                // [s]
 const std::vector<double> calmWinds = {6.0, 7.0, 8.0, 10.0, 12.0};  // [m/s]
 const std::vector<double> turbulentWinds = {8.0, 10.0, 12.0};       // [m/s]
@@ -39,18 +35,6 @@ std::vector<Plant> plants()
             {"realistic", PlantOptions::realistic(), AutopilotGains::steered()}};
 }
 
-ClosedLoopParameters inWind(const Plant &plant, double speed, double intensity, std::uint64_t seed)
-{
-    ClosedLoopParameters parameters;
-    parameters.options = plant.options;
-    parameters.gains = plant.gains;
-    parameters.options.mast.isPresent = parameters.gains.mast.isPresent = true;
-    parameters.wind.meanVelocity = speed * downwind;
-    parameters.wind.turbulenceIntensity = intensity;
-    parameters.wind.seed = seed;
-    return parameters;
-}
-
 /// The separator before the next element of a list.
 const char *comma(bool *isFirst)
 {
@@ -62,14 +46,11 @@ const char *comma(bool *isFirst)
 /// Flies by request, and lands by request.
 void printFlight(const Plant &plant, double speed, double intensity, std::uint64_t seed, bool *isFirst)
 {
-    ClosedLoopFlight flight(inWind(plant, speed, intensity, seed));
-    flight.setRequest(FlightRequest::Fly);
-    flight.fly(flightTime);
-    flight.setRequest(FlightRequest::Land);
-    for (int second = 0; second < longestLanding && !flight.plant().isDocked(); ++second)
-        flight.fly(1.0);
-    flight.fly(1.0);
-    const FlightReport report = flight.report();
+    ClosedLoopParameters parameters;
+    parameters.options = plant.options;
+    parameters.gains = plant.gains;
+    parameters.wind.seed = seed;
+    const FlightReport report = startAndLand(atMast(speed, intensity, parameters));
     std::printf("%s  {\"plant\": \"%s\", \"wind\": %g, \"turbulence\": %g, \"seed\": %d, \"docked\": %s, "
                 "\"crashed\": %s, \"dockingSpeed\": %.3f}",
                 comma(isFirst), plant.name, speed, intensity, int(seed), report.landed ? "true" : "false",
@@ -91,23 +72,17 @@ void printFlights()
     std::printf("\n ],\n");
 }
 
-/// 3 -> 9 -> 3 m/s, without a request.
-ClosedLoopParameters day(double intensity, std::uint64_t seed)
-{
-    ClosedLoopParameters parameters = inWind(plants().front(), 9.0, intensity, seed);
-    parameters.wind.dayShare = 3.0 / 9.0;
-    parameters.wind.dayDuration = dayDuration;
-    return parameters;
-}
-
+/// Without a request.
 void printDays()
 {
     bool isFirst = true;
     std::printf(" \"days\": [");
     for (std::uint64_t seed = firstSeed - 1; seed <= lastSeed; ++seed) {
         const double intensity = seed < firstSeed ? 0.0 : turbulence;
-        ClosedLoopFlight flight(day(intensity, seed));
-        flight.fly(dayDuration);
+        ClosedLoopParameters parameters = dayAtMast(intensity);
+        parameters.wind.seed = seed;
+        ClosedLoopFlight flight(parameters);
+        flight.fly(mastDayDuration);
         const FlightReport report = flight.report();
         std::printf("%s  {\"turbulence\": %g, \"seed\": %d, \"docked\": %s, \"crashed\": %s, \"dockingSpeed\": %.3f, "
                     "\"cycles\": %d, \"starts\": %d, \"energy\": %.0f}",
@@ -121,10 +96,10 @@ void printDays()
 /// Time [s], mean wind [m/s] and tether length [m] of a calm day.
 void printCurve()
 {
-    ClosedLoopFlight flight(day(0.0, firstSeed));
+    ClosedLoopFlight flight(dayAtMast());
     bool isFirst = true;
     std::printf(" \"day\": [");
-    for (double time = 0.0; time < dayDuration; time += curvePeriod) {
+    for (double time = 0.0; time < mastDayDuration; time += curvePeriod) {
         flight.fly(curvePeriod);
         std::printf("%s  [%g, %.2f, %.1f]", comma(&isFirst), time + curvePeriod,
                     flight.outputs().inputs.windVelocity.norm(), flight.outputs().tetherLength);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ClosedLoopFlight.h"
-
+#include "MastFlights.h"
 #include "Near.h"
 
 using namespace awe;
@@ -36,16 +35,11 @@ private Q_SLOTS:
 
 private:
     static PlantOptions withMast();
-    static ClosedLoopParameters inWind(double speed, double turbulence = 0.0);
-    static ClosedLoopParameters day(double turbulence = 0.0);
-    static FlightReport startAndLand(const ClosedLoopParameters &parameters);
     static quint64 lastSeed() { return qEnvironmentVariableIsSet("AWE_ALL_SEEDS") ? 17 : 10; }
 };
 
 namespace {
 
-const Eigen::Vector3d downwind = Eigen::Vector3d(5.0, 3.0, 0.0).normalized();
-constexpr double restTime = 5.0;      // after a landing [s]
 constexpr quint64 gapAtTheMast = 14;  // seed of a day: a tether that is slack there lets the wing fall to the winch
 
 PlantInputs blowing(double speed, bool release)
@@ -63,37 +57,6 @@ PlantOptions tst_Mast::withMast()
     PlantOptions options;
     options.mast.isPresent = true;
     return options;
-}
-
-ClosedLoopParameters tst_Mast::inWind(double speed, double turbulence)
-{
-    ClosedLoopParameters parameters;
-    parameters.options.mast.isPresent = parameters.gains.mast.isPresent = true;
-    parameters.wind.meanVelocity = speed * downwind;
-    parameters.wind.turbulenceIntensity = turbulence;
-    return parameters;
-}
-
-/// 3 -> 9 -> 3 m/s in 40 min.
-ClosedLoopParameters tst_Mast::day(double turbulence)
-{
-    ClosedLoopParameters parameters = inWind(9.0, turbulence);
-    parameters.wind.dayShare = 3.0 / 9.0;
-    parameters.wind.dayDuration = 2400.0;
-    return parameters;
-}
-
-/// Four minutes of flight by request, and a landing by request.
-FlightReport tst_Mast::startAndLand(const ClosedLoopParameters &parameters)
-{
-    ClosedLoopFlight flight(parameters);
-    flight.setRequest(FlightRequest::Fly);
-    flight.fly(240.0);
-    flight.setRequest(FlightRequest::Land);
-    for (int i = 0; i < 180 && !flight.plant().isDocked(); ++i)
-        flight.fly(1.0);
-    flight.fly(restTime);
-    return flight.report();
 }
 
 void tst_Mast::wingHangsOnTheMastUntilReleased()
@@ -175,7 +138,7 @@ void tst_Mast::wingBehindTheMastCrashes()
 
 void tst_Mast::resetDocksTheWingAgain()
 {
-    ClosedLoopFlight flight(inWind(8.0, 0.15));
+    ClosedLoopFlight flight(atMast(8.0, 0.15));
     flight.setRequest(FlightRequest::Fly);
     flight.fly(30.0);
     const Eigen::Vector3d first = flight.outputs().position;
@@ -188,7 +151,7 @@ void tst_Mast::resetDocksTheWingAgain()
 
 void tst_Mast::mastWorksWithAllOptions()
 {
-    ClosedLoopParameters parameters = inWind(10.0);
+    ClosedLoopParameters parameters = atMast(10.0);
     parameters.options = PlantOptions::realistic();
     if (!qEnvironmentVariableIsSet("AWE_ALL_SEEDS"))
         parameters.options.tether.kind = TetherKind::Straight;  // segments near the mast take 38 substeps
@@ -201,12 +164,12 @@ void tst_Mast::mastWorksWithAllOptions()
 
 void tst_Mast::startNeedsWindThatLasts()
 {
-    ClosedLoopFlight weak(inWind(5.5));
+    ClosedLoopFlight weak(atMast(5.5));
     weak.fly(300.0);
     QVERIFY(weak.plant().isDocked());
     QCOMPARE(weak.report().starts, 0);
     QCOMPARE(weak.autopilot().phase(), FlightPhase::Docked);
-    ClosedLoopFlight strong(inWind(7.0));
+    ClosedLoopFlight strong(atMast(7.0));
     strong.fly(59.0);
     QVERIFY(strong.plant().isDocked());
     strong.fly(3.0);
@@ -216,7 +179,7 @@ void tst_Mast::startNeedsWindThatLasts()
 
 void tst_Mast::stormKeepsTheWingOnTheMast()
 {
-    ClosedLoopFlight flight(inWind(16.0));
+    ClosedLoopFlight flight(atMast(16.0));
     flight.fly(120.0);
     QVERIFY(flight.plant().isDocked());
     QCOMPARE(flight.report().starts, 0);
@@ -224,7 +187,7 @@ void tst_Mast::stormKeepsTheWingOnTheMast()
 
 void tst_Mast::requestStartsAndLands()
 {
-    ClosedLoopFlight flight(inWind(8.0));
+    ClosedLoopFlight flight(atMast(8.0));
     flight.setRequest(FlightRequest::Land);
     flight.fly(120.0);
     QVERIFY(flight.plant().isDocked());
@@ -246,7 +209,7 @@ void tst_Mast::requestStartsAndLands()
 void tst_Mast::landingRightAfterTheReleaseDocksAgain()
 {
     for (const double time : {0.01, 0.03, 0.05, 0.2, 0.5, 1.0}) {
-        ClosedLoopFlight flight(inWind(8.0));
+        ClosedLoopFlight flight(atMast(8.0));
         flight.setRequest(FlightRequest::Fly);
         flight.fly(time);
         flight.setRequest(FlightRequest::Land);
@@ -259,7 +222,7 @@ void tst_Mast::landingRightAfterTheReleaseDocksAgain()
 /// It was started anew while the wing reeled out, and remembers nothing.
 void tst_Mast::autopilotThatBeginsInTheAirLandsTheWing()
 {
-    ClosedLoopFlight flight(inWind(8.0));
+    ClosedLoopFlight flight(atMast(8.0));
     while (flight.autopilot().phase() != FlightPhase::ReelOut && flight.report().duration < 200.0)
         flight.step();
     QCOMPARE(flight.autopilot().phase(), FlightPhase::ReelOut);
@@ -282,7 +245,7 @@ void tst_Mast::calmFlightsDockGently_data()
 void tst_Mast::calmFlightsDockGently()
 {
     QFETCH(double, speed);
-    const FlightReport report = startAndLand(inWind(speed));
+    const FlightReport report = startAndLand(atMast(speed));
     QVERIFY(report.landed);
     QVERIFY(!report.crashed);
     QVERIFY(report.pumpingCycles >= 1);
@@ -303,7 +266,7 @@ void tst_Mast::turbulentFlightsDock()
 {
     QFETCH(bool, isSteered);
     QFETCH(double, speed);
-    ClosedLoopParameters parameters = inWind(speed, 0.15);
+    ClosedLoopParameters parameters = atMast(speed, 0.15);
     if (isSteered) {
         parameters.options.steering.kind = SteeringKind::TurnRate;
         parameters.gains = AutopilotGains::steered();
@@ -320,7 +283,7 @@ void tst_Mast::turbulentFlightsDock()
 /// back fast, but it comes back.
 void tst_Mast::lullInTheMiddleOfReelingOutEndsTheFlight()
 {
-    ClosedLoopParameters parameters = inWind(8.0);
+    ClosedLoopParameters parameters = atMast(8.0);
     parameters.wind.gustAmplitude = 2.0 / 8.0 - 1.0;
     parameters.wind.gustStart = 230.0;
     parameters.wind.gustDuration = 120.0;
@@ -341,8 +304,8 @@ void tst_Mast::lullInTheMiddleOfReelingOutEndsTheFlight()
 
 void tst_Mast::dayIsFlownWithoutAHand()
 {
-    ClosedLoopFlight flight(day());
-    flight.fly(2400.0);
+    ClosedLoopFlight flight(dayAtMast());
+    flight.fly(mastDayDuration);
     const FlightReport report = flight.report();
     QCOMPARE(report.starts, 1);
     QCOMPARE(report.dockings, 1);
@@ -364,10 +327,10 @@ void tst_Mast::turbulentDaysAreSurvived_data()
 void tst_Mast::turbulentDaysAreSurvived()
 {
     QFETCH(quint64, seed);
-    ClosedLoopParameters parameters = day(0.15);
+    ClosedLoopParameters parameters = dayAtMast(0.15);
     parameters.wind.seed = seed;
     ClosedLoopFlight flight(parameters);
-    flight.fly(2400.0);
+    flight.fly(mastDayDuration);
     const FlightReport report = flight.report();
     QVERIFY(!flight.plant().hasCrashed());
     QVERIFY(report.landed);
