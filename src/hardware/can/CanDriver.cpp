@@ -61,9 +61,9 @@ public:
         addOwn("@unconfirmed", [this] { return quint64(bus().unconfirmed()); });
         addOwn("@errors", [this] { return bus().counters().errorFrames; });
         addOwn("@busOffs", [this] { return bus().counters().busOffs; });
-        addOwn("@saturated", [this] { return saturated(); });
-        addOwn("@tooShort", [this] { return tooShort(); });
-        addOwn("@corrupt", [this] { return corrupt(); });
+        addOwn("@saturated", [this] { return sum(m_senders, &CanSender::saturated); });
+        addOwn("@tooShort", [this] { return sum(m_receivers, &CanReceiver::tooShort); });
+        addOwn("@corrupt", [this] { return sum(m_receivers, &CanReceiver::corrupt); });
         addOwn("@logDropped", [this] { return m_log.dropped(); });
     }
 
@@ -327,28 +327,14 @@ private:
             m_log.put(frames[i]);
     }
 
-    quint64 saturated() const
+    /// Of a number that each sender or receiver has counted.
+    template<typename Part>
+    static quint64 sum(const std::vector<std::unique_ptr<Part>> &parts, quint64 (Part::*number)() const) noexcept
     {
-        quint64 sum = 0;
-        for (const auto &sender : m_senders)
-            sum += sender->saturated();
-        return sum;
-    }
-
-    quint64 tooShort() const
-    {
-        quint64 sum = 0;
-        for (const auto &receiver : m_receivers)
-            sum += receiver->tooShort();
-        return sum;
-    }
-
-    quint64 corrupt() const
-    {
-        quint64 sum = 0;
-        for (const auto &receiver : m_receivers)
-            sum += receiver->corrupt();
-        return sum;
+        quint64 result = 0;
+        for (const auto &part : parts)
+            result += (part.get()->*number)();
+        return result;
     }
 
     CanConfiguration m_configuration;
