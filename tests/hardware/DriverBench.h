@@ -44,12 +44,12 @@ public:
     }
 
     qplc::DriverRunner &runner() { return m_runner; }
-    /// What is wrong with the keys; empty: nothing.
+    /// Returns the errors of the keys; empty if all are right.
     QString errors() const { return QPlcParseError::toString(m_configuration.errors()); }
     QVector<QPlcParseError> warnings() const { return m_configuration.warnings(); }
     QString errorString() { return m_runner.driver().errorString(); }
 
-    /// All wires before open(). \return what is wrong; empty: nothing
+    /// All wires before open(). \return the error; empty if the channel is wired
     QString wireRead(const QString &channel) { return wire(channel, QPlcChannel::Read); }
     QString wireWrite(const QString &channel) { return wire(channel, QPlcChannel::Write); }
 

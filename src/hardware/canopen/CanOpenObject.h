@@ -36,7 +36,7 @@ struct CanOpenObject
     bool isWritable = true;
     std::optional<quint64> value;  // bits, from a file: that of a DCF file, else the default one
 
-    /// The number that a data type of CiA 301 has; nothing: it is no number.
+    /// Returns the number of a data type of CiA 301, or no value if the type is not a number.
     static std::optional<RawNumber> numberOfType(quint16 dataType);
     /// `u16`, `i32`, `f32`, `bool`: as in a configuration. Nothing: there is no such word.
     static std::optional<RawNumber> numberOfWord(const QString &word);

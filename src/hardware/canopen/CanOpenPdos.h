@@ -71,7 +71,7 @@ private:
         bool isOfAxis = false;
         CanFrame frame;  // with the values of objects that nobody writes
     };
-    /// What goes to the object \a index; nothing: it is not one of the axis.
+    /// Returns the value for the object \a index, or no value if the object is not one of the axis.
     static std::optional<double> targetOf(const AxisOutputs &axis, quint16 index) noexcept;
     bool isOfAxis(const PdoEntry &entry) const noexcept { return m_isAxis && targetOf({}, entry.address.index); }
     void encode(const RawNumber &number, int first, double value, CanFrame *frame) noexcept;

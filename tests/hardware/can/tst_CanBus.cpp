@@ -500,7 +500,7 @@ void tst_CanBus::kernelHoldsOneFrameOfASlowQueue()
 {
     const QString interface = qEnvironmentVariable("QTPLC_TEST_CAN");
     if (interface.isEmpty() || !CanLink::read(int(if_nametoindex(interface.toLatin1()))).hasEcho)
-        QSKIP("QTPLC_TEST_CAN names no interface of the kernel with echo, as vcan has with echo=1");
+        QSKIP("set QTPLC_TEST_CAN to a CAN interface with echo, such as vcan0 after 'modprobe vcan echo=1'");
     const auto tc = [&interface](const QStringList &bucket) {
         const QStringList place{QStringLiteral("dev"), interface, QStringLiteral("root")};
         return QProcess::execute(QStringLiteral("tc"),

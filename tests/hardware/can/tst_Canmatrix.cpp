@@ -99,7 +99,7 @@ void tst_Canmatrix::ask(const QVector<RandomDbc::Message> &messages, RandomDbc *
         }
     }
     if (!answer(questions))
-        QSKIP("there is no canmatrix for /usr/bin/python3: install python3-canmatrix");
+        QSKIP("install python3-canmatrix: /usr/bin/python3 cannot import canmatrix");
 }
 
 // Random raw values for the signals of a page. Floats are small enough to be finite.

@@ -51,7 +51,7 @@ public:
 
     /// The device measures \a value from now on.
     virtual void give(const QString &input, double value) = 0;
-    /// What the device has been told; nothing: it was left alone.
+    /// Returns the value that the device has got, or no value if it was left alone.
     virtual std::optional<double> taken(const QString & /*output*/) { return std::nullopt; }
     /// Whether taken() is still right when nobody has the device.
     virtual bool remembersOutputs() const { return true; }
