@@ -66,7 +66,8 @@ void PlantPast::look()
     start();
 }
 
-/// Nothing: there is nothing to read yet, or the first cycle has not come, behind which it ends.
+/// \return nothing as long as there is nothing to read, or the first cycle, before which the past
+/// ends, has not come
 std::optional<PastWish> PlantPast::wish() const
 {
     const PlantValues &values = m_plant->values();

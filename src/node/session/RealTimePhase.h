@@ -74,7 +74,7 @@ private:
     RecorderWatch m_recorder;
     RemoteRecorder m_remoteRecorder{[this] { return m_ring.isOpen() ? m_ring.file() : QString(); }};
     BlackBox m_blackBox;
-    std::function<void()> m_whenRecorded;  // empty: nobody is waited for
+    std::function<void()> m_whenRecorded;  // empty: the phase waits for no recorder
     std::int64_t m_waitsUntil = 0;         // [ns]
     QTimer m_recorderTimer;
     bool m_isRunning = false;

@@ -46,10 +46,10 @@ public:
     /// \return nothing, with the reason in \a refusal
     std::optional<messages::Records> answer(const messages::GetRecords &question, const Asker &asker, std::int64_t now,
                                             Refusal *refusal);
-    /// The recorder, for people, that has to put records of the newest ring to safety, and was
-    /// heard within Attention. Empty: there is none.
+    /// The recorder, for people, if it still has to put records of the newest ring to safety and
+    /// was heard within Attention. Otherwise empty.
     QString behind(std::int64_t now) const;
-    /// Done each second: a recorder that is silent for too long is none any more.
+    /// Done each second: a recorder that is silent for too long no longer counts.
     void look(std::int64_t now);
 
 private:
