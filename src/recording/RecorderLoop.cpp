@@ -388,8 +388,11 @@ bool RecorderLoop::end(std::int64_t wallClock, QString *error)
         for (int i = 0; recorder.hasFile() && i < MostAtEnd && progress == PlantRecorder::Recorded; ++i)
             progress = recorder.proceed(&m_error);
         const bool isAbandoned = progress == PlantRecorder::Abandoned;
-        if (!recorder.hasFile())
+        if (!recorder.hasFile()) {
+            if (!m_status.hasFailed)  // a file has ended just now, and the next one has not begun
+                recorder.detach();
             continue;
+        }
         if (!finishFile(recording.get(), isAbandoned, wallClock)) {
             *error = m_error;
             isWritten = false;  // the ring keeps what is in no file

@@ -175,6 +175,7 @@ private Q_SLOTS:
     void aFileWithoutCyclesDoesNotStay();
     void theRingOfAKilledMasterIsFound();
     void ringsOfOtherRecordersAreNotMapped();
+    void aRecorderThatEndsBetweenTwoFilesLeavesTheRing();
     void aFullDiskIsTriedAgainEachSecond();
     void theMasterIsToldWhatTheRecorderDoes();
     void aMarkInTheRingMarksTheFile();
@@ -459,6 +460,22 @@ void tst_RecorderLoop::ringsOfOtherRecordersAreNotMapped()
         QCOMPARE(flight.loop->status().phases, 1);
     }
     qunsetenv("QTPLC_RING_DIR");
+}
+
+void tst_RecorderLoop::aRecorderThatEndsBetweenTwoFilesLeavesTheRing()
+{
+    Recorded flight;
+    flight.settings.segmentTime = 10 * Second;
+    QVERIFY(flight.open() && flight.attach() && flight.start());
+    flight.fly(100);
+    flight.step(100);
+    flight.now += flight.settings.segmentTime;
+    flight.loop->proceed(flight.now, flight.wall);  // ends the file, and no more
+    QCOMPARE(flight.files().size(), 1);
+    QVERIFY(!flight.files().constFirst().endsWith(".part"));
+    QVERIFY(flight.ring->isRead());
+    QVERIFY2(flight.loop->end(flight.wall, &flight.error), qPrintable(flight.error));
+    QVERIFY(!flight.ring->isRead());
 }
 
 void tst_RecorderLoop::aFullDiskIsTriedAgainEachSecond()
