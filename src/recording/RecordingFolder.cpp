@@ -2,14 +2,13 @@
 #include "RecordingFolder.h"
 
 #include "RecorderControl.h"
+#include "RecordingName.h"
 #include "Recovery.h"
 #include "Verification.h"
 
-#include <QtCore/QDateTime>
 #include <QtCore/QDir>
 #include <QtCore/QFile>
 #include <QtCore/QFileInfo>
-#include <QtCore/QRegularExpression>
 
 #include <cerrno>
 #include <fcntl.h>
@@ -19,42 +18,8 @@ namespace qplc {
 
 namespace {
 
-const QString timeFormat = QStringLiteral("yyyyMMdd'T'HHmmss.zzz'Z'");
-const QString part = QStringLiteral(".part");
-const QString suffix = QStringLiteral(".mcap");
-const QString markedSuffix = QStringLiteral("_marked.mcap");
-
-const QRegularExpression &pattern()
-{
-    static const QRegularExpression expression(
-        QStringLiteral("^(\\d{8}T\\d{6}\\.\\d{3}Z)_(\\w+_[0-9a-f]+_phase\\d+)(_marked)?\\.mcap(\\.part)?$"));
-    return expression;
-}
-
-/// Plant, session and phase.
-QString nameOf(const RingDescription &phase)
-{
-    QString plant = phase.plant.left(64);
-    for (QChar &sign : plant) {
-        if (!sign.isLetterOrNumber() || sign.unicode() > 127)
-            sign = QLatin1Char('_');
-    }
-    return QStringLiteral("%1_%2_phase%3")
-        .arg(plant.isEmpty() ? QStringLiteral("plant") : plant, QString::number(phase.session, 16))
-        .arg(phase.phase);
-}
-
-qint64 timeOf(const QString &stamp)
-{
-    QDateTime time = QDateTime::fromString(stamp, timeFormat);
-    time.setTimeSpec(Qt::UTC);
-    return time.isValid() ? time.toMSecsSinceEpoch() : -1;
-}
-
-QString fileNameOf(const QString &path)
-{
-    return QFileInfo(path).fileName();
-}
+constexpr QLatin1String part = RecordingName::Part;
+constexpr QLatin1String suffix = RecordingName::Suffix;
 
 }  // namespace
 
@@ -91,10 +56,8 @@ QVector<RecordingFolder::File> RecordingFolder::files(const QString &folder)
     QVector<File> result;
     const QFileInfoList all = dir.entryInfoList(QDir::Files, QDir::Name);
     for (const QFileInfo &info : all) {
-        const QRegularExpressionMatch match = pattern().match(info.fileName());
-        if (match.hasMatch() && timeOf(match.captured(1)) >= 0)
-            result.append({info.filePath(), timeOf(match.captured(1)), quint64(info.size()),
-                           !match.captured(3).isEmpty(), !match.captured(4).isEmpty()});
+        if (const auto name = RecordingName::parse(info.fileName()))
+            result.append({info.filePath(), name->begin, quint64(info.size()), name->isMarked, name->isUnfinished});
     }
     return result;
 }
@@ -104,16 +67,16 @@ QString RecordingFolder::nextFile(const RingDescription &phase, qint64 now) cons
     const QVector<File> known = files(m_path);
     for (const File &file : known)
         now = std::max(now, file.begin + 1);  // also where the clock was set back
-    const QString stamp = QDateTime::fromMSecsSinceEpoch(now, Qt::UTC).toString(timeFormat);
-    return QDir(m_path).filePath(stamp + QLatin1Char('_') + nameOf(phase) + suffix + part);
+    return QDir(m_path).filePath(RecordingName::of(phase, now).toString());
 }
 
 PlantRecorder::Position RecordingFolder::position(const RingDescription &phase) const
 {
-    const QString name = nameOf(phase);
+    const RecordingName wanted = RecordingName::of(phase, 0);
     const QVector<File> known = files(m_path);
     for (int i = known.size() - 1; i >= 0; --i) {
-        if (pattern().match(fileNameOf(known[i].path)).captured(2) != name)
+        const auto name = RecordingName::parse(QFileInfo(known[i].path).fileName());
+        if (!name || !name->isOfSamePhase(wanted))
             continue;
         VerifiedFile found;
         QString error;
@@ -140,9 +103,9 @@ QString RecordingFolder::mark(const QString &path)
     const bool isPart = name.endsWith(part);
     if (isPart)
         name.chop(part.size());
-    if (!name.endsWith(suffix) || name.endsWith(markedSuffix))
+    if (!name.endsWith(suffix) || name.endsWith(RecordingName::MarkedSuffix))
         return path;
-    name.replace(name.size() - suffix.size(), suffix.size(), markedSuffix);
+    name.replace(name.size() - suffix.size(), suffix.size(), RecordingName::MarkedSuffix);
     if (isPart)
         name += part;
     return QFile::rename(path, name) ? name : path;

@@ -5,15 +5,17 @@
 #include "gui/WindowText.h"
 #include "node/cycle/RingDescription.h"
 #include "node/cycle/RingReader.h"
+#include "recording/RecordingName.h"
 #include "signals/ProcessImage.h"
 
 #include <QtCore/QDir>
 #include <QtCore/QElapsedTimer>
 #include <QtCore/QFileInfo>
-#include <QtCore/QRegularExpression>
 
 #include <algorithm>
 #include <limits>
+#include <utility>
+#include <vector>
 
 namespace qplc {
 
@@ -21,12 +23,17 @@ namespace {
 
 using Time = PlantValues::Time;
 
-/// Names as PLANT_SESSION_phase3.mcap of RecordingFolder and ...-SESSION-3 of PhaseRing.
-/// \return the number of the phase; 0: it is not such a name
-quint64 phaseOf(const QString &name)
+/// Of a ring: PhaseRing calls it ...-SESSION-PHASE.
+quint64 phaseOfRing(const QString &file)
 {
-    static const QRegularExpression pattern(QStringLiteral("(?:_phase|-)(\\d+)(?:(?:_marked)?\\.mcap(?:\\.part)?)?$"));
-    return pattern.match(name).captured(1).toULongLong();
+    return file.section(QLatin1Char('-'), -1).toULongLong();
+}
+
+/// \return 0 if no recorder gives such a name
+quint64 phaseOfRecording(const QString &file)
+{
+    const auto name = RecordingName::parse(QFileInfo(file).fileName());
+    return name ? name->phase : 0;
 }
 
 /// Some cycles later, or before. A file may have any numbers: they wrap around.
@@ -35,19 +42,23 @@ Time timeAfter(Time time, quint64 cycles, Time period)
     return Time(quint64(time) + cycles * quint64(period));
 }
 
-/// What a folder has of a session, in the order of phases and times. \param pattern  with %1 for
-/// the session
-QStringList filesOfSession(const QDir &folder, const QString &pattern, quint64 session)
+/// The newest files of a session, in the order of phases and times.
+/// \param pattern  of their names, with %1 for the session
+QStringList filesOfSession(const QDir &folder, const QString &pattern, quint64 session,
+                           quint64 (*phaseOf)(const QString &file))
 {
-    QStringList names
-        = folder.entryList({pattern.arg(QString::number(session, 16))}, QDir::Files | QDir::NoSymLinks, QDir::Name);
-    const auto isOther = [](const QString &name) { return phaseOf(name) == 0; };
-    names.erase(std::remove_if(names.begin(), names.end(), isOther), names.end());
-    std::stable_sort(names.begin(), names.end(),
-                     [](const QString &a, const QString &b) { return phaseOf(a) < phaseOf(b); });
-    if (names.size() > MostFilesOfPast)
-        names.erase(names.begin(), names.end() - MostFilesOfPast);
-    return names;
+    const QStringList names
+        = folder.entryList({pattern.arg(QString::number(session, 16))}, QDir::Files | QDir::NoSymLinks);
+    std::vector<std::pair<quint64, QString>> found;  // phases and names
+    for (const QString &name : names) {
+        if (const quint64 phase = phaseOf(name))
+            found.emplace_back(phase, name);
+    }
+    std::sort(found.begin(), found.end());
+    QStringList files;
+    for (std::size_t i = found.size() - std::min(found.size(), MostFilesOfPast); i < found.size(); ++i)
+        files << found[i].second;
+    return files;
 }
 
 /// One reading.
@@ -59,7 +70,7 @@ public:
         , m_isUnwanted(isUnwanted)
     {
         m_clock.start();
-        m_rings = filesOfSession(m_ringFolder, QStringLiteral("qtplc-ring-*-%1-*"), wish.session);
+        m_rings = filesOfSession(m_ringFolder, QStringLiteral("qtplc-ring-*-%1-*"), wish.session, phaseOfRing);
         const bool isRecorded = !wish.file.isEmpty();
         m_past.values.setTable(wish.table, wish.period, isRecorded ? RecordedBudget : PlantValues::Budget());
     }
@@ -118,12 +129,12 @@ bool PastReading::mayBeShown(const RingDescription &description) const
 {
     const bool isTimed = !m_wish.seam || m_wish.seam->cycleZero != 0;
     return description.session == m_wish.session
-        && (isTimed || (!m_rings.isEmpty() && phaseOf(m_rings.constLast()) == description.phase));
+        && (isTimed || (!m_rings.isEmpty() && phaseOfRing(m_rings.constLast()) == description.phase));
 }
 
-/// The next row is that of a cycle. \return its time on the clock of the window; nothing: it is not
-/// wanted. A window hears the values of the end of a cycle with the next one: inputs are one cycle
-/// old.
+/// Prepares the store for the row of a cycle. A window hears the values of the end of a cycle with
+/// the next one: inputs are one cycle old.
+/// \return the time of the row on the clock of the window; nothing if the window does not need it
 std::optional<Time> PastReading::begin(const Origin &origin, quint64 cycle)
 {
     const bool isCurrent = m_wish.seam && origin.cycleZero == m_wish.seam->cycleZero;
@@ -157,7 +168,7 @@ QStringList PastReading::files(QString *problem) const
     const QDir folder(told.path());
     QStringList names;
     if (isPath)
-        names = filesOfSession(folder, QStringLiteral("*_%1_phase*.mcap*"), m_wish.session);
+        names = filesOfSession(folder, QStringLiteral("*_%1_phase*.mcap*"), m_wish.session, phaseOfRecording);
     if (isPath && names.isEmpty() && told.isFile() && !told.isSymLink())
         names << told.fileName();
     QStringList files;
@@ -194,8 +205,8 @@ void PastReading::readFiles()
         return;
     bool isOpen = !names.isEmpty() && recording.open(names, &error, Recording::LeaveOut);
     if (!isOpen && !names.isEmpty()) {  // phases that are not timed cannot be one recording
-        const quint64 newest = phaseOf(names.constLast());
-        const auto isOlder = [newest](const QString &name) { return phaseOf(name) != newest; };
+        const quint64 newest = phaseOfRecording(names.constLast());
+        const auto isOlder = [newest](const QString &name) { return phaseOfRecording(name) != newest; };
         names.erase(std::remove_if(names.begin(), names.end(), isOlder), names.end());
         isOpen = recording.open(names, &error, Recording::LeaveOut);
     }

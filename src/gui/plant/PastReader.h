@@ -56,6 +56,6 @@ Past readPast(const PastWish &wish, const std::atomic<bool> &isUnwanted);
 constexpr PlantValues::Budget RecordedBudget{3'600'000'000'000, PlantValues::Budget().memory};
 constexpr int LongestReading = 60;                         // [s]
 constexpr qint64 LargestUnfinishedFile = qint64(1) << 29;  // [byte]: all of it has to be read to find its end
-constexpr int MostFilesOfPast = 512;                       // the newest ones
+constexpr std::size_t MostFilesOfPast = 512;               // the newest ones
 
 }  // namespace qplc

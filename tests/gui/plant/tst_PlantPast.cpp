@@ -245,7 +245,8 @@ void tst_PlantPast::ofSimulationsThePhaseThatRunsIsShown()
 {
     Flight flight;
     const QDir folder(flight.folder.path());
-    QVERIFY(QFile::rename(flight.record(150), folder.filePath(QStringLiteral("a_kite_abcdef_phase1.mcap"))));
+    QVERIFY(QFile::rename(flight.record(150),
+                          folder.filePath(QStringLiteral("20270115T080000.000Z_kite_abcdef_phase1.mcap"))));
     Flight next(2);
     next.description.phase = 2;
     next.recorder.detach();
@@ -254,9 +255,10 @@ void tst_PlantPast::ofSimulationsThePhaseThatRunsIsShown()
     QVERIFY(QFile::rename(QFile::decodeName(next.ringFile + "-2"), next.link));
     QVERIFY(next.recorder.attach(QFile::encodeName(next.link), &next.error));
     next.record(100, false);
-    QVERIFY(QFile::rename(next.file, folder.filePath(QStringLiteral("b_kite_abcdef_phase2.mcap.part"))));
+    QVERIFY(
+        QFile::rename(next.file, folder.filePath(QStringLiteral("20270115T080010.000Z_kite_abcdef_phase2.mcap.part"))));
     PastWish wish = next.wish(100);
-    wish.file = folder.filePath(QStringLiteral("b_kite_abcdef_phase2.mcap.part"));
+    wish.file = folder.filePath(QStringLiteral("20270115T080010.000Z_kite_abcdef_phase2.mcap.part"));
     const Past past = read(wish);
     QVERIFY2(past.hasFiles, qPrintable(past.problem));
     const QString defect = defectOf(past, 0, 98, 100);
