@@ -84,6 +84,8 @@ public:
         const bool hasRows = !m_past.values.store()->isEmpty();
         m_past.isJoined
             = hasRows && m_isCurrent && m_past.values.store()->newestTime() + m_wish.period >= m_wish.before;
+        // The first row of a phase comes with its second cycle.
+        m_past.isLate = !m_past.isJoined && m_wish.begun() + m_wish.period < m_wish.before;
         return std::move(m_past);
     }
 

@@ -37,6 +37,7 @@ struct Past
 {
     PlantValues values;     // of the table; its store is empty if nothing was found
     bool isJoined = false;  // the newest row is the cycle before the first row that is there
+    bool isLate = false;    // cycles of the phase of the seam before that row are in no file or ring yet
     bool hasFiles = false;  // rows are of recordings, not of the ring alone
     QString problem;        // why recordings cannot be read, for people; empty: they can
 };

@@ -108,7 +108,7 @@ void PlantPast::collect()
         begin();
         return;
     }
-    const bool isMissing = !past.problem.isEmpty() || (m_wish.begun() < m_wish.before && !past.isJoined);
+    const bool isMissing = !past.problem.isEmpty() || past.isLate;
     if (!m_wish.file.isEmpty() && isMissing && m_attempts < MostAttempts) {
         m_retry.start();
         return;

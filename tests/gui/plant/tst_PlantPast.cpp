@@ -170,6 +170,7 @@ private Q_SLOTS:
     void initTestCase();
     void cyclesOfFileAndRingAreThereOnce();
     void theRingAloneIsEnough();
+    void onlyCyclesThatWereComputedAreWaitedFor();
     void onlyTheNewestCyclesAreKept();
     void filesOfAnotherPhaseThatIsNotTimedAreNotShown();
     void ofSimulationsThePhaseThatRunsIsShown();
@@ -218,6 +219,19 @@ void tst_PlantPast::theRingAloneIsEnough()
     QVERIFY(past.isJoined);
     const QString defect = defectOf(past, 0, 148, 150);
     QVERIFY2(defect.isEmpty(), qPrintable(defect));
+}
+
+void tst_PlantPast::onlyCyclesThatWereComputedAreWaitedFor()
+{
+    Flight flight;
+    QVERIFY(flight.start());
+    flight.step(5);
+    for (const quint64 first : {0, 1, 2, 6, 7}) {
+        const Past past = read(flight.wish(first));
+        QCOMPARE(rowsOf(past), first < 2 ? 0 : std::min<Time>(Time(first) - 1, 5));
+        QCOMPARE(past.isJoined, first == 2 || first == 6);
+        QCOMPARE(past.isLate, first == 7);  // the cycle 5 will be in the ring
+    }
 }
 
 /// A store of few rows: as of a plant whose table is very large.
