@@ -18,8 +18,12 @@ namespace qplc {
 
 namespace {
 
-constexpr QLatin1String part = RecordingName::Part;
-constexpr QLatin1String suffix = RecordingName::Suffix;
+/// \return the new path of the file; \a path if the file could not be renamed
+QString renamed(const QString &path, const RecordingName &name)
+{
+    const QString result = QFileInfo(path).dir().filePath(name.toString());
+    return QFile::rename(path, result) ? result : path;
+}
 
 }  // namespace
 
@@ -89,26 +93,21 @@ PlantRecorder::Position RecordingFolder::position(const RingDescription &phase) 
 
 QString RecordingFolder::finished(const QString &path, bool isMarked) const
 {
-    QString name = path;
-    if (name.endsWith(part))
-        name.chop(part.size());
-    if (name != path && !QFile::rename(path, name))
+    std::optional<RecordingName> name = RecordingName::parse(QFileInfo(path).fileName());
+    if (!name)
         return path;
-    return isMarked ? mark(name) : name;
+    name->isUnfinished = false;
+    name->isMarked = name->isMarked || isMarked;
+    return renamed(path, *name);
 }
 
 QString RecordingFolder::mark(const QString &path)
 {
-    QString name = path;
-    const bool isPart = name.endsWith(part);
-    if (isPart)
-        name.chop(part.size());
-    if (!name.endsWith(suffix) || name.endsWith(RecordingName::MarkedSuffix))
+    std::optional<RecordingName> name = RecordingName::parse(QFileInfo(path).fileName());
+    if (!name)
         return path;
-    name.replace(name.size() - suffix.size(), suffix.size(), RecordingName::MarkedSuffix);
-    if (isPart)
-        name += part;
-    return QFile::rename(path, name) ? name : path;
+    name->isMarked = true;
+    return renamed(path, *name);
 }
 
 QStringList RecordingFolder::clean(const Limits &limits, qint64 now) const

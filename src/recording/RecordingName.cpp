@@ -48,7 +48,7 @@ QString RecordingName::toString() const
     return QStringLiteral("%1_%2_%3_phase%4")
                .arg(QDateTime::fromMSecsSinceEpoch(begin, Qt::UTC).toString(timeFormat), plant,
                     QString::number(session, 16), QString::number(phase))
-        + (isMarked ? MarkedSuffix : Suffix) + (isUnfinished ? Part : QLatin1String());
+        + QLatin1String(isMarked ? "_marked.mcap" : ".mcap") + QLatin1String(isUnfinished ? ".part" : "");
 }
 
 bool RecordingName::isOfSamePhase(const RecordingName &other) const

@@ -13,10 +13,6 @@ struct RingDescription;
 /// `20261126T215512.123Z_PLANT_SESSION_phase1.mcap`, as RecordingFolder describes it.
 struct RecordingName
 {
-    static constexpr QLatin1String Suffix{".mcap"};
-    static constexpr QLatin1String MarkedSuffix{"_marked.mcap"};
-    static constexpr QLatin1String Part{".part"};  // behind the suffix of a file that is being written
-
     qint64 begin = 0;  // [ms since 1970]
     QString plant;     // letters and digits of ASCII, and _
     quint64 session = 0;
