@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "RecordingFolder.h"
 
+#include "McapFormat.h"
 #include "RecorderControl.h"
 #include "RecordingName.h"
 #include "Recovery.h"
@@ -136,12 +137,15 @@ int RecordingFolder::finishOthers(const QStringList &own, QString *error) const
     int count = 0;
     const QVector<File> known = files(m_path);
     for (const File &file : known) {
+        if (!file.isUnfinished || own.contains(file.path))
+            continue;
         RecoveredFile result;
-        if (!file.isUnfinished || own.contains(file.path) || !recoverRecording(file.path, &result, error))
+        const bool isBegun = file.size >= quint64(mcap::MagicSize);
+        if (isBegun && !recoverRecording(file.path, &result, error))
             continue;
         ++count;
         // Its recorder was killed before it wrote anything: the ring still has it.
-        if (result.chunks == 0 && result.damages == 0 && !result.wasFinished)
+        if (!isBegun || (result.chunks == 0 && result.damages == 0 && !result.wasFinished))
             QFile::remove(file.path);
         else
             finished(file.path, false);

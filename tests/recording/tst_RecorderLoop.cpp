@@ -173,6 +173,7 @@ private Q_SLOTS:
     void strangersFilesStay();
     void aKilledRecorderIsContinued();
     void aFileWithoutCyclesDoesNotStay();
+    void aFileThatHasNotBegunDoesNotStay();
     void theRingOfAKilledMasterIsFound();
     void ringsOfOtherRecordersAreNotMapped();
     void aRecorderThatEndsBetweenTwoFilesLeavesTheRing();
@@ -401,6 +402,25 @@ void tst_RecorderLoop::aFileWithoutCyclesDoesNotStay()
     flight.endPhase();
     QCOMPARE(flight.files().size(), 1);
     requireWhole(flight.files(), 399, flight.digest());
+}
+
+/// Its recorder was killed between the creation of the file and the first write.
+void tst_RecorderLoop::aFileThatHasNotBegunDoesNotStay()
+{
+    for (const QByteArray &begin : {QByteArray(), QByteArray("\x89MCAP", 5)}) {
+        Recorded flight;
+        QVERIFY(flight.open() && flight.attach() && flight.start());
+        flight.fly(500);
+        flight.kill();
+        QFile file(flight.files().constFirst().replace("T2155", "T2255"));
+        QVERIFY(file.open(QIODevice::WriteOnly) && file.write(begin) == begin.size());
+        file.close();
+        QVERIFY2(flight.open() && flight.attach(), qPrintable(flight.error));
+        QCOMPARE(flight.files().size(), 1);
+        flight.fly(400);
+        flight.endPhase();
+        requireWhole(flight.files(), 899, flight.digest());
+    }
 }
 
 void tst_RecorderLoop::theRingOfAKilledMasterIsFound()
