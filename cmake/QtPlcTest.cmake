@@ -6,34 +6,34 @@
 # builds the tests of a label.
 find_package(Qt5 5.15 REQUIRED COMPONENTS Test)
 
-# To read the headers of Qt takes longer than to compile most tests: tests without windows, with
-# windows, and with plots do it once each.
+# To read the headers of Qt and of fixtures takes longer than to compile most tests: all tests of a
+# kind share them, read once. Kinds with fixtures are added where the fixtures are.
+set(QTPLC_TEST_HEADERS <QtNetwork/QtNetwork> <QtTest/QtTest> <functional> <memory> <thread>)
 function(qtplc_precompile_headers test)
     get_target_property(libraries ${test} LINK_LIBRARIES)
-    if(libraries MATCHES "Qwt")
-        set(kind plot)
-        set(needs QtPlc::Gui Qwt::Qwt)
-    elseif(libraries MATCHES "Gui|gui_")
-        set(kind window)
-        set(needs QtPlc::Gui)
+    if(libraries MATCHES "gui_fixtures")
+        set(kind gui)
+    elseif(libraries MATCHES "node_fixtures")
+        set(kind node)
     else()
         set(kind core)
-        set(needs QtPlc::Core)
+        qtplc_add_test_headers(core LIBRARIES QtPlc::Core)
     endif()
-    set(headers ${kind}_test_headers)
-    if(NOT TARGET ${headers})
+    target_precompile_headers(${test} REUSE_FROM ${kind}_test_headers)
+endfunction()
+
+# qtplc_add_test_headers(kind LIBRARIES target ... [HEADERS header ...])
+function(qtplc_add_test_headers kind)
+    cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LIBRARIES;HEADERS")
+    set(name ${kind}_test_headers)
+    if(NOT TARGET ${name})
         # Written once only.
-        file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/${headers}.cpp CONTENT "int main() { return 0; }\n")
-        add_executable(${headers} EXCLUDE_FROM_ALL ${CMAKE_BINARY_DIR}/${headers}.cpp)
-        set_target_properties(${headers} PROPERTIES AUTOMOC OFF)
-        target_link_libraries(${headers} PRIVATE Qt5::Test ${needs})
-        target_precompile_headers(${headers} PRIVATE <QtNetwork/QtNetwork> <QtTest/QtTest> <functional>
-            <memory> <thread>)
-        if(NOT kind STREQUAL core)
-            target_precompile_headers(${headers} PRIVATE <QtWidgets/QtWidgets>)
-        endif()
+        file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/${name}.cpp CONTENT "int main() { return 0; }\n")
+        add_executable(${name} EXCLUDE_FROM_ALL ${CMAKE_BINARY_DIR}/${name}.cpp)
+        set_target_properties(${name} PROPERTIES AUTOMOC OFF)
+        target_link_libraries(${name} PRIVATE Qt5::Test ${arg_LIBRARIES})
+        target_precompile_headers(${name} PRIVATE ${QTPLC_TEST_HEADERS} ${arg_HEADERS})
     endif()
-    target_precompile_headers(${test} REUSE_FROM ${headers})
 endfunction()
 
 # What has no header of its own needs moc for one file only: AUTOMOC begins CMake anew, and compiles

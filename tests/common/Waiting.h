@@ -8,6 +8,8 @@
 
 #include <chrono>
 
+constexpr int patience = 20000;  // [ms] for what happens at once: far more than a loaded machine needs
+
 /// Handles events until a test has what it waits for. Qt 5 sleeps 10 ms (QTest::qWaitFor()) or
 /// 50 ms (QTRY_VERIFY()) between two looks, whatever happens meanwhile; a request, its way through
 /// a master and the answer are a dozen events. Here each event is followed by a look. Time is that

@@ -15,8 +15,6 @@ using namespace qplc;
 
 namespace {
 
-constexpr int patience = 20'000;  // [ms] for a picture drawn in software on a busy machine
-
 bool isOrangeOrBlue(const QColor &color)
 {
     const bool isOrange = color.red() > 130 && color.red() > color.blue() + 80 && color.green() < color.red() - 30;

@@ -412,7 +412,7 @@ void tst_RecorderLoop::aFileThatHasNotBegunDoesNotStay()
         QVERIFY(flight.open() && flight.attach() && flight.start());
         flight.fly(500);
         flight.kill();
-        QFile file(flight.files().constFirst().replace("T2155", "T2255"));
+        QFile file(QString(flight.files().constFirst()).replace("T2155", "T2255"));
         QVERIFY(file.open(QIODevice::WriteOnly) && file.write(begin) == begin.size());
         file.close();
         QVERIFY2(flight.open() && flight.attach(), qPrintable(flight.error));

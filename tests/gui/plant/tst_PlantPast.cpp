@@ -17,7 +17,6 @@ namespace {
 
 using Time = PlantValues::Time;
 
-constexpr int patience = 20000;      // [ms]
 constexpr Time period = 10'000'000;  // [ns]
 constexpr Time noon = 1'800'000'000 * SignalStore::Second;
 

@@ -10,8 +10,6 @@ using namespace qplc;
 
 namespace {
 
-constexpr int patience = 20000;  // [ms]
-
 struct Report
 {
     quint64 rows = 0;

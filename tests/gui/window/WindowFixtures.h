@@ -30,8 +30,6 @@ private:
     QTemporaryDir m_folder;
 };
 
-constexpr int patience = 20000;  // [ms]
-
 /// A window of a laptop on the screen. On a screen (qtplc_add_screen_test) a picture of what was
 /// seen last is kept, under the name of the test.
 struct WindowFixture

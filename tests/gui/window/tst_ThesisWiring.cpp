@@ -43,8 +43,6 @@ using OperatorFactory = QPlcWidgetFactoryOf<Operator>;
 
 namespace {
 
-constexpr int patience = 20000;  // [ms]
-
 /// The main program of listing 4.18, word by word where its words are wiring.
 class ThesisProgram
 {
