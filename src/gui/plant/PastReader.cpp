@@ -71,8 +71,10 @@ public:
     {
         m_clock.start();
         m_rings = filesOfSession(m_ringFolder, QStringLiteral("qtplc-ring-*-%1-*"), wish.session, phaseOfRing);
-        const bool isRecorded = !wish.file.isEmpty();
-        m_past.values.setTable(wish.table, wish.period, isRecorded ? RecordedBudget : PlantValues::Budget());
+        PlantValues::Budget budget = wish.file.isEmpty() ? PlantValues::Budget() : RecordedBudget;
+        if (wish.isOfLostConnection())
+            budget.history = std::min(budget.history, wish.before - wish.after);
+        m_past.values.setTable(wish.table, wish.period, budget);
     }
 
     Past read()
@@ -81,11 +83,12 @@ public:
             readFiles();
         for (const QString &ring : qAsConst(m_rings))
             readRing(m_ringFolder.filePath(ring));
-        const bool hasRows = !m_past.values.store()->isEmpty();
-        m_past.isJoined
-            = hasRows && m_isCurrent && m_past.values.store()->newestTime() + m_wish.period >= m_wish.before;
+        const SignalStore *store = m_past.values.store();
+        const bool hasRows = !store->isEmpty();
+        m_past.isJoined = hasRows && m_isCurrent && store->newestTime() + m_wish.period >= m_wish.before;
         // The first row of a phase comes with its second cycle.
         m_past.isLate = !m_past.isJoined && m_wish.begun() + m_wish.period < m_wish.before;
+        m_past.goesOn = hasRows && m_goesOn && store->time(store->firstRow()) == m_wish.after + m_wish.period;
         return std::move(m_past);
     }
 
@@ -99,8 +102,12 @@ private:
     bool isOver();
     bool mayBeShown(const RingDescription &description) const;
     QStringList files(QString *problem) const;
+    QString whatIsMissing() const;
+    Time firstWanted(Time end) const;
     void readFiles();
     void readRing(const QString &file);
+    bool isLost(const Origin &origin) const;
+    std::optional<Time> timeOf(const Origin &origin, quint64 cycle) const;
     std::optional<Time> begin(const Origin &origin, quint64 cycle);
 
     const PastWish &m_wish;
@@ -109,6 +116,7 @@ private:
     const QDir m_ringFolder{QFile::decodeName(RingMemory::folder())};
     QStringList m_rings;  // of the session, the newest last
     Past m_past;
+    bool m_goesOn = false;     // the oldest row is the cycle behind the one that was heard before
     bool m_isCurrent = false;  // the newest row is of the phase of the seam
     Time m_cycleZero = 0;      // of the newest row
     quint64 m_cycle = 0;       // likewise
@@ -120,10 +128,16 @@ bool PastReading::isOver()
         return m_isUnwanted;
     if (m_past.problem.isEmpty())
         m_past.problem = WindowText::tr("reading the recordings of this plant takes longer than %1 s: its curves have "
-                                        "a gap before this window. Remedy: open '%2' as a recording.")
+                                        "a gap. Remedy: open '%2' as a recording.")
                              .arg(LongestReading)
                              .arg(QFileInfo(m_wish.file).path());
     return true;
+}
+
+QString PastReading::whatIsMissing() const
+{
+    return m_wish.isOfLostConnection() ? WindowText::tr("its curves have a gap where the connection was lost")
+                                       : WindowText::tr("its curves begin with this window");
 }
 
 /// The times of all phases that are not timed begin at 0: only the ring tells which of them runs.
@@ -134,24 +148,46 @@ bool PastReading::mayBeShown(const RingDescription &description) const
         && (isTimed || (!m_rings.isEmpty() && phaseOfRing(m_rings.constLast()) == description.phase));
 }
 
-/// Prepares the store for the row of a cycle. A window hears the values of the end of a cycle with
-/// the next one: inputs are one cycle old.
-/// \return the time of the row on the clock of the window; nothing if the window does not need it
-std::optional<Time> PastReading::begin(const Origin &origin, quint64 cycle)
+/// Of the phase in which the connection was lost, if it is known which one that was.
+bool PastReading::isLost(const Origin &origin) const
+{
+    return m_wish.lost && m_wish.lost->cycleZero != 0 && origin.cycleZero == m_wish.lost->cycleZero;
+}
+
+/// A window hears the values of the end of a cycle with the next one: inputs are one cycle old.
+/// \return the time of the row of a cycle on the clock of the window; nothing if the window does
+///         not need it
+std::optional<Time> PastReading::timeOf(const Origin &origin, quint64 cycle) const
 {
     const bool isCurrent = m_wish.seam && origin.cycleZero == m_wish.seam->cycleZero;
     if (!isCurrent && origin.cycleZero == 0)
         return std::nullopt;
-    const Time time = isCurrent ? timeAfter(m_wish.seam->time, cycle + 1 - m_wish.seam->cycle, origin.period)
-                                : timeAfter(origin.cycleZero, cycle + 1, origin.period);
-    if (time >= m_wish.before)
+    if (isCurrent && cycle < m_wish.heardCycles())
         return std::nullopt;
-    SignalStore *store = m_past.values.store();
-    if (time <= store->newestTime()) {
-        if (!isCurrent || m_isCurrent)
-            return std::nullopt;  // a file has it
-        store->clear();           // the time of the plant runs ahead of that of people: this phase counts
-    }
+    PastWish::Seam known{0, origin.cycleZero, origin.cycleZero};
+    if (isCurrent)
+        known = *m_wish.seam;
+    else if (isLost(origin))
+        known = *m_wish.lost;
+    const Time time = timeAfter(known.time, cycle + 1 - known.cycle, origin.period);
+    // The time of a plant may run ahead of that of people: the phase of the seam counts.
+    if (!isCurrent && m_wish.seam && time > m_wish.begun())
+        return std::nullopt;
+    return time > m_wish.after && time < m_wish.before ? std::optional(time) : std::nullopt;
+}
+
+/// Prepares the store for the row of a cycle. \return its time, as above
+std::optional<Time> PastReading::begin(const Origin &origin, quint64 cycle)
+{
+    const bool isCurrent = m_wish.seam && origin.cycleZero == m_wish.seam->cycleZero;
+    const std::optional<Time> time = timeOf(origin, cycle);
+    if (!time)
+        return std::nullopt;
+    const SignalStore *store = m_past.values.store();
+    if (*time <= store->newestTime())
+        return std::nullopt;  // a file has it
+    if (store->isEmpty())
+        m_goesOn = isLost(origin) && cycle == m_wish.lost->cycle;
     const bool continues = !store->isEmpty() && origin.cycleZero == m_cycleZero && cycle == m_cycle + 1;
     if (!continues)
         m_past.values.interrupt();
@@ -182,24 +218,35 @@ QStringList PastReading::files(QString *problem) const
         if (!reader.open(file, &error))
             continue;  // deleted meanwhile, or of another person
         if (reader.size() > LargestUnfinishedFile && !reader.readOutline(&outline))
-            *problem = WindowText::tr("the recording '%1' is larger than %2 MiB and not finished: the curves of this "
-                                      "plant begin with this window. Remedy: record into a folder, whose files end "
-                                      "earlier.")
+            *problem = WindowText::tr("the recording '%1' of this plant is larger than %2 MiB and not finished: %3. "
+                                      "Remedy: record into a folder, whose files end earlier.")
                            .arg(file)
-                           .arg(LargestUnfinishedFile >> 20);
+                           .arg(LargestUnfinishedFile >> 20)
+                           .arg(whatIsMissing());
         else
             files << file;
     }
     return files;
 }
 
+/// Where in the recordings the store has room from, if the row behind the newest one is at \a end.
+Time PastReading::firstWanted(Time end) const
+{
+    const Time length = std::min(RecordedBudget.history, Time(m_past.values.store()->capacity()) * m_wish.period);
+    const bool isShort = m_wish.isOfLostConnection() && m_wish.before - m_wish.after <= RecordedBudget.history;
+    const bool isKnown = isShort && m_wish.lost && m_wish.lost->cycleZero != 0;
+    if (!isKnown)
+        return end - length;
+    return std::min(end - length, timeAfter(m_wish.lost->cycleZero, m_wish.lost->cycle, m_wish.period));
+}
+
 void PastReading::readFiles()
 {
     const QString unreachable
-        = WindowText::tr("the recordings of this plant are in '%1', where this window cannot read them: its curves "
-                         "begin with this window. Remedy: open them as a recording on the computer that has them, or "
-                         "copy them to this one.")
-              .arg(m_wish.file.startsWith(QLatin1Char('/')) ? QFileInfo(m_wish.file).path() : m_wish.file);
+        = WindowText::tr("the recordings of this plant are in '%1', where this window cannot read them: %2. Remedy: "
+                         "open them as a recording on the computer that has them, or copy them to this one.")
+              .arg(m_wish.file.startsWith(QLatin1Char('/')) ? QFileInfo(m_wish.file).path() : m_wish.file,
+                   whatIsMissing());
     Recording recording;
     QString error;
     QStringList names = files(&m_past.problem);
@@ -217,10 +264,9 @@ void PastReading::readFiles()
         m_past.problem = unreachable;
         return;
     }
-    const Time length = std::min(RecordedBudget.history, Time(m_past.values.store()->capacity()) * m_wish.period);
     const Time end = m_wish.before - (m_wish.seam ? m_wish.begun() - m_wish.seam->cycleZero : 0);
     RecordedValues values(recording, m_wish.table);
-    RecordedRows rows(recording, values.columns(), end - length, std::numeric_limits<Time>::max());
+    RecordedRows rows(recording, values.columns(), firstWanted(end), std::numeric_limits<Time>::max());
     while (!isOver() && rows.next()) {
         const Time period = std::max<Time>(rows.file().description.period, 1);
         const quint64 cycle = rows.cycle().number;

@@ -6,6 +6,7 @@
 #include <QtCore/QString>
 
 #include <atomic>
+#include <limits>
 #include <optional>
 
 namespace qplc {
@@ -25,21 +26,34 @@ struct PastWish
     QPlcSignalTable table;
     Time period = 1;      // [ns]
     quint64 session = 0;  // of the master
-    Time before = 0;      // of the first row that is there, on the clock of the window [ns]
+    /// Between two rows that the window has heard, on its clock [ns].
+    Time after = std::numeric_limits<Time>::min();
+    Time before = 0;
     std::optional<Seam> seam;
+    std::optional<Seam> lost;  // the row at `after`, if it is of a phase of this session that is known
     /// When the phase of the seam has begun, on the clock of the window [ns].
     Time begun() const { return seam ? seam->time - Time(seam->cycle) * period : before; }
+    /// Of the phase of the seam, cycles before it were heard before the connection was lost. All
+    /// phases that are not timed look the same: a larger number is taken for the same phase.
+    quint64 heardCycles() const
+    {
+        const bool isSame = seam && lost && seam->cycleZero == lost->cycleZero && lost->cycle < seam->cycle;
+        return isSame ? lost->cycle : 0;
+    }
+    bool isOfLostConnection() const { return after != std::numeric_limits<Time>::min(); }
     QString file;  // that the recorder writes, as the master tells it; empty: nobody records
 };
 
-/// What a plant has done before a window was there.
+/// What a plant has done before a window was there, or while it was not connected.
 struct Past
 {
     PlantValues values;     // of the table; its store is empty if nothing was found
+    bool goesOn = false;    // the oldest row is the cycle behind the row that was heard before
     bool isJoined = false;  // the newest row is the cycle before the first row that is there
     bool isLate = false;    // cycles of the phase of the seam before that row are in no file or ring yet
     bool hasFiles = false;  // rows are of recordings, not of the ring alone
-    QString problem;        // why recordings cannot be read, for people; empty: they can
+    bool isWhole() const { return goesOn && isJoined; }
+    QString problem;  // why recordings cannot be read, for people; empty: they can
 };
 
 /// Reads the recordings of this session of the master out of the folder of its recorder, and what

@@ -15,6 +15,7 @@ namespace qplc {
 namespace {
 
 constexpr int framePause = 20;             // [ms]
+constexpr int longestHold = 1000;          // [ms] that frames of a new connection wait for the state of the master
 constexpr int pollPause = 500;             // [ms]
 constexpr double shortestStaleTime = 0.5;  // [s]
 constexpr int statisticsEvery = 2;         // polls
@@ -61,14 +62,20 @@ Plant::Plant(const QString &address, const QString &name, const QString &nodeNam
     m_frameTimer.setTimerType(Qt::PreciseTimer);
     m_frameTimer.setInterval(framePause);
     m_pollTimer.setInterval(pollPause);
-    connect(&m_frameTimer, &QTimer::timeout, this, &Plant::takeFrames);
+    connect(&m_frameTimer, &QTimer::timeout, this, [this] {
+        if (!m_values.isPhaseNeeded() || m_sinceRejoined.elapsed() >= longestHold)
+            takeFrames();
+    });
     connect(&m_pollTimer, &QTimer::timeout, this, &Plant::poll);
     connect(&m_connection, &PlantConnection::connected, this, &Plant::connected);
     connect(&m_connection, &PlantConnection::disconnected, this, &Plant::disconnected);
     connect(&m_connection, &PlantConnection::refused, this, &Plant::refused);
     connect(&m_connection, &PlantConnection::stateChanged, this, &Plant::stateChanged);
-    connect(&m_connection, &PlantConnection::listenerFailed, this,
-            [this](const QString &sentence) { tell(PlantEvent::Error, sentence); });
+    connect(&m_connection, &PlantConnection::listenerFailed, this, [this](const QString &sentence) {
+        tell(PlantEvent::Error, sentence);
+        rejoin();
+        refresh();
+    });
     connect(&m_connection.control(), &ControlClient::unasked, this, &Plant::handleUnasked);
     connect(&m_leases, &PlantLeases::changed, this, &Plant::leasesChanged);
     connect(&m_journal, &MasterJournal::fetched, this, &Plant::tellWaiting);
@@ -149,6 +156,7 @@ void Plant::connected(const QPlcSignalTable &newTable)
         m_writers.fill(QString(), newTable.size());
     } else {
         m_values.interrupt();
+        rejoin();
     }
     m_status = {};
     m_status.master.state = hello.state;
@@ -172,6 +180,12 @@ void Plant::connected(const QPlcSignalTable &newTable)
     Q_EMIT stateChanged();
     poll();
     askSignals();
+}
+
+void Plant::rejoin()
+{
+    m_values.rejoin();
+    m_sinceRejoined.start();
 }
 
 /// Told once, however often it is tried.
@@ -420,6 +434,8 @@ void Plant::handleState(const messages::State &answer)
     const QStringList nodesBefore = nodeNames();
     m_status.handleState(answer);
     const messages::State &master = m_status.master;
+    if (m_status.isRunning())
+        m_values.setPhase({master.session, PlantValues::Time(quint64(master.cycleZeroTime))});
     if (!master.armed && wasArmed)
         m_token.reset();
     if (master.armed != wasArmed)

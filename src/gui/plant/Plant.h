@@ -199,6 +199,7 @@ private:
     QString refusalToCommand() const;
     void connected(const QPlcSignalTable &table);
     void disconnected(const QString &reason);
+    void rejoin();
     void refused(const QString &reason);
     void takeFrames();
     void measureRate();
@@ -246,6 +247,7 @@ private:
     int m_polls = 0;
     bool m_hasNewValues = false;
     QElapsedTimer m_sinceValues;
+    QElapsedTimer m_sinceRejoined;  // began to listen again
     QElapsedTimer m_sinceRate;
     quint64 m_rowsAtRate = 0;
     double m_updateRate = 0.0;

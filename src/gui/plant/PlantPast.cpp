@@ -6,6 +6,8 @@
 #include <QtCore/QDateTime>
 #include <QtCore/QFileInfo>
 
+#include <algorithm>
+
 namespace qplc {
 
 namespace {
@@ -13,6 +15,23 @@ namespace {
 using Time = PlantValues::Time;
 
 constexpr int lookPeriod = 20;  // [ms]
+
+QString clockText(Time time)
+{
+    return QDateTime::fromMSecsSinceEpoch(time / 1'000'000).toString(QStringLiteral("HH:mm:ss"));
+}
+
+QString folderOf(const QString &file)
+{
+    return file.isEmpty() ? QString() : QFileInfo(file).path();
+}
+
+/// Rows that are there already in a gap.
+SignalStore::Row rowsIn(const SignalStore &store, const PastWish &wish)
+{
+    const SignalStore::Row first = wish.isOfLostConnection() ? store.rowAt(wish.after + 1) : store.firstRow();
+    return store.rowAt(wish.before) - first;
+}
 
 }  // namespace
 
@@ -27,6 +46,7 @@ PlantPast::PlantPast(Plant *plant)
     connect(&m_retry, &QTimer::timeout, this, &PlantPast::start);
     connect(plant, &Plant::tableChanged, this, &PlantPast::begin);
     connect(plant, &Plant::statusChanged, this, &PlantPast::look);
+    connect(&plant->m_connection, &PlantConnection::listenerFailed, this, &PlantPast::lose);
 }
 
 PlantPast::~PlantPast()
@@ -34,12 +54,17 @@ PlantPast::~PlantPast()
     cancel();
 }
 
-/// The store is that of another table.
+/// The store is an empty one: of another table, or of another period.
 void PlantPast::begin()
 {
     cancel();
-    m_attempts = 0;
-    m_isDone = m_plant->feed() || m_plant->recording();
+    m_gaps.clear();
+    m_problem.clear();
+    m_store.reset();
+    if (m_plant->feed() || m_plant->recording())
+        return;
+    m_store = m_plant->sharedStore();
+    m_gaps.emplace_back();
 }
 
 /// The future waits for its thread, which looks at the flag.
@@ -51,50 +76,120 @@ void PlantPast::cancel()
         *m_isUnwanted = true;
     m_work = {};
     m_isUnwanted.reset();
-    m_store.reset();
+    m_reading = nullptr;
 }
 
 void PlantPast::look()
 {
-    if (m_isDone || m_work.valid() || m_retry.isActive())
+    if (!m_store)
+        return;  // there was no table yet, or its values come from elsewhere
+    if (m_store != m_plant->sharedStore())
+        begin();
+    if (!m_plant->isConnected()) {
+        lose();
         return;
-    const std::optional<PastWish> found = wish();
-    if (!found)
+    }
+    if (!m_gaps.empty() && m_gaps.back().isOpen())
+        close(&m_gaps.back());
+    if (m_reading)
         return;
-    m_wish = *found;
-    m_store = m_plant->sharedStore();
+    m_reading = nextGap();
+    if (!m_reading)
+        return;
+    m_reading->lookedIn = folderOf(file());
+    m_reading->attempts = 0;
     start();
 }
 
-/// \return nothing as long as there is nothing to read, or the first cycle, before which the past
-/// ends, has not come
-std::optional<PastWish> PlantPast::wish() const
+/// The next row that comes does not follow the newest one.
+void PlantPast::lose()
+{
+    const PlantValues &values = m_plant->values();
+    const SignalStore *store = values.store();
+    const bool isOpen = !m_gaps.empty() && m_gaps.back().isOpen();
+    if (!m_store || !store || store->isEmpty() || (isOpen && store->newestTime() <= m_gaps.back().wish.after))
+        return;
+    if (isOpen)
+        m_gaps.pop_back();  // the master has not told what was behind it
+    Gap gap;
+    gap.wish.after = store->newestTime();
+    gap.wish.lost = PastWish::Seam{values.cycle(), gap.wish.after, values.phase().cycleZero};
+    gap.sessionBefore = values.phase().session;
+    m_gaps.push_back(gap);
+    if (m_gaps.size() > MostGaps && m_reading != &m_gaps.front())
+        m_gaps.pop_front();
+}
+
+/// Tells what is behind a gap, as soon as the master has told its state, and the first cycle has
+/// come.
+void PlantPast::close(Gap *gap) const
 {
     const PlantValues &values = m_plant->values();
     const SignalStore *store = values.store();
     const messages::State &master = m_plant->status().master;
     const bool isRunning = m_plant->status().isRunning();
-    if (!store || master.session == 0 || (isRunning && store->isEmpty()))
-        return std::nullopt;
-    PastWish wish;
+    PastWish &wish = gap->wish;
+    const SignalStore::Row behind = wish.isOfLostConnection() ? store->rowAt(wish.after + 1) : store->firstRow();
+    const bool hasRows = behind < store->endRow();
+    if (master.session == 0 || (isRunning && !hasRows))
+        return;
+    gap->isClosed = true;
+    gap->hasEnd = hasRows;
+    gap->run = values.run();
     wish.table = values.table();
     wish.period = values.period();
     wish.session = master.session;
-    wish.before
-        = store->isEmpty() ? Time(QDateTime::currentMSecsSinceEpoch()) * 1'000'000 : store->time(store->firstRow());
-    wish.file = master.recorder ? master.recorder->file : QString();
+    wish.before = hasRows ? store->time(behind) : Time(QDateTime::currentMSecsSinceEpoch()) * 1'000'000;
     if (isRunning)
-        wish.seam = {values.cycle(), store->newestTime(), Time(quint64(master.cycleZeroTime))};
-    const bool isWorthIt = !wish.file.isEmpty() || wish.before - wish.begun() >= LeastOfRing;
-    return isWorthIt ? std::optional(wish) : std::nullopt;
+        wish.seam = PastWish::Seam{values.cycle(), store->newestTime(), Time(quint64(master.cycleZeroTime))};
+    if (gap->sessionBefore != wish.session)
+        wish.lost.reset();
+}
+
+PlantPast::Gap *PlantPast::nextGap()
+{
+    const auto found = std::find_if(m_gaps.begin(), m_gaps.end(), [this](const Gap &gap) { return isWanted(gap); });
+    return found == m_gaps.end() ? nullptr : &*found;
+}
+
+bool PlantPast::isWanted(const Gap &gap) const
+{
+    const PastWish &wish = gap.wish;
+    if (!gap.isClosed || gap.isDone || isOutdated(gap))
+        return false;
+    const QString folder = folderOf(file());
+    if (gap.lookedIn && (folder.isEmpty() || folder == *gap.lookedIn))
+        return false;
+    return !folder.isEmpty() || wish.isOfLostConnection() || wish.before - wish.begun() >= LeastOfRing;
+}
+
+/// The store has no room for it; or it belongs to a phase that is not timed, and another one may
+/// run: they look the same.
+bool PlantPast::isOutdated(const Gap &gap) const
+{
+    const SignalStore *store = m_plant->store();
+    const PastWish &wish = gap.wish;
+    const bool isGone = wish.isOfLostConnection()
+        ? store->isEmpty() || store->time(store->firstRow()) > wish.after
+        : store->endRow() - store->firstRow() >= SignalStore::Row(store->capacity());
+    const bool isTimed = !wish.seam || wish.seam->cycleZero != 0;
+    return isGone || (!isTimed && gap.run != m_plant->values().run());
+}
+
+/// That the recorder writes; empty: nobody records.
+QString PlantPast::file() const
+{
+    const auto &recorder = m_plant->status().master.recorder;
+    return recorder ? recorder->file : QString();
 }
 
 void PlantPast::start()
 {
-    ++m_attempts;
+    PastWish wish = m_reading->wish;
+    wish.file = file();
+    ++m_reading->attempts;
     m_isUnwanted = std::make_shared<std::atomic<bool>>(false);
-    m_work = std::async(std::launch::async,
-                        [wish = m_wish, isUnwanted = m_isUnwanted] { return readPast(wish, *isUnwanted); });
+    m_work = std::async(std::launch::async, [wish, isUnwanted = m_isUnwanted] { return readPast(wish, *isUnwanted); });
     m_timer.start();
 }
 
@@ -104,35 +199,48 @@ void PlantPast::collect()
         return;
     m_timer.stop();
     Past past = m_work.get();
-    if (m_store != m_plant->sharedStore()) {  // its period was another one
+    if (m_store != m_plant->sharedStore()) {
         begin();
         return;
     }
     const bool isMissing = !past.problem.isEmpty() || past.isLate;
-    if (!m_wish.file.isEmpty() && isMissing && m_attempts < MostAttempts) {
+    const bool isRecorded = !m_reading->lookedIn->isEmpty();
+    if (isRecorded && isMissing && m_reading->attempts < MostAttempts && !isOutdated(*m_reading))
         m_retry.start();
-        return;
-    }
-    m_isDone = true;
-    m_store.reset();
-    give(std::move(past));
+    else
+        finish(std::move(past));
 }
 
-void PlantPast::give(Past past)
+void PlantPast::finish(Past past)
 {
-    if (!past.problem.isEmpty())
+    Gap *gap = m_reading;
+    m_reading = nullptr;
+    gap->isDone = past.isWhole();
+    if (!isOutdated(*gap))
+        give(*gap, std::move(past));
+}
+
+void PlantPast::give(const Gap &gap, Past past)
+{
+    if (!past.problem.isEmpty() && past.problem != m_problem)
         m_plant->tell(PlantEvent::Information, past.problem);
-    const SignalStore *store = past.values.store();
-    if (store->isEmpty())
+    m_problem = past.problem;
+    const SignalStore *found = past.values.store();
+    const SignalStore::Row rows = found->endRow() - found->firstRow();
+    if (rows <= rowsIn(*m_store, gap.wish))
         return;
-    const QString begin = QDateTime::fromMSecsSinceEpoch(store->time(store->firstRow()) / 1'000'000)
-                              .toString(QStringLiteral("HH:mm:ss"));
-    const QString text = past.hasFiles
-        ? tr("the curves go back to %1, before this window: from the recordings in '%2'")
-              .arg(begin, QFileInfo(m_wish.file).path())
-        : tr("the curves go back to %1, before this window: from the ring of the master").arg(begin);
-    m_plant->m_values.putBefore(std::move(past.values),
-                                past.isJoined ? SignalStore::Continues : SignalStore::BeginsAnew);
+    const bool isOfLostConnection = gap.wish.isOfLostConnection();
+    const QString source
+        = past.hasFiles ? tr("from the recordings in '%1'").arg(*gap.lookedIn) : tr("from the ring of the master");
+    const QString text = isOfLostConnection
+        ? tr("the curves have what was from %1 to %2, while the connection was lost: %3")
+              .arg(clockText(gap.wish.after), clockText(gap.wish.before), source)
+        : tr("the curves go back to %1, before this window: %2").arg(clockText(found->time(found->firstRow())), source);
+    const auto seam = [](bool continues) { return continues ? SignalStore::Continues : SignalStore::BeginsAnew; };
+    const Time history = gap.lookedIn->isEmpty() ? Time(0) : RecordedBudget.history;
+    m_plant->m_values.fill({gap.wish.after, gap.wish.before, seam(past.goesOn), seam(past.isJoined)},
+                           std::move(past.values), history);
+    m_store = m_plant->sharedStore();
     m_plant->tell(PlantEvent::Information, text);
     Q_EMIT m_plant->storeChanged();
 }

@@ -7,20 +7,21 @@
 #include <QtCore/QTimer>
 
 #include <future>
+#include <list>
 #include <memory>
 
 namespace qplc {
 
 class Plant;
 
-/// Puts before the rows that a window hears what the plant has done before: so the last hour is
-/// there after a restart of the window.
+/// Shows what a window has not heard of a plant: what was before its first row, so that the last
+/// hour is there after a restart of the window, and what was while its connection was lost.
 ///
-/// It looks once for each store, when the master has told its state and the first cycle has come:
-/// for the recordings of the recorder, and for what the ring of the master has, where this computer
-/// has them. A thread reads them, and the plant gets another store. If there is no recorder, the
-/// ring alone is read. A recorder that is started later changes nothing: by then the window has its
-/// own rows.
+/// Each such gap is read when the master has told its state and the first cycle behind the gap has
+/// come: out of the recordings of the recorder, and out of the ring of the master, where this
+/// computer has them. If there is no recorder, the ring alone is read. A gap in which something may
+/// still be missing is read again when the master tells recordings in another folder, as of a
+/// recorder that was started later. A thread reads, and the plant gets another store.
 ///
 /// Threads: that of the window.
 class PlantPast : public QObject
@@ -29,8 +30,9 @@ class PlantPast : public QObject
 public:
     static constexpr int MostAttempts = 3;  // a recorder writes each second what the ring does not show
     static constexpr int Pause = 2000;      // [ms] between them
-    /// Without a recorder, less than that is not worth the work [ns].
+    /// Without a recorder, less than that is not worth the work before the first row [ns].
     static constexpr PlantValues::Time LeastOfRing = 5 * SignalStore::Second;
+    static constexpr std::size_t MostGaps = 64;  // the newest ones
 
     /// \param plant  owns this object
     explicit PlantPast(Plant *plant);
@@ -38,23 +40,44 @@ public:
     ~PlantPast() override;
 
 private:
+    struct Gap
+    {
+        PastWish wish;                    // with `after` and `lost` from the begin on
+        quint64 sessionBefore = 0;        // of `lost`; 0: not known
+        quint64 run = 0;                  // PlantValues::run() behind the gap
+        bool isClosed = false;            // the master has told what is behind it
+        bool hasEnd = false;              // there are rows behind it
+        bool isDone = false;              // there is nothing more to be found
+        std::optional<QString> lookedIn;  // the folder of the recorder; empty: there was none
+        int attempts = 0;                 // in this folder
+
+        /// More may become known of what is behind it.
+        bool isOpen() const { return !isClosed || (!hasEnd && !lookedIn); }
+    };
+
     void begin();
     void look();
-    std::optional<PastWish> wish() const;
+    void lose();
+    void close(Gap *gap) const;
+    Gap *nextGap();
+    bool isWanted(const Gap &gap) const;
+    bool isOutdated(const Gap &gap) const;
+    QString file() const;
     void start();
     void cancel();
     void collect();
-    void give(Past past);
+    void finish(Past past);
+    void give(const Gap &gap, Past past);
 
     Plant *m_plant;
     QTimer m_timer;
     QTimer m_retry;
-    PastWish m_wish;                             // of m_work
-    std::shared_ptr<const SignalStore> m_store;  // to which the past belongs
+    std::list<Gap> m_gaps;                       // oldest first
+    Gap *m_reading = nullptr;                    // one of them
+    std::shared_ptr<const SignalStore> m_store;  // to which they belong
     std::future<Past> m_work;
     std::shared_ptr<std::atomic<bool>> m_isUnwanted;
-    int m_attempts = 0;
-    bool m_isDone = true;
+    QString m_problem;  // that was told
 };
 
 }  // namespace qplc

@@ -23,6 +23,9 @@ void PlantValues::setTable(const QPlcSignalTable &table, Time period, Budget bud
     m_qualities.assign(std::size_t(table.size()), char(QPlcQuality(QPlcQuality::Good).toByte()));
     m_hasValues = false;
     m_lastTime = 0;
+    m_toldPhase = {};
+    m_phaseOfFrames = {};
+    m_isRejoining = false;
     makeStore();
     beginBatch();
     interrupt();
@@ -60,8 +63,34 @@ void PlantValues::beginPhase(const QPlcIOBufferSlaveNode::Frame &frame, Time wal
     m_interval = ListeningInterval(frame.every);
     if (wantedRows() / 2 > m_store->capacity())  // the period has become much shorter
         makeStore();
-    m_phaseStart = std::max(wallTime, m_lastTime + rowPeriod()) - Time(frame.cycle) * m_period;
+    if (!goesOn(frame)) {
+        m_phaseStart = std::max(wallTime, m_lastTime + rowPeriod()) - Time(frame.cycle) * m_period;
+        m_phaseOfFrames = {};
+    }
+    m_isRejoining = false;
     interrupt();
+}
+
+/// Whether it is of the same phase as the rows before the connection was lost.
+bool PlantValues::goesOn(const QPlcIOBufferSlaveNode::Frame &frame) const
+{
+    return m_isRejoining && m_phaseOfFrames.isTimed() && m_toldPhase == m_phaseOfFrames && frame.cycle > m_lastCycle;
+}
+
+void PlantValues::rejoin()
+{
+    m_isRejoining = true;
+    m_toldPhase = {};
+}
+
+/// An answer may be older than the frames that have come meanwhile: it counts if no phase has begun
+/// since the answer before.
+void PlantValues::setPhase(const Phase &phase)
+{
+    if (m_isContinued && m_phase == m_phaseWhenTold)
+        m_phaseOfFrames = phase;
+    m_phaseWhenTold = m_phase;
+    m_toldPhase = phase;
 }
 
 void PlantValues::storeFrame(const QPlcIOBufferSlaveNode::Frame &frame, Time wallTime)
@@ -79,11 +108,23 @@ void PlantValues::storeFrame(const QPlcIOBufferSlaveNode::Frame &frame, Time wal
     storeRow(frame.inputs, m_phaseStart + Time(frame.cycle) * m_period, frame.qualities);
 }
 
-void PlantValues::putBefore(PlantValues past, SignalStore::Seam seam)
+void PlantValues::fill(const Gap &gap, PlantValues past, Time history)
 {
-    past.m_store->append(*m_store, seam);
+    const std::shared_ptr<SignalStore> store = std::move(m_store);
     m_store = std::move(past.m_store);
-    m_budget = past.m_budget;
+    m_budget.history = std::max(m_budget.history, history);
+    const bool hasRowsBefore = !store->isEmpty() && store->time(store->firstRow()) <= gap.after;
+    if (hasRowsBefore || m_store->capacity() < store->capacity()) {
+        const std::shared_ptr<SignalStore> found = std::move(m_store);
+        makeStore();
+        if (hasRowsBefore)
+            m_store->append(*store, store->firstRow(), store->rowAt(gap.after + 1), SignalStore::BeginsAnew);
+        m_store->append(*found, gap.begin);
+    }
+    if (store->rowAt(gap.before) == store->endRow())
+        m_phaseOfFrames = {};  // the newest row is not that of a frame any more
+    m_store->append(*store, store->rowAt(gap.before), store->endRow(), gap.end);
+    m_lastTime = std::max(m_lastTime, m_store->newestTime());
 }
 
 void PlantValues::storeRow(const char *payload, Time time, const char *qualities)

@@ -9,6 +9,7 @@
 
 #include <QtCore/QByteArray>
 
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -18,8 +19,9 @@ namespace qplc {
 /// SignalStore.
 ///
 /// Row times are [ns] since 1970: the wall clock at the first row of a phase, and from there on
-/// whole periods. A phase whose time ran ahead of the wall clock (Lockstep) pushes the begin of the
-/// next one. Knows no clock and no connection: it is told the time.
+/// whole periods, also over a lost connection. A phase whose time ran ahead of the wall clock
+/// (Lockstep) pushes the begin of the next one. Knows no clock and no connection: it is told the
+/// time.
 class PlantValues
 {
 public:
@@ -44,6 +46,28 @@ public:
     SignalStore *store() const { return m_store.get(); }
     std::shared_ptr<const SignalStore> sharedStore() const { return m_store; }
 
+    /// What a master tells of the phase that runs.
+    struct Phase
+    {
+        quint64 session = 0;  // of the master; 0: it has not told it
+        Time cycleZero = 0;   // UTC of cycle 0 [ns]; 0: the phase is not timed
+
+        bool isTimed() const { return session != 0 && cycleZero != 0; }
+        bool operator==(const Phase &other) const { return session == other.session && cycleZero == other.cycleZero; }
+    };
+    /// The master tells which phase runs.
+    void setPhase(const Phase &phase);
+    /// Of the newest frame; not told: it is too new, or has never come.
+    const Phase &phase() const { return m_phaseOfFrames; }
+    /// The connection was lost: what comes next may be of the same phase, and then its rows go on
+    /// at whole periods.
+    void rejoin();
+    /// Whether the next frame should wait for setPhase(), which tells if its phase is the one of
+    /// before.
+    bool isPhaseNeeded() const { return m_isRejoining && m_phaseOfFrames.isTimed() && m_toldPhase.session == 0; }
+    /// Of the newest frame: another one after each connection and begin of a phase.
+    quint64 run() const { return m_phase; }
+
     /// Forgets the last batch.
     void beginBatch();
     /// Takes the values of one cycle. \param wallTime  now, since 1970
@@ -58,10 +82,17 @@ public:
     void storeValue(QPlcSignalIndex signal, const QPlcValue &value, QPlcQuality quality = QPlcQuality::Good);
     /// What comes next does not continue what is there.
     void interrupt();
-    /// Puts the rows of \a past, which has the same table, before those of the store, and keeps as
-    /// much as \a past does from now on. \param seam  whether the first one of the store continues
-    /// them
-    void putBefore(PlantValues past, SignalStore::Seam seam);
+    /// Where rows of the past belong.
+    struct Gap
+    {
+        Time after = std::numeric_limits<Time>::min();  // of the row before them
+        Time before = 0;                                // of the row behind them
+        SignalStore::Seam begin = SignalStore::BeginsAnew;
+        SignalStore::Seam end = SignalStore::BeginsAnew;
+    };
+    /// Puts the rows of \a past, which has the same table, in place of those of the store that are
+    /// in \a gap. \param history  to keep from now on, if it is more than so far [ns]
+    void fill(const Gap &gap, PlantValues past, Time history);
 
     bool hasValues() const { return m_hasValues; }
     /// The newest value; invalid before the first, or when there is no such signal.
@@ -94,6 +125,7 @@ private:
     int wantedRows() const;
     void makeStore();
     void beginPhase(const QPlcIOBufferSlaveNode::Frame &frame, Time wallTime);
+    bool goesOn(const QPlcIOBufferSlaveNode::Frame &frame) const;
 
     Budget m_budget;
     QPlcSignalTable m_table;
@@ -111,7 +143,11 @@ private:
     ListeningInterval m_interval;
     Time m_phaseStart = 0;
     Time m_lastTime = 0;
+    Phase m_toldPhase;
+    Phase m_phaseOfFrames;
+    bool m_isRejoining = false;
     quint64 m_phase = 0;
+    quint64 m_phaseWhenTold = 0;
     quint64 m_lastCycle = 0;
     bool m_isContinued = false;
     quint64 m_rows = 0;

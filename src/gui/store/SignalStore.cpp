@@ -117,11 +117,11 @@ bool SignalStore::append(Time time, const float *values)
     return true;
 }
 
-void SignalStore::append(const SignalStore &other, Seam seam)
+void SignalStore::append(const SignalStore &other, Row begin, Row end, Seam seam)
 {
     std::vector<float> values(static_cast<std::size_t>(m_channels));
-    for (Row row = other.firstRow(); row < other.endRow(); ++row) {
-        if (row == other.firstRow() ? seam == BeginsAnew : other.beginsAnew(row))
+    for (Row row = begin; row < end; ++row) {
+        if (row == begin ? seam == BeginsAnew : other.beginsAnew(row))
             interrupt();
         for (int channel = 0; channel < m_channels; ++channel)
             values[std::size_t(channel)] = other.value(channel, row);
@@ -132,7 +132,7 @@ void SignalStore::append(const SignalStore &other, Seam seam)
                 this->mark(channel, mark);
         }
     }
-    m_interrupted = m_interrupted || other.m_interrupted;
+    m_interrupted = m_interrupted || (end == other.endRow() && other.m_interrupted);
 }
 
 void SignalStore::mark(int channel, Mark mark)

@@ -52,9 +52,10 @@ public:
     /// \return whether it was taken
     bool append(Time time, const float *values);
     enum Seam { BeginsAnew, Continues };
-    /// Adds the rows of a store with the same channels. Those that are not after the newest one are
-    /// not taken. \param seam  whether its first row continues what is there
-    void append(const SignalStore &other, Seam seam);
+    /// Adds rows \a begin ... \a end - 1 of a store with the same channels. Those not after the
+    /// newest one are not taken. \param seam  whether the first one continues what is there
+    void append(const SignalStore &other, Row begin, Row end, Seam seam);
+    void append(const SignalStore &other, Seam seam) { append(other, other.firstRow(), other.endRow(), seam); }
     /// Marks the value of a channel in the newest row. \param mark  above 0
     void mark(int channel, Mark mark);
     /// What is appended next does not continue what is there.

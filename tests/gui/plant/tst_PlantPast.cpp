@@ -83,16 +83,23 @@ QString defectOf(const Past &past, int first, int last, int seam)
 /// A plant in real time, with a recorder that writes into a folder.
 struct RecordedPlant
 {
-    explicit RecordedPlant(std::chrono::seconds segment = std::chrono::hours(1))
+    enum Recording { Recorded, NotRecorded };
+    explicit RecordedPlant(std::chrono::seconds segment = std::chrono::hours(1), Recording recording = Recorded)
     {
         recorder.setTarget(folder.path());
         recorder.setSegmentDuration(segment);
         recorder.setLeastFree(0);
+        if (recording == NotRecorded)
+            return;
         recorder.setMaster(&master);
         if (!recorder.start())
             qFatal("%s", qPrintable(recorder.errorString()));
     }
     bool fly(quint64 cycles) { return master.startRealTime() && master.waitForCycles(cycles); }
+    bool waitForCount(double count)
+    {
+        return waitUntil([&] { return master.signalValue(QStringLiteral("count")).toReal() >= count; }, patience);
+    }
 
     QTemporaryDir folder;
     RunningMaster master;
@@ -108,8 +115,11 @@ struct Window
         QObject::connect(&plant, &Plant::eventOccurred, &plant,
                          [this](const PlantEvent &event) { events << event.text; });
         QObject::connect(&plant, &Plant::updated, &plant, [this] {
-            if (heard == 0 && !plant.store()->isEmpty())
-                heard = plant.store()->time(plant.store()->firstRow());
+            const SignalStore *store = plant.store();
+            if (heard == 0 && !store->isEmpty())
+                heard = store->time(store->firstRow());
+            if (lost != 0 && heardAgain == 0 && store->newestTime() > lost)
+                heardAgain = store->time(store->rowAt(lost + 1));
         });
         plant.open();
     }
@@ -127,6 +137,26 @@ struct Window
                         : QString());
     }
     bool waitForPast() { return waitFor(QStringLiteral("the curves go back to")); }
+    /// \param source  of its rows; empty: any. Before a recorder is told, it is the ring alone
+    bool waitForGap(const QString &source = {})
+    {
+        const QString told = QStringLiteral("while the connection was lost");
+        return waitUntil([&] { return !events.filter(told).filter(source).isEmpty(); }, patience);
+    }
+    /// Hears cycles, knows of which phase they are, and loses the connection.
+    bool loseConnection()
+    {
+        const bool isHeard = waitUntil([&] { return plant.values().phase().isTimed(); }, patience);
+        plant.close();
+        lost = plant.newestTime();
+        return isHeard;
+    }
+    bool connectAgain()
+    {
+        plant.open();
+        return waitUntil([&] { return heardAgain != 0; }, patience);
+    }
+    SignalStore::Row rowAt(Time time) const { return plant.store()->rowAt(time); }
     double countOf(SignalStore::Row row) const
     {
         const int channel = plant.values().channels().channel(plant.table().indexOf(QStringLiteral("count")));
@@ -136,11 +166,12 @@ struct Window
     SignalStore::Row seam() const { return plant.store()->rowAt(heard); }
     /// The counter counts each cycle that was computed: up to the first one that was heard, each of
     /// them is there once, in its place on the grid of the phase. Empty: it is so.
-    QString defect() const
+    QString defect() const { return defect(plant.store()->firstRow(), seam()); }
+    /// The same from a row to another one.
+    QString defect(SignalStore::Row first, SignalStore::Row last) const
     {
         const SignalStore *store = plant.store();
-        const SignalStore::Row last = seam();
-        for (SignalStore::Row row = store->firstRow() + 1; row <= last; ++row) {
+        for (SignalStore::Row row = first + 1; row <= last; ++row) {
             const Time distance = store->time(row) - store->time(row - 1);
             if (countOf(row) != countOf(row - 1) + 1.0 || distance <= 0 || distance % period != 0)
                 return QStringLiteral("%1 at row %2 of %3, behind %4, %5 ns later")
@@ -156,6 +187,8 @@ struct Window
     Plant plant;
     QStringList events;
     Time heard = 0;  // of the first row that came from the master
+    Time lost = 0;   // of the newest one when the connection was lost
+    Time heardAgain = 0;
 };
 
 }  // namespace
@@ -178,6 +211,12 @@ private Q_SLOTS:
     void filesThatEndAndAreDeletedStayInTheCurves();
     void formerPhasesComeWithTheNextOne();
     void aWindowWithoutARecorderShowsWhatTheRingHas();
+    void ofALostConnectionTheCyclesBetweenAreRead_data();
+    void ofALostConnectionTheCyclesBetweenAreRead();
+    void aLostConnectionLeavesNoGap_data();
+    void aLostConnectionLeavesNoGap();
+    void aPhaseThatBeginsWithoutTheWindowIsThereFromItsBegin();
+    void aRecorderThatIsStartedLaterFillsAGap();
     void recordingsThatAreNotHereAreTold();
     void hostileNamesDoNoHarm_data();
     void hostileNamesDoNoHarm();
@@ -342,7 +381,7 @@ void tst_PlantPast::formerPhasesComeWithTheNextOne()
     QVERIFY(store->time(first + computed) > store->time(first + computed - 1));
 }
 
-/// A recorder that is started later changes nothing.
+/// A recorder that is started later changes nothing: it has no more than the ring.
 void tst_PlantPast::aWindowWithoutARecorderShowsWhatTheRingHas()
 {
     const std::unique_ptr<RunningMaster> plant = std::move(m_unrecorded);
@@ -372,6 +411,124 @@ void tst_PlantPast::aWindowWithoutARecorderShowsWhatTheRingHas()
     QTRY_VERIFY_WITH_TIMEOUT(window.plant.values().rows() > rows + 20, patience);
     QCOMPARE(window.plant.store(), store);
     QCOMPARE(window.events.filter(QStringLiteral("the curves")).size(), 1);
+}
+
+void tst_PlantPast::ofALostConnectionTheCyclesBetweenAreRead_data()
+{
+    QTest::addColumn<quint64>("lastCycle");
+    QTest::addColumn<int>("first");
+    QTest::newRow("the phase goes on") << quint64(50) << 50;
+    QTest::newRow("it was another phase") << quint64(1000) << 0;
+}
+
+/// The window has heard nothing for much longer than the cycles took.
+void tst_PlantPast::ofALostConnectionTheCyclesBetweenAreRead()
+{
+    QFETCH(quint64, lastCycle);
+    QFETCH(int, first);
+    Flight flight;
+    flight.record(150, false);
+    PastWish wish = flight.wish(130);
+    wish.after = noon - 500 * period;
+    wish.lost = PastWish::Seam{lastCycle, wish.after, 0};
+    const Past past = read(wish);
+    QVERIFY2(past.hasFiles, qPrintable(past.problem));
+    QVERIFY(past.isJoined);
+    QVERIFY(!past.goesOn);
+    const QString defect = defectOf(past, first, 128, 130);
+    QVERIFY2(defect.isEmpty(), qPrintable(defect));
+}
+
+void tst_PlantPast::aLostConnectionLeavesNoGap_data()
+{
+    QTest::addColumn<bool>("isRecorded");
+    QTest::newRow("recorded") << true;
+    QTest::newRow("the ring alone") << false;
+}
+
+void tst_PlantPast::aLostConnectionLeavesNoGap()
+{
+    QFETCH(bool, isRecorded);
+    RecordedPlant plant(std::chrono::hours(1), isRecorded ? RecordedPlant::Recorded : RecordedPlant::NotRecorded);
+    QVERIFY(plant.fly(1));
+    Window window(plant.master);
+    QVERIFY2(window.loseConnection(), qPrintable(window.told()));
+    const double count = window.countOf(window.rowAt(window.lost));
+    QVERIFY(plant.waitForCount(count + 80.0));
+    QVERIFY2(window.connectAgain(), qPrintable(window.told()));
+    QVERIFY2(window.waitForGap(), qPrintable(window.told()));
+    const SignalStore *store = window.plant.store();
+    const SignalStore::Row first = window.rowAt(window.lost);
+    const SignalStore::Row last = window.rowAt(window.heardAgain);
+    QCOMPARE(store->time(first), window.lost);
+    QCOMPARE(store->time(last), window.heardAgain);
+    QVERIFY(last - first >= 80);
+    QVERIFY2(window.defect(first, last).isEmpty(), qPrintable(window.defect(first, last)));
+    // The line goes on, unless the master has left out a cycle.
+    for (SignalStore::Row row = first + 1; row <= last; ++row)
+        QCOMPARE(store->beginsAnew(row), store->time(row) - store->time(row - 1) != period);
+    QTRY_VERIFY_WITH_TIMEOUT(window.plant.store()->endRow() > last + 20, patience);
+}
+
+void tst_PlantPast::aPhaseThatBeginsWithoutTheWindowIsThereFromItsBegin()
+{
+    RecordedPlant plant;
+    QVERIFY(plant.fly(1));
+    Window window(plant.master);
+    QVERIFY2(window.loseConnection(), qPrintable(window.told()));
+    QVERIFY(plant.waitForCount(window.countOf(window.rowAt(window.lost)) + 30.0));
+    plant.master.stop();
+    QVERIFY(plant.master.waitForState(QPlcMasterNode::Off));
+    QVERIFY(plant.recorder.waitForFinished(std::chrono::seconds(20)));
+    const auto computed = double(plant.recorder.status().cycles);
+    // The window may have heard the first phase late: the next one begins where it ends there.
+    const double left
+        = computed - window.countOf(window.rowAt(window.lost)) + double(plant.master.statistics().skippedCycles) + 2.0;
+    const Time end = window.lost + Time(left) * period;
+    QVERIFY(waitUntil([&] { return QDateTime::currentMSecsSinceEpoch() * 1'000'000 > end; }, patience));
+    QVERIFY(plant.master.startRealTime());
+    QVERIFY(plant.waitForCount(30.0));
+    QVERIFY2(window.connectAgain(), qPrintable(window.told()));
+    QVERIFY2(window.waitForGap(plant.folder.path()), qPrintable(window.told()));
+    const SignalStore *store = window.plant.store();
+    const SignalStore::Row last = window.rowAt(window.heardAgain);
+    const SignalStore::Row first = window.rowAt(window.lost);
+    SignalStore::Row second = first + 1;
+    while (second < last && window.countOf(second) != 1.0)
+        ++second;
+    QCOMPARE(window.countOf(second - 1), computed);
+    QCOMPARE(window.countOf(second), 1.0);
+    QVERIFY(store->beginsAnew(second));
+    QVERIFY(window.countOf(last) >= 30.0);
+    QVERIFY2(window.defect(first, second - 1).isEmpty(), qPrintable(window.defect(first, second - 1)));
+    QVERIFY2(window.defect(second, last).isEmpty(), qPrintable(window.defect(second, last)));
+}
+
+/// The window cannot see the ring, and has looked in vain.
+void tst_PlantPast::aRecorderThatIsStartedLaterFillsAGap()
+{
+    RecordedPlant plant(std::chrono::hours(1), RecordedPlant::NotRecorded);
+    QString ring;
+    connect(&plant.master, &QPlcMasterNode::ringIsReady, this, [&](const QString &file) { ring = file; });
+    QVERIFY(plant.fly(1));
+    Window window(plant.master);
+    QVERIFY2(window.loseConnection(), qPrintable(window.told()));
+    QVERIFY(plant.waitForCount(window.countOf(window.rowAt(window.lost)) + 30.0));
+    const QTemporaryDir nothing;
+    qputenv("QTPLC_RING_DIR", nothing.path().toUtf8());
+    const auto restore = qScopeGuard([this] { qputenv("QTPLC_RING_DIR", m_rings.path().toUtf8()); });
+    QVERIFY2(window.connectAgain(), qPrintable(window.told()));
+    const quint64 rows = window.plant.values().rows();
+    QTRY_VERIFY_WITH_TIMEOUT(window.plant.values().rows() > rows + 100, patience);
+    const QString told = QStringLiteral("while the connection was lost");
+    QVERIFY(window.events.filter(told).isEmpty());
+    QVERIFY(plant.recorder.start() && plant.recorder.addRing(ring));
+    QVERIFY2(window.waitForGap(), qPrintable(window.told()));
+    const SignalStore::Row first = window.rowAt(window.lost);
+    const SignalStore::Row last = window.rowAt(window.heardAgain);
+    QVERIFY(last - first >= 30);
+    QVERIFY2(window.defect(first, last).isEmpty(), qPrintable(window.defect(first, last)));
+    QCOMPARE(window.events.filter(told).filter(plant.folder.path()).size(), 1);
 }
 
 void tst_PlantPast::recordingsThatAreNotHereAreTold()

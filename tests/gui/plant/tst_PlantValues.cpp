@@ -63,6 +63,9 @@ private Q_SLOTS:
     void anotherIntervalKeepsThePast();
     void newPhaseStartsANewSegmentAtALaterTime();
     void interruptionIsNotCountedAsCycleGap();
+    void aPhaseGoesOnAtWholePeriodsBehindALostConnection_data();
+    void aPhaseGoesOnAtWholePeriodsBehindALostConnection();
+    void rowsOfThePastReplaceThoseOfTheirGap();
     void framesOfAnotherTableAreIgnored();
     void theStoreIsBoundedByTimeAndMemory();
     void aMuchShorterPeriodGetsALargerStore();
@@ -250,6 +253,84 @@ void tst_PlantValues::interruptionIsNotCountedAsCycleGap()
     QVERIFY(values.store()->beginsAnew(1));
     QCOMPARE(qint64(values.store()->time(1)), wall + 3000 * ms);
     QCOMPARE(values.gaps(), quint64(0));
+}
+
+void tst_PlantValues::aPhaseGoesOnAtWholePeriodsBehindALostConnection_data()
+{
+    QTest::addColumn<qint64>("cycleZero");
+    QTest::addColumn<int>("session");
+    QTest::addColumn<qint64>("cycleZeroThen");
+    QTest::addColumn<quint64>("cycle");
+    QTest::addColumn<bool>("isNeeded");
+    QTest::addColumn<bool>("goesOn");
+    QTest::newRow("the same phase") << wall << 7 << wall << quint64(200) << true << true;
+    QTest::newRow("another session") << wall << 8 << wall << quint64(200) << true << false;
+    QTest::newRow("another phase") << wall << 7 << wall + 1 << quint64(200) << true << false;
+    QTest::newRow("nobody tells") << wall << 0 << qint64(0) << quint64(200) << true << false;
+    QTest::newRow("a cycle of before") << wall << 7 << wall << quint64(101) << true << false;
+    QTest::newRow("is not timed") << qint64(0) << 7 << qint64(0) << quint64(200) << false << false;
+}
+
+void tst_PlantValues::aPhaseGoesOnAtWholePeriodsBehindALostConnection()
+{
+    QFETCH(qint64, cycleZero);
+    QFETCH(int, session);
+    QFETCH(qint64, cycleZeroThen);
+    QFETCH(quint64, cycle);
+    PlantValues values;
+    values.setTable(table(), 10 * ms);
+    give(&values, 100, 1, wall);
+    values.setPhase({7, cycleZero});
+    QCOMPARE(values.phase().session, quint64(0));  // the answer may be older than the frame
+    give(&values, 101, 1, wall);
+    values.setPhase({7, cycleZero});
+    QCOMPARE(values.phase().session, quint64(7));
+    values.interrupt();
+    values.rejoin();
+    QTEST(values.isPhaseNeeded(), "isNeeded");
+    if (session != 0)
+        values.setPhase({quint64(session), cycleZeroThen});
+    QVERIFY(session == 0 || !values.isPhaseNeeded());
+    give(&values, cycle, 2, wall + 1234 * ms);
+    QFETCH(bool, goesOn);
+    QCOMPARE(qint64(values.store()->time(2)), wall + (goesOn ? 1000 : 1234) * ms);
+    QVERIFY(values.store()->beginsAnew(2));
+    QCOMPARE(values.phase().session, quint64(goesOn ? 7 : 0));
+}
+
+void tst_PlantValues::rowsOfThePastReplaceThoseOfTheirGap()
+{
+    PlantValues values;
+    values.setTable(table(), 10 * ms);
+    for (const quint64 cycle : {0, 1, 2})
+        give(&values, cycle, 1, wall);
+    values.interrupt();
+    for (const quint64 cycle : {0, 1})
+        give(&values, cycle, 2, wall + 1000 * ms);
+    PlantValues past;
+    past.setTable(table(), 10 * ms, {200 * ms, 1 << 20});
+    for (const qint64 time : {30, 40, 990})
+        past.storeRow(payload(int(time)).constData(), wall + time * ms);
+    values.fill({wall + 20 * ms, wall + 1000 * ms, SignalStore::Continues, SignalStore::BeginsAnew}, past, 0);
+    QVector<qint64> times;
+    QVector<int> begins;
+    for (SignalStore::Row row = values.store()->firstRow(); row < values.store()->endRow(); ++row) {
+        times << (values.store()->time(row) - wall) / ms;
+        if (values.store()->beginsAnew(row))
+            begins << int(row);
+    }
+    QCOMPARE(times, (QVector<qint64>{0, 10, 20, 30, 40, 990, 1000, 1010}));
+    QCOMPARE(begins, (QVector<int>{0, 6}));
+    QCOMPARE(values.store()->capacity(), 60'000);  // ten minutes still
+    QCOMPARE(values.store()->value(values.channels().channel(1), 4), 40.0F);
+    give(&values, 2, 2, wall + 1020 * ms);
+    QVERIFY(!values.store()->beginsAnew(8));
+    // What is found later takes its place.
+    past.setTable(table(), 10 * ms, {200 * ms, 1 << 20});
+    past.storeRow(payload(1).constData(), wall + 500 * ms);
+    values.fill({wall + 20 * ms, wall + 1000 * ms}, past, 3'600'000 * ms);
+    QCOMPARE(values.store()->endRow(), SignalStore::Row(3 + 1 + 3));
+    QCOMPARE(values.store()->capacity(), 360'000);
 }
 
 void tst_PlantValues::framesOfAnotherTableAreIgnored()
