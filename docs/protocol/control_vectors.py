@@ -188,6 +188,8 @@ def example_messages():
         (5, "AttachCyclicChannel", dict(node=10, token="00000000075bcd18", cyclic="udp")),
         (21, "RealTimeStarted", dict(period=10000000, clock="External", scale=0, profile="Simulation",
                                      cycleZero=hex64(8192), firstCycle=hex64(8192))),
+        (41, "NodeEvent", dict(severity="warning", text="the battery of the wind vane is low")),
+        (41, "NodeEvent", dict(severity="error", text="device 'drive' is lost", alarm="device drive", active=True)),
     ]
     # fmt: on
 

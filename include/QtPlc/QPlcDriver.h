@@ -2,12 +2,14 @@
 #pragma once
 
 #include "QPlcChannel.h"
+#include "QPlcDeviceEvent.h"
 
 #include <QtCore/QStringList>
 
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <memory>
 #include <vector>
 
 class QPlcDriverSettings;
@@ -15,7 +17,8 @@ class QPlcReadChannel;
 
 namespace qplc {
 class DriverRunner;
-}
+struct NotedEvents;
+}  // namespace qplc
 
 /// Base of drivers. A driver opens one kind of device or bus, reads values from it and writes
 /// values to it. A QPlcHardwareNode runs it.
@@ -129,6 +132,17 @@ protected:
     /// false, and in each read() or write(). QPlcHardwareNode::makeSafe() waits for it.
     void setDelivered(bool isDelivered) { m_isDelivered.store(isDelivered, std::memory_order_relaxed); }
 
+    /// Notes that something has happened at the device, for the event log of the plant. It neither
+    /// waits nor allocates: call it in open(), read() or write(), also in the cycle. The node calls
+    /// describeEvent() for it, and tells the result to the master (QPlcSlaveNode::reportEvent()).
+    /// \param data  numbers of the device that describeEvent() understands
+    /// \return false when too many events wait (64): note the newest state of the device later
+    bool noteEvent(quint64 data) noexcept;
+    /// Returns what a number of noteEvent() means. The node calls it in a thread of the driver,
+    /// also while read() and write() run in the cycle: use only what configure() has set. The
+    /// default returns the number.
+    virtual QPlcDeviceEvent describeEvent(quint64 data) const;
+
     /// Returns what to do about an error of the operating system, for errorString(). The default
     /// knows the usual ones: no such device, no permission, busy, no answer. Empty: nothing is
     /// known.
@@ -158,6 +172,7 @@ private:
     std::chrono::nanoseconds m_interval;
     std::chrono::nanoseconds m_timeout;
     std::vector<QPlcChannel *> m_channels;
+    const std::unique_ptr<qplc::NotedEvents> m_events;
     qint64 m_now = 0;  // [ns]
     std::atomic<bool> m_isDelivered{true};
     QString m_errorText;

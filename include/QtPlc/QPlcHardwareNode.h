@@ -2,6 +2,7 @@
 #pragma once
 
 #include "QPlcCompactSlaveNode.h"
+#include "QPlcDeviceEvent.h"
 #include "QPlcDriver.h"
 #include "QPlcParseError.h"
 
@@ -165,6 +166,10 @@ Q_SIGNALS:
     /// \param driver  name of the section
     /// \param text  what is wrong, and what to do
     void deviceFailed(const QString &driver, const QString &text);
+    /// Emitted when a device has told that something has happened: the emergency of a drive, and
+    /// its end. The event log of the master has it, too, as it has the loss and the return of
+    /// devices.
+    void deviceEvent(const QPlcDeviceEvent &event);
 
 protected:
     void reset() override;
@@ -173,6 +178,7 @@ protected:
 
 private:
     Q_DECL_HIDDEN void deviceChanged(const QString &driver, const QString &error);
+    Q_DECL_HIDDEN void tellEvent(const QPlcDeviceEvent &event);
 
     struct Q_DECL_HIDDEN Private;
     std::unique_ptr<Private> m_hardware;

@@ -67,6 +67,8 @@ public:
         Failed = 36,
         /// Node -> master: the node cannot go on (exception in its code).
         NodeFault = 40,
+        /// Node -> master: an event of its devices or its work, for the event log and recordings.
+        NodeEvent = 41,
         /// Any -> master: ask for statistics, with or without histograms.
         GetStatistics = 50,
         /// Master -> asker: durations, counters and worst cycles.

@@ -128,6 +128,14 @@ public:
     };
     Q_ENUM(WatchdogReaction)
 
+    /// How much an event matters to people (reportEvent()).
+    enum EventSeverity : quint8 {
+        InfoEvent,     ///< for those who look back
+        WarningEvent,  ///< somebody should look at it
+        ErrorEvent     ///< something does not work
+    };
+    Q_ENUM(EventSeverity)
+
     /// When the node connects again by itself: after 0.1 s at first, then at growing intervals of
     /// up to 5 s.
     enum ReconnectPolicy : quint8 {
@@ -303,6 +311,26 @@ public:
     /// was pressed, or a limit of the machine was passed. No effect outside of the real-time phase.
     /// \threadsafe yes: also from step()
     void requestSafeStop();
+
+    /// Writes an event into the log of the master: windows and recordings have it, with this node
+    /// as its source. For example: a sensor was calibrated. The node sends 16 events at once and
+    /// then one each second. It counts what is left out, also without a master, and says so in the
+    /// next event.
+    /// \param text  a sentence for people, at most 500 characters; a longer one is cut
+    void reportEvent(EventSeverity severity, const QString &text);
+    /// Writes into the log that a condition begins, as reportEvent(). Windows show it as an alarm
+    /// until endAlarm(), or until the node leaves. A later master is told, too. If a condition
+    /// begins and ends too often, its newest state is written.
+    ///
+    /// \code
+    /// beginAlarm("oil", WarningEvent, "the oil of the gear has 81 degC; stop soon");
+    /// endAlarm("oil", "the oil of the gear has 70 degC");
+    /// \endcode
+    /// \param alarm  name of the condition, unique in this node; at most 64 characters
+    void beginAlarm(const QString &alarm, EventSeverity severity, const QString &text);
+    /// Writes into the log that a condition is over, and how long it has lasted. Does nothing if it
+    /// has not begun.
+    void endAlarm(const QString &alarm, const QString &text);
 
     /// Returns what the node does.
     State state() const;

@@ -2,6 +2,7 @@
 #include "DriverRunner.h"
 
 #include "HardwareLogging.h"
+#include "NotedEvents.h"
 #include "QPlcDriverSettings.h"
 #include "node/session/BackOff.h"
 #include "signals/DurationText.h"
@@ -174,6 +175,8 @@ void DriverRunner::write(qint64 now) noexcept
     give(m_orders);
     if (!writeDevice(now))
         lose();
+    else
+        wakeForEvents();
 }
 
 void DriverRunner::leave(qint64 now) noexcept
@@ -189,6 +192,7 @@ void DriverRunner::read(qint64 now) noexcept
     if (m_state.load(std::memory_order_acquire) == InCycle) {
         if (readDevice(now)) {
             copyChannels(&m_readings);
+            wakeForEvents();
             return;
         }
         lose();
@@ -265,6 +269,13 @@ void DriverRunner::lose() noexcept
 {
     m_state.store(Failed, std::memory_order_release);
     wake();
+}
+
+/// In the cycle: the thread of the driver tells what has happened.
+void DriverRunner::wakeForEvents() noexcept
+{
+    if (m_driver->m_events->takeNews())
+        wake();
 }
 
 void DriverRunner::wake() noexcept
@@ -359,12 +370,13 @@ void DriverRunner::publish()
 
 // ---- the thread of the driver ----
 
-void DriverRunner::start(Report report)
+void DriverRunner::start(Report report, EventReport eventReport)
 {
     if (m_thread.joinable())
         return;
     prepare();
     m_report = std::move(report);
+    m_eventReport = std::move(eventReport);
     m_stop = false;
     m_thread = std::thread([this] { run(); });
 }
@@ -385,12 +397,14 @@ void DriverRunner::run()
     BackOff backOff;
     qint64 next = monotonicNow();
     while (!m_stop.load(std::memory_order_acquire)) {
+        tellEvents();
         switch (m_state.load(std::memory_order_acquire)) {
         case Closed:
             if (openNow()) {
                 backOff.reset();
                 next = monotonicNow();
                 tell({});
+                tellEvents();
             } else {
                 tell(m_driver->errorString());
                 waitFor(backOff.next(QRandomGenerator::global()->generateDouble()));
@@ -398,6 +412,7 @@ void DriverRunner::run()
             break;
         case Open:
             if (exchange()) {
+                tellEvents();
                 next = std::max<qint64>(next + m_driver->m_interval.count(), monotonicNow());
                 waitFor(std::chrono::nanoseconds(next - monotonicNow()));
             }
@@ -416,6 +431,7 @@ void DriverRunner::run()
     if (isOnline())
         writeNow(monotonicNow());
     closeNow();
+    tellEvents();
 }
 
 /// A slow bus is no part of the cycle, whatever chrt says, unless its section says so.
@@ -447,6 +463,25 @@ void DriverRunner::tell(const QString &error)
     if (m_report && (error.isEmpty() || error != m_told))
         m_report(error);
     m_told = error;
+}
+
+std::optional<QPlcDeviceEvent> DriverRunner::takeEvent()
+{
+    const std::optional<quint64> data = m_driver->m_events->take();
+    if (!data)
+        return std::nullopt;
+    QPlcDeviceEvent event = m_driver->describeEvent(*data);
+    event.driver = name();
+    event.data = *data;
+    return event;
+}
+
+void DriverRunner::tellEvents()
+{
+    while (const std::optional<QPlcDeviceEvent> event = takeEvent()) {
+        if (m_eventReport)
+            m_eventReport(*event);
+    }
 }
 
 void DriverRunner::waitFor(std::chrono::nanoseconds time)

@@ -30,6 +30,8 @@ public:
     /// A device was opened and has answered (\a error is empty), or it cannot be used. Called in
     /// the thread of the driver.
     using Report = std::function<void(const QString &error)>;
+    /// Something has happened at the device. In the same thread.
+    using EventReport = std::function<void(const QPlcDeviceEvent &event)>;
     /// What the cycle sees of a read channel.
     struct Sample
     {
@@ -59,8 +61,9 @@ public:
 
     /// The wires are known: values can be set. start() and openNow() do it, too.
     void prepare();
-    /// Begins to open the device. \param report  what it needs outlives stop()
-    void start(Report report);
+    /// Begins to open the device. \param report  what it needs outlives stop(), as that of \a
+    /// eventReport
+    void start(Report report, EventReport eventReport = {});
     /// Gives the device its safe values and lets it go.
     void stop();
     bool hasOutputs() const { return !m_writeChannels.empty(); }
@@ -91,6 +94,9 @@ public:
     void closeNow();
     bool readNow(qint64 now);
     bool writeNow(qint64 now);
+    /// What has happened at the device, the oldest event first; nothing: no more. Also for the
+    /// thread of the driver.
+    std::optional<QPlcDeviceEvent> takeEvent();
 
 private:
     /// Closed and Failed: the device belongs to the thread of the driver. Open: to nobody, and who
@@ -123,8 +129,10 @@ private:
     void run();
     void setPriority();
     void tell(const QString &error);
+    void tellEvents();
     void waitFor(std::chrono::nanoseconds time);
     void wake() noexcept;
+    void wakeForEvents() noexcept;
     template<typename Code>
     bool attempt(const char *function, Code code) noexcept;
     bool readDevice(qint64 now) noexcept;
@@ -152,6 +160,7 @@ private:
     std::unique_ptr<SnapshotBuffer> m_fromDevice;
 
     Report m_report;
+    EventReport m_eventReport;
     std::atomic<State> m_state{Closed};
     std::atomic<quint64> m_failures{0};
     std::atomic<bool> m_stop{false};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "QPlcDriver.h"
 
+#include "NotedEvents.h"
+
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
@@ -9,6 +11,7 @@ QPlcDriver::QPlcDriver(Pace pace)
     : m_pace(pace)
     , m_interval(std::chrono::milliseconds(10))
     , m_timeout(std::chrono::milliseconds(100))
+    , m_events(std::make_unique<qplc::NotedEvents>())
 {
 }
 
@@ -31,6 +34,20 @@ QStringList QPlcDriver::channelNames(QPlcChannel::Direction direction) const
             names << channel->name();
     }
     return names;
+}
+
+// ---- events ----
+
+bool QPlcDriver::noteEvent(quint64 data) noexcept
+{
+    return m_events->note(data);
+}
+
+QPlcDeviceEvent QPlcDriver::describeEvent(quint64 data) const
+{
+    QPlcDeviceEvent event;
+    event.text = QStringLiteral("device '%1' tells the event %2").arg(m_name).arg(data);
+    return event;
 }
 
 // ---- errors ----

@@ -272,10 +272,15 @@ struct QPlcHardwareNode::Private
     void open(DriverRunner *runner)
     {
         QPlcHardwareNode *node = q;
-        runner->start([node, name = runner->name()](const QString &error) {
+        const auto report = [node, name = runner->name()](const QString &error) {
             QMetaObject::invokeMethod(
                 node, [node, name, error] { node->deviceChanged(name, error); }, Qt::QueuedConnection);
-        });
+        };
+        const auto reportEvent = [node](const QPlcDeviceEvent &event) {
+            QMetaObject::invokeMethod(
+                node, [node, event] { node->tellEvent(event); }, Qt::QueuedConnection);
+        };
+        runner->start(report, reportEvent);
     }
 
     static void give(const std::vector<GivenValue> &values, bool isSafe) noexcept
@@ -318,6 +323,7 @@ QPlcHardwareNode::QPlcHardwareNode(const QString &name, QObject *parent)
     : QPlcCompactSlaveNode(name, ErrorZeroOrderHold, parent)
     , m_hardware(std::make_unique<Private>(this))
 {
+    qRegisterMetaType<QPlcDeviceEvent>("QPlcDeviceEvent");
     setSendsQuality(true);
     setDefaultWatchdog(DefaultWatchdog, 4);
     setWatchdogReaction(WatchdogReaction::SafeState);
@@ -433,15 +439,37 @@ QStringList QPlcHardwareNode::makeSafe(std::chrono::milliseconds timeout)
 
 void QPlcHardwareNode::deviceChanged(const QString &driver, const QString &error)
 {
+    const QString alarm = QStringLiteral("device %1").arg(driver);
     if (error.isEmpty()) {
+        const QString text = QStringLiteral("device '%1' is open").arg(driver);
         m_hardware->failures.remove(driver);
-        qCInfo(lcHardware).noquote() << QStringLiteral("%1: device '%2' is open").arg(name(), driver);
+        qCInfo(lcHardware).noquote() << name() + QStringLiteral(": ") + text;
+        endAlarm(alarm, text);
         Q_EMIT deviceOpened(driver);
         return;
     }
+    const QString text = QStringLiteral("device '%1': %2 (trying again)").arg(driver, error);
     m_hardware->failures.insert(driver, error);
-    qCWarning(lcHardware).noquote() << QStringLiteral("%1: device '%2': %3 (trying again)").arg(name(), driver, error);
+    qCWarning(lcHardware).noquote() << name() + QStringLiteral(": ") + text;
+    if (m_hardware->isOpen)  // else it was told before the device was closed
+        beginAlarm(alarm, ErrorEvent, text);
     Q_EMIT deviceFailed(driver, error);
+}
+
+void QPlcHardwareNode::tellEvent(const QPlcDeviceEvent &event)
+{
+    const QString line = name() + QStringLiteral(": ") + event.text;
+    if (event.severity == InfoEvent)
+        qCInfo(lcHardware).noquote() << line;
+    else
+        qCWarning(lcHardware).noquote() << line;
+    if (event.alarm.isEmpty())
+        reportEvent(event.severity, event.text);
+    else if (event.isActive)
+        beginAlarm(event.alarm, event.severity, event.text);
+    else
+        endAlarm(event.alarm, event.text);
+    Q_EMIT deviceEvent(event);
 }
 
 void QPlcHardwareNode::closeDevices()
@@ -457,8 +485,11 @@ void QPlcHardwareNode::closeDevices()
     }
     m_hardware->setSafeValues(true);
     m_hardware->leaveAll();
-    for (const std::unique_ptr<DriverRunner> &runner : m_hardware->runners)
+    for (const std::unique_ptr<DriverRunner> &runner : m_hardware->runners) {
         runner->stop();
+        endAlarm(QStringLiteral("device %1").arg(runner->name()),
+                 QStringLiteral("device '%1' is closed").arg(runner->name()));
+    }
     m_hardware->isOpen = false;
 }
 

@@ -61,7 +61,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
         std::copy(bytes.begin(), bytes.end(), frame.data.begin());
         if (monitor.take(frame, 5, 1))
             fuzz::check(frame.id == 0x705 || frame.id == 0x85, "only the device tells of itself");
-        fuzz::check(!qplc::emergencyText(monitor.emergency()).isEmpty(), "an emergency has words");
+        fuzz::check(!monitor.emergency().text().isEmpty(), "an emergency has words");
         monitor.look(2, 1);
         device.take(frame, now, &out);
         device.tick(now += 10'000'000, &out);

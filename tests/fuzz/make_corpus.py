@@ -278,6 +278,8 @@ def sessions():
         + message(1, "Initialized")
         + message(0, "RealTimeReady")
         + message(1, "RealTimeReady")
+        + message(0, "NodeEvent", severity="warning", text="sensor noisy", alarm="sensor", active=True)
+        + message(0, "NodeEvent", text="sensor quiet", alarm="sensor", active=False)
         + message(0, "NodeFault", text="sensor lost"),
         "joins while others run": winch
         + start

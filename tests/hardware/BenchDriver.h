@@ -34,6 +34,7 @@ struct BenchDevice
     std::atomic<int> priority{-1};  // of the thread that reads; 0: ordinary
     std::atomic<int> writes{0};
     std::atomic<double> torqueAtClose{-1.0};
+    std::atomic<quint64> event{0};    // that the next read finds: 1: hot, 2: cold, more: others; 0: none
     std::atomic<bool> isSlow{false};  // a call takes its time
     std::atomic<bool> isVisited{false};
     std::atomic<bool> hasMet{false};  // two threads have called the driver at a time
@@ -96,6 +97,8 @@ private:
         throwIf("read");
         if (m_device->isBroken)
             return fail("read from the bench", EIO);
+        if (const quint64 event = m_device->event.exchange(0))
+            noteEvent(event);
         if (!m_device->isSilent && m_device->reads > m_device->silentReads)
             m_speed.set(m_gain * m_device->speed);
         return true;
@@ -118,6 +121,17 @@ private:
         return true;
     }
 
+    QPlcDeviceEvent describeEvent(quint64 data) const override
+    {
+        if (data > 2)
+            return QPlcDriver::describeEvent(data);
+        QPlcDeviceEvent event;
+        event.severity = data == 1 ? QPlcSlaveNode::WarningEvent : QPlcSlaveNode::InfoEvent;
+        event.text = data == 1 ? QStringLiteral("the motor is hot") : QStringLiteral("the motor is cold");
+        event.alarm = QStringLiteral("motor");
+        event.isActive = data == 1;
+        return event;
+    }
     void throwIf(const char *function) const
     {
         if (qstrcmp(m_device->throwing, function) == 0)

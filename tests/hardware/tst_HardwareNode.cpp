@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A hardware node at a master, with devices that the test holds.
 #include "../common/Waiting.h"
+#include "ScriptedNode.h"
 #include "ThreadCosts.h"
 #include "WinchBench.h"
 
@@ -25,6 +26,9 @@ private Q_SLOTS:
     void theDeviceOfAListenerIsSafeWhenThePlantStopsSafely();
     void configuredSafeValueOverridesTheTable();
     void lostDeviceIsHeldThenSafeAndReconnects();
+    void whatADeviceTellsIsInTheLogOfTheMaster_data() { addKinds(); }
+    void whatADeviceTellsIsInTheLogOfTheMaster();
+    void aLostDeviceIsAnAlarmUntilItIsBack();
     void valuesOutOfSignalRangeAreNotAccepted();
     void elementsOfAnArrayComeFromDifferentChannels();
     void signalsAndConstantsCanDriveChannels();
@@ -35,6 +39,21 @@ private Q_SLOTS:
     void cycleAllocatesNothingAndLocksNothing();
 
 private:
+    /// What nodes have reported to \a master: "warning Winch: the text", and its alarm.
+    static QStringList reports(const TestMaster &master)
+    {
+        ScriptedTool tool("Anna");
+        QStringList texts;
+        if (!tool.greetAt(master.serverPort()))
+            return texts;
+        const QPlcMessage answer = tool.ask(QPlcMessage::GetEvents);
+        for (const QJsonValue event : answer.fields().value("events").toArray()) {
+            if (event["kind"].toString() == "report")
+                texts << event["severity"].toString() + ' ' + event["text"].toString();
+        }
+        return texts;
+    }
+
     WinchBench m_bench;
 };
 
@@ -259,6 +278,59 @@ void tst_HardwareNode::lostDeviceIsHeldThenSafeAndReconnects()
     QCOMPARE(master.signalQuality("speed").kind(), QPlcQuality::Good);
     QTRY_COMPARE(opened.size(), 2);
     QCOMPARE(master.state(), QPlcMasterNode::RealTime);
+}
+
+void tst_HardwareNode::whatADeviceTellsIsInTheLogOfTheMaster()
+{
+    QFETCH(QString, kind);
+    QFETCH(int, pace);
+    m_bench.pace = QPlcDriver::Pace(pace);
+    TestMaster master(QPlcClock::realTime(), winchTable());
+    QVERIFY(master.listen());
+    QPlcHardwareNode node;
+    QVERIFY(node.configure(wiring, "winch.ini"));
+    QSignalSpy told(&node, &QPlcHardwareNode::deviceEvent);
+    QVERIFY(master.admit(node, kind));
+    QVERIFY(WinchBench::start(master));
+    QTRY_VERIFY(node.drivers().first().isOnline);
+    LogCapture log;
+    for (const quint64 event : {1, 2, 7}) {
+        m_bench.device->event = event;
+        QTRY_COMPARE(told.size(), event == 7 ? 3 : int(event));
+    }
+    const auto last = told.last().first().value<QPlcDeviceEvent>();
+    QCOMPARE(last.data, quint64(7));
+    QCOMPARE(last.driver, node.drivers().first().name);
+    QTRY_COMPARE(reports(master).size(), 3);
+    const QStringList events = reports(master);
+    const QString begin = QStringLiteral("node %1: ").arg(node.name());
+    QCOMPARE(events.at(0), QStringLiteral("warning %1the motor is hot").arg(begin));
+    QVERIFY2(events.at(1).startsWith(QStringLiteral("info %1the motor is cold, after").arg(begin)),
+             qPrintable(events.at(1)));
+    QCOMPARE(events.at(2), QStringLiteral("info %1device '%2' tells the event 7").arg(begin, last.driver));
+    QCOMPARE(log.matching("the motor is hot").size(), 2);  // of the node, and of the master
+    node.disconnectFromMaster();
+}
+
+void tst_HardwareNode::aLostDeviceIsAnAlarmUntilItIsBack()
+{
+    TestMaster master(QPlcClock::realTime(), winchTable());
+    QVERIFY(master.listen());
+    QPlcHardwareNode node;
+    QVERIFY(node.configure(wiring, "winch.ini"));
+    QVERIFY(master.admit(node, "tcp"));
+    QVERIFY(WinchBench::start(master));
+    QTRY_VERIFY(node.drivers().first().isOnline);
+    LogCapture log;
+    m_bench.device->isPlugged = false;
+    m_bench.device->isBroken = true;
+    QTRY_VERIFY(!reports(master).isEmpty());
+    QVERIFY2(reports(master).first().startsWith("error node "), qPrintable(reports(master).first()));
+    QVERIFY(reports(master).first().contains("read from the bench"));
+    m_bench.device->isBroken = false;
+    m_bench.device->isPlugged = true;
+    QTRY_VERIFY(reports(master).last().contains("is open, after"));
+    node.disconnectFromMaster();
 }
 
 void tst_HardwareNode::valuesOutOfSignalRangeAreNotAccepted()

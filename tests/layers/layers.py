@@ -124,6 +124,7 @@ HEADER_ONLY = {
     "QPlcGlobal": "all",
     "QPlcGuiGlobal": "gui",
     "QPlcGui3DGlobal": "gui3d",
+    "QPlcDeviceEvent": "hardware",
     "QPlcHardwareGlobal": "hardware",
     "QPlcModelsGlobal": "models",
     "QPlcRecordingGlobal": "recording",

@@ -59,8 +59,8 @@ private:
                                          "GetSchedule", "GetLeases",  "GetEvents"};
         static const QStringList takingPart{
             "Hello",       "Register",      "AttachCyclicChannel", "ReceiveMyInitialOutputStates",
-            "Initialized", "RealTimeReady", "NodeFault",           "Stop",
-            "SafeStop"};
+            "Initialized", "RealTimeReady", "NodeFault",           "NodeEvent",
+            "Stop",        "SafeStop"};
         static const QStringList operating{
             "InitializeAllStates", "Arm",   "Reset", "StartRealTime", "SetSignals", "TakeLease",
             "ReleaseLease",        "Evict", "Admit", "Note",          "GetRecords"};

@@ -30,6 +30,12 @@ private Q_SLOTS:
     void restoredValueIsReported();
     void leaseChangesAreReported();
     void skippedCyclesAreReported();
+    void nodesReportEventsAndAlarms_data();
+    void nodesReportEventsAndAlarms();
+    void anAlarmOfANodeLastsAsLongAsTheNodeIsThere();
+    void anAlarmOfANodeOutlivesAPhase();
+    void aNodeThatReportsTooMuchIsToldTogether();
+    void onlyRegisteredNodesReport();
     void noteIsAnEventOfItsWriter();
     void noteThatIsNoOneLineIsRefused_data();
     void noteThatIsNoOneLineIsRefused();
@@ -353,6 +359,93 @@ void tst_Events::skippedCyclesAreReported()
     QCOMPARE(texts.size(), 1);
     QCOMPARE(texts.at(0),
              QString("warning Master: cycles that began a period or more late since the last report: 1; left out: 5"));
+}
+
+void tst_Events::nodesReportEventsAndAlarms_data()
+{
+    QTest::addColumn<QString>("kind");
+    QTest::newRow("in the process of the master") << "local";
+    QTest::newRow("over the network") << "tcp";
+}
+
+void tst_Events::nodesReportEventsAndAlarms()
+{
+    QFETCH(QString, kind);
+    CounterNode node;
+    QVERIFY(m_master->admit(node, kind));
+    node.reportEvent(QPlcSlaveNode::InfoEvent, "the sensor was\ncalibrated");
+    node.beginAlarm("oil", QPlcSlaveNode::WarningEvent, "the oil is hot");
+    node.beginAlarm("oil", QPlcSlaveNode::ErrorEvent, "the oil is very hot");
+    pass(1500ms);
+    node.endAlarm("oil", "the oil is cold");
+    node.endAlarm("water", "the water is cold");  // it was never hot
+    QTRY_COMPARE(events("report"),
+                 (QStringList{"info Counter: node Counter: the sensor was?calibrated",
+                              "warning Counter: node Counter: the oil is hot",
+                              "error Counter: node Counter: the oil is very hot",
+                              "info Counter: node Counter: the oil is cold, after 1.5 s"}));
+    QCOMPARE(alarms(), (QStringList{"+ Counter: oil", "+ Counter: oil", "- Counter: oil"}));
+}
+
+void tst_Events::anAlarmOfANodeLastsAsLongAsTheNodeIsThere()
+{
+    CounterNode node;
+    node.beginAlarm("oil", QPlcSlaveNode::WarningEvent, "the oil is hot");  // no master is there yet
+    node.beginAlarm("water", QPlcSlaveNode::WarningEvent, "the water is hot");
+    node.endAlarm("water", "the water is cold");
+    node.reportEvent(QPlcSlaveNode::InfoEvent, "nobody hears this");
+    for (int i = 1; i <= 2; ++i) {
+        QVERIFY(m_master->admit(node, "tcp"));
+        QTRY_COMPARE(alarms().size(), 2 * i - 1);
+        node.disconnectFromMaster();
+        QTRY_COMPARE(alarms().size(), 2 * i);
+    }
+    QCOMPARE(alarms(), (QStringList{"+ Counter: oil", "- Counter: oil", "+ Counter: oil", "- Counter: oil"}));
+    QCOMPARE(events("report").first(),
+             QString("warning Counter: node Counter: the oil is hot (3 more events were left out before)"));
+    QVERIFY(events("report").last().contains("Counter: oil: not known any more, the node has left, after"));
+}
+
+void tst_Events::anAlarmOfANodeOutlivesAPhase()
+{
+    CounterNode node;
+    QVERIFY(m_master->addLocalNode(&node));
+    node.beginAlarm("oil", QPlcSlaveNode::WarningEvent, "the oil is hot");
+    QVERIFY(start());
+    QCOMPARE(m_tool->ask(QPlcMessage::Stop).kind(), QPlcMessage::Done);
+    QCOMPARE(alarms(), QStringList{"+ Counter: oil"});
+}
+
+/// Neither a node of ours, which sends less, nor one that floods its master.
+void tst_Events::aNodeThatReportsTooMuchIsToldTogether()
+{
+    CounterNode node;
+    QVERIFY(m_master->admit(node, "tcp"));
+    for (int i = 0; i < 1000; ++i) {
+        node.beginAlarm("contact", QPlcSlaveNode::WarningEvent, QString("bounce %1").arg(i));
+        node.endAlarm("contact", "quiet");
+    }
+    node.beginAlarm("contact", QPlcSlaveNode::WarningEvent, "stuck");
+    QTRY_COMPARE(events("report").size(), 16);
+    pass(1s);
+    QTRY_COMPARE(events("report").size(), 17);
+    QVERIFY(events("report").last().startsWith("warning Counter: node Counter: stuck (19"));
+    QCOMPARE(alarms().last(), QString("+ Counter: contact"));
+
+    ScriptedNode hostile;
+    QVERIFY(hostile.registerAt(m_master->serverPort()));
+    for (int i = 0; i < 500; ++i)
+        hostile.send(QPlcMessage::NodeEvent, {{"severity", "error"}, {"text", "x"}, {"alarm", QString::number(i)}});
+    QTRY_VERIFY(events("report").last().contains("node Scripted reports too much"));
+    QCOMPARE(alarms().filter("+ Scripted").size(), 32);
+    QVERIFY(events("report").size() < 17 + 36);
+}
+
+void tst_Events::onlyRegisteredNodesReport()
+{
+    const QPlcMessage answer = m_tool->ask(QPlcMessage::NodeEvent, {{"text", "smoke"}});
+    QCOMPARE(answer.text("error"), QString("MalformedMessage"));
+    QCOMPARE(events("report"), QStringList());
 }
 
 void tst_Events::noteIsAnEventOfItsWriter()

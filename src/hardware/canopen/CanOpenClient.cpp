@@ -182,6 +182,21 @@ bool CanOpenClient::readNumber(ObjectAddress address, quint32 *value)
     return true;
 }
 
+CanOpenEmergency CanOpenClient::readError()
+{
+    CanOpenEmergency emergency;
+    quint32 errors = 0;
+    quint32 newest = 0;  // code of the newest error, and information of the manufacturer
+    if (!readNumber({0x1001, 0}, &errors) || errors == 0)
+        return emergency;
+    const bool isKnown = readNumber({0x1003, 1}, &newest) && newest != 0;
+    emergency.errorRegister = quint8(errors);
+    emergency.code = isKnown ? quint16(newest) : CanOpenEmergency::GenericError;
+    emergency.manufacturer[0] = quint8(newest >> 16);
+    emergency.manufacturer[1] = quint8(newest >> 24);
+    return emergency;
+}
+
 bool CanOpenClient::write(ObjectAddress address, const QByteArray &value)
 {
     SdoTransfer transfer = SdoTransfer::write(address, value);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "CanOpenConfiguration.h"
+#include "CanOpenEmergency.h"
 #include "CanOpenIds.h"
 #include "SdoTransfer.h"
 #include "hardware/can/CanBus.h"
@@ -29,6 +30,8 @@ public:
     /// Reads an object. \return false, with the reason in errorString()
     bool read(ObjectAddress address, QByteArray *value);
     bool readNumber(ObjectAddress address, quint32 *value);
+    /// Asks the device for its errors (objects 1001h and 1003h). What it does not have is no error.
+    CanOpenEmergency readError();
     /// Writes an object. \param value  as it travels, least significant byte first
     bool write(ObjectAddress address, const QByteArray &value);
     /// Sends a command of network management to the device.

@@ -3,9 +3,9 @@
 #include "CanOpenClient.h"
 #include "CanOpenMonitor.h"
 #include "CanOpenPdos.h"
+#include "QPlcDeviceEvent.h"
 #include "QPlcDriverSettings.h"
 #include "hardware/Drivers.h"
-#include "hardware/HardwareLogging.h"
 #include "hardware/can/CanBusDriver.h"
 
 #include <algorithm>
@@ -52,8 +52,9 @@ public:
         , m_axis(this)
     {
         addOwn("@state", [this] { return quint64(m_monitor.state()); });
-        addOwn("@emergency", [this] { return quint64(m_monitor.emergency()); });
-        addOwn("@errorRegister", [this] { return quint64(m_monitor.errorRegister()); });
+        addOwn("@emergency", [this] { return quint64(m_monitor.emergency().code); });
+        addOwn("@emergencyBytes", [this] { return m_monitor.emergency().manufacturerBits(); });
+        addOwn("@errorRegister", [this] { return quint64(m_monitor.emergency().errorRegister); });
         addOwn("@emergencies", [this] { return m_monitor.emergencies(); });
         addOwn("@heartbeatLost", [this] { return m_heartbeatLost; });
         addOwn("@missed", [this] { return m_pdos.missed(); });
@@ -120,6 +121,7 @@ protected:
     {
         if (!takeFrames())
             return false;
+        tellEmergency();
         showOwn();
         m_axis.show(now());
         return checkNode() && checkBusOff();
@@ -148,6 +150,27 @@ protected:
         }
     }
 
+    QPlcDeviceEvent describeEvent(quint64 data) const override
+    {
+        const CanOpenEmergency emergency = CanOpenEmergency::fromBits(data);
+        const bool remains = !emergency.isError() && emergency.errorRegister != 0;
+        QPlcDeviceEvent event;
+        event.severity = emergency.isError() ? QPlcSlaveNode::ErrorEvent
+            : remains                        ? QPlcSlaveNode::WarningEvent
+                                             : QPlcSlaveNode::InfoEvent;
+        event.text
+            = QStringLiteral("device '%1' (node %2 at %3): %4")
+                  .arg(name())
+                  .arg(m_plan.node)
+                  .arg(m_plan.device,
+                       emergency.isError() ? emergency.text()
+                           : remains ? QStringLiteral("an error is gone, and others remain: %1").arg(emergency.text())
+                                     : QStringLiteral("no error any more"));
+        event.alarm = QStringLiteral("emergency of %1").arg(name());
+        event.isActive = emergency.isError() || remains;
+        return event;
+    }
+
 private:
     CanBus::Options busOptions() const
     {
@@ -171,9 +194,12 @@ private:
     {
         m_monitor.forget();
         CanOpenClient client(bus(), m_plan.device, m_plan.node, m_plan.answerTime);
-        client.setListener([this](const CanFrame &frame) { listen(frame); });
-        if (!client.command(NmtCommand::EnterPreOperational) || !client.configure(m_plan)
-            || !client.command(NmtCommand::Start))
+        client.setListener([this](const CanFrame &frame) { takeReport(frame); });
+        if (!client.command(NmtCommand::EnterPreOperational) || !client.configure(m_plan))
+            return fail(client.errorString());
+        m_monitor.takeError(client.readError());
+        tellEmergency();
+        if (!client.command(NmtCommand::Start))
             return fail(client.errorString());
         const auto isRunning = [this] { return m_monitor.state() == NmtState::Operational; };
         if (client.waitUntil(isRunning, std::max<std::chrono::nanoseconds>(3 * m_plan.heartbeat, shortestStart)))
@@ -184,14 +210,19 @@ private:
                         .arg(m_plan.device, nmtStateText(m_monitor.state()), lastEmergency()));
     }
 
-    // While the device is started, no cycle waits for the log.
-    void listen(const CanFrame &frame)
+    /// Heartbeats and emergencies. \return whether \a frame was one of the device
+    bool takeReport(const CanFrame &frame) noexcept
     {
-        const quint64 before = m_monitor.emergencies();
-        m_monitor.take(frame, m_plan.node, timeOf(frame));
-        if (m_monitor.emergencies() != before)
-            qCWarning(lcHardware).noquote()
-                << name() << "(node" << m_plan.node << ") tells an emergency" << lastEmergency();
+        const bool isReport = m_monitor.take(frame, m_plan.node, timeOf(frame));
+        tellEmergency();
+        return isReport;
+    }
+
+    // If many of them wait, the newest one is told later.
+    void tellEmergency() noexcept
+    {
+        if (m_monitor.isUntold() && noteEvent(m_monitor.emergency().toBits()))
+            m_monitor.setTold();
     }
 
     // A drive brakes by itself; everything else does what it does without a master.
@@ -210,10 +241,10 @@ private:
 
     QString lastEmergency() const
     {
-        if (m_monitor.emergencies() == 0)
-            return {};
-        return QStringLiteral("; its last emergency was %1: %2")
-            .arg(QString::asprintf("%04X", m_monitor.lastEmergency()), emergencyText(m_monitor.lastEmergency()));
+        const quint16 code = m_monitor.lastError();
+        return code == 0 ? QString()
+                         : QStringLiteral("; its last emergency was %1: %2")
+                               .arg(QString::asprintf("%04X", code), emergencyText(code));
     }
 
     // ---- in the cycle ----
@@ -232,7 +263,7 @@ private:
             m_pdos.noteSync();
             return;
         }
-        if (m_monitor.take(frame, m_plan.node, time))
+        if (takeReport(frame))
             return;
         if (const auto *pdo = m_pdos.take(frame, time))
             m_axis.take(*pdo, frame, time);

@@ -42,7 +42,5 @@ enum class NmtState : quint8 { BootUp = 0, Stopped = 4, Operational = 5, PreOper
 
 /// "Operational"
 QString nmtStateText(NmtState state);
-/// What the code of an emergency message means, by its class: "voltage", "heartbeat or life guard".
-QString emergencyText(quint16 code);
 
 }  // namespace qplc

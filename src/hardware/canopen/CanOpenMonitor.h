@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "CanOpenEmergency.h"
 #include "CanOpenIds.h"
 #include "hardware/can/CanFrame.h"
 
@@ -23,6 +24,14 @@ public:
         m_state = NmtState::Unknown;
         m_heartbeat = None;
         m_hasRestarted = false;
+        m_hasEmergency = false;
+    }
+    /// What the device has told when it was asked, while it is started: \a emergency, if it has not
+    /// told a newer one by itself.
+    void takeError(const CanOpenEmergency &emergency) noexcept
+    {
+        if (!m_hasEmergency)
+            note(emergency);
     }
     /// \param time  of the frame [ns] \return whether the frame was a heartbeat or an emergency of
     /// the device
@@ -38,12 +47,8 @@ public:
         }
         if (frame.id != CanOpenIds::Emergency + quint32(node) || frame.size != 8)
             return false;
-        m_emergency = quint16(frame.data[0] | frame.data[1] << 8);
-        m_errorRegister = frame.data[2];
-        if (m_emergency != 0) {
-            m_lastEmergency = m_emergency;
-            ++m_emergencies;
-        }
+        note(CanOpenEmergency::fromFrame(frame));
+        m_emergencies += m_emergency.isError() ? 1 : 0;
         return true;
     }
     /// \param longest  without a heartbeat [ns]
@@ -59,20 +64,31 @@ public:
     }
 
     NmtState state() const { return m_state; }
-    quint16 emergency() const { return m_emergency; }          ///< 0: there is none any more
-    quint16 lastEmergency() const { return m_lastEmergency; }  ///< that was not its end
-    quint8 errorRegister() const { return m_errorRegister; }
-    quint64 emergencies() const { return m_emergencies; }
+    const CanOpenEmergency &emergency() const { return m_emergency; }  ///< the newest one
+    quint16 lastError() const { return m_lastError; }                  ///< its code; 0: there was none
+    quint64 emergencies() const { return m_emergencies; }              ///< that have told an error
+    /// Whether the newest one has not been told yet, by setTold().
+    bool isUntold() const { return m_isUntold; }
+    void setTold() { m_isUntold = false; }
 
 private:
     static constexpr qint64 None = -1;
 
+    void note(const CanOpenEmergency &emergency) noexcept
+    {
+        m_emergency = emergency;
+        m_lastError = emergency.isError() ? emergency.code : m_lastError;
+        m_hasEmergency = true;
+        m_isUntold = true;
+    }
+
     NmtState m_state = NmtState::Unknown;
     bool m_hasRestarted = false;
     qint64 m_heartbeat = None;  // when the last one came in [ns]
-    quint16 m_emergency = 0;
-    quint16 m_lastEmergency = 0;
-    quint8 m_errorRegister = 0;
+    CanOpenEmergency m_emergency;
+    bool m_hasEmergency = false;  // since it was started
+    bool m_isUntold = false;
+    quint16 m_lastError = 0;
     quint64 m_emergencies = 0;
 };
 

@@ -27,6 +27,7 @@ void LocalNode::join(QPlcMasterNode *master)
     m_node.localMaster = master;
     m_node.hasChannel = true;
     m_node.apply(SlaveEvent::AddedLocally);
+    m_node.events.masterCame();
 }
 
 void LocalNode::leave()

@@ -71,6 +71,12 @@ public:
                                    QStringLiteral("node '%1': %2").arg(m_connection->name, text));
     }
 
+    void operator()(const messages::NodeEvent &event) const
+    {
+        if (isOfNode(event.kind))
+            d.journal.nodeTold(m_connection->name, event, !m_connection->events.take(qplc::monotonicNow()));
+    }
+
     // ---- states ----
     void operator()(const messages::InitializeAllStates &) const { finish(d.initializeAllStates()); }
     void operator()(const messages::StartRealTime &start) const

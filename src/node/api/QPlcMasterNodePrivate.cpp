@@ -334,6 +334,7 @@ void QPlcMasterNodePrivate::removeLocalNode(QPlcSlaveNode *node)
     parts->registry.remove(local->slot());
     needed.forget(node->name());
     needed.tellFate(node->name(), QStringLiteral("was removed"));
+    journal.nodeTellsNoMore(node->name());
     local->leave();
 }
 
@@ -373,6 +374,7 @@ void QPlcMasterNodePrivate::nodeLost(Connection *connection, const QString &reas
     else
         journal.tell(JournalEvent::Info, JournalEvent::Node, slot->name,
                      QStringLiteral("node %1 has left: %2").arg(slot->name, reason));
+    journal.nodeTellsNoMore(slot->name);
     needed.tellFate(slot->name, QStringLiteral("has left: %1").arg(reason));
     const bool wasAwaited = node && parts->step.leave(*node);
     if (node) {

@@ -374,6 +374,22 @@ void QPlcSlaveNode::disconnectFromMaster()
     d->disconnectFromMaster();
 }
 
+void QPlcSlaveNode::reportEvent(EventSeverity severity, const QString &text)
+{
+    d->events.tell(qplc::messages::Severity(severity), text);
+}
+
+void QPlcSlaveNode::beginAlarm(const QString &alarm, EventSeverity severity, const QString &text)
+{
+    Q_ASSERT_X(!alarm.isEmpty(), "QPlcSlaveNode::beginAlarm", "a condition needs a name");
+    d->events.begin(alarm, qplc::messages::Severity(severity), text);
+}
+
+void QPlcSlaveNode::endAlarm(const QString &alarm, const QString &text)
+{
+    d->events.end(alarm, text);
+}
+
 void QPlcSlaveNode::sendMessageToMaster(const QPlcMessage &message)
 {
     d->control.tell(message);

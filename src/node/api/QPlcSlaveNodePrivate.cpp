@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "QPlcSlaveNodePrivate.h"
 
+#include "QPlcMasterNodePrivate.h"
 #include "node/Logging.h"
 #include "node/session/MasterReplies.h"
 #include "realtime/Host.h"
@@ -62,6 +63,7 @@ QPlcSlaveNodePrivate::QPlcSlaveNodePrivate(QPlcSlaveNode *node, const QString &n
     , code(std::move(nodeCode))
     , runtime(*code, *this)
     , control({}, q)
+    , events([this](const messages::NodeEvent &event) { return sendEvent(event); }, q)
     , m_retryTimer(q)
     , m_patience(q)
     , m_rest(q)
@@ -99,6 +101,17 @@ void QPlcSlaveNodePrivate::setError(QPlcSlaveNode::Error newError, const QString
     errorString = text;
     qCWarning(lcSlave).noquote() << text;
     Q_EMIT q->errorOccurred(newError);
+}
+
+bool QPlcSlaveNodePrivate::sendEvent(const messages::NodeEvent &event)
+{
+    if (!hasChannel)
+        return false;
+    if (localMaster)
+        QPlcMasterNodePrivate::of(*localMaster).journal.nodeTold(name, event, false);
+    else
+        send(event);
+    return true;
 }
 
 // ---- connection ----

@@ -7,6 +7,7 @@
 #include "node/cycle/SlaveCycle.h"
 #include "node/session/BackOff.h"
 #include "node/session/ControlClient.h"
+#include "node/session/NodeEvents.h"
 #include "node/state/SlaveStates.h"
 #include "node/statistics/ReportLimiter.h"
 #include "protocol/messages/MessageTable.h"
@@ -75,6 +76,7 @@ public:
     QPlcUnderlyingProtocol master;
     QPointer<QPlcMasterNode> localMaster;  // in whose process the node runs
     qplc::ControlClient control;           // child of the node, as the timers
+    qplc::NodeEvents events;
 
 private:
     void enter(QPlcSlaveNode::State newState);
@@ -95,6 +97,7 @@ private:
     bool isExpected(const QPlcMessage &message) const;
     void handle(const QPlcMessage &message);
     void refuseUnreadable(const QPlcMessage &message, const QString &reason);
+    bool sendEvent(const qplc::messages::NodeEvent &event);
     template<typename Message>
     void send(const Message &message)
     {

@@ -292,6 +292,7 @@ void QPlcSlaveNodePrivate::tellRegistered()
     m_backOff.reset();
     m_patience.stop();
     hasChannel = true;
+    events.masterCame();
     Q_EMIT q->connectedToMaster();
     if (const auto request = std::exchange(m_outputsAwaited, std::nullopt))
         handle(*request);

@@ -40,6 +40,7 @@ struct MasterConnection
     QString cyclicKind;                                  // "udp", "tcp"
     const TransportKind *transport = nullptr;            // of this name; null: there is none
     TokenBucket messages{1000, 4000};                    // that nobody has asked it for
+    TokenBucket events{2, 32};                           // of a node, that are told one by one
     quint64 token = 0;                                   // names this node on its cyclic TCP connection
     std::unique_ptr<Newcomer> newcomer{};                // while it is Attaching
     std::unique_ptr<ProbeAnswers> probe{};               // while its transport is open, and datagrams are allowed

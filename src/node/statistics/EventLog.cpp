@@ -39,6 +39,8 @@ QString kindName(JournalEvent::Kind kind)
         return QStringLiteral("quality");
     case JournalEvent::Note:
         return messages::noteEvent;
+    case JournalEvent::Report:
+        return QStringLiteral("report");
     }
     return {};
 }

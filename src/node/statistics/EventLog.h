@@ -17,7 +17,7 @@ struct EventEntry;
 struct JournalEvent
 {
     enum Severity : std::uint8_t { Info, Warning, Error };  // as messages::Severity
-    enum Kind : std::uint8_t { State, Node, Late, Fault, Set, Lease, Overrun, Security, Quality, Note };
+    enum Kind : std::uint8_t { State, Node, Late, Fault, Set, Lease, Overrun, Security, Quality, Note, Report };
 
     Severity severity = Info;
     Kind kind = State;
@@ -34,7 +34,8 @@ struct JournalEvent
 
 /// "info", "warning", "error"
 QString severityName(JournalEvent::Severity severity);
-/// "state", "node", "late", "fault", "set", "lease", "overrun", "security", "quality", "note"
+/// "state", "node", "late", "fault", "set", "lease", "overrun", "security", "quality", "note",
+/// "report"
 QString kindName(JournalEvent::Kind kind);
 messages::EventEntry toEntry(const JournalEvent &event);
 

@@ -3,7 +3,9 @@
 
 #include "node/Logging.h"
 #include "node/cycle/NodeRegistry.h"
+#include "protocol/messages/Events.h"
 #include "realtime/TimeSource.h"
+#include "signals/MessageText.h"
 
 #include <algorithm>
 #include <tuple>
@@ -41,7 +43,7 @@ void log(const JournalEvent &event)
     else if (event.kind == JournalEvent::Note)
         qCInfo(lcMaster).noquote() << "note of" << event.source + ':' << event.text;
     else if (event.kind == JournalEvent::Node || event.kind == JournalEvent::Lease
-             || event.kind == JournalEvent::Quality)
+             || event.kind == JournalEvent::Quality || event.kind == JournalEvent::Report)
         qCInfo(lcMaster).noquote() << event.text;
     else
         qCDebug(lcMaster).noquote() << event.text;
@@ -116,7 +118,7 @@ void Journal::clearAll(const QString &text)
 {
     QStringList over;
     for (const auto &[name, alarm] : m_alarms) {
-        if (alarm.event.kind != JournalEvent::State)
+        if (alarm.event.kind != JournalEvent::State && alarm.event.kind != JournalEvent::Report)
             over << name;
     }
     for (const QString &alarm : qAsConst(over))
@@ -188,6 +190,43 @@ bool Journal::note(const QString &who, const QString &address, const QString &te
         return false;
     append(causedFrom(address, {JournalEvent::Info, JournalEvent::Note, who, text}));
     return true;
+}
+
+// ---- what nodes report ----
+
+void Journal::nodeTold(const QString &node, const messages::NodeEvent &event, bool isTooMuch)
+{
+    const QString text = QStringLiteral("node %1: %2").arg(node, printable(event.text).left(EventLog::LongestText));
+    const auto severity = JournalEvent::Severity(event.severity);
+    const QString alarm = printable(event.alarm).left(messages::NodeEvent::longestAlarm);
+    const QString name = QStringLiteral("%1: %2").arg(node, alarm);
+    if (!alarm.isEmpty() && !event.active.value_or(true))
+        clear(name, text);  // of what was raised only: never more than that
+    else if (isTooMuch || (!alarm.isEmpty() && m_alarms.count(name) == 0 && reportsOf(node).size() >= mostReports))
+        tellLimited(QStringLiteral("report ") + node, QStringLiteral("node %1 reports too much: ").arg(node),
+                    {severity, JournalEvent::Report, node, text});
+    else if (alarm.isEmpty())
+        tell(severity, JournalEvent::Report, node, text);
+    else
+        raise(name, severity, JournalEvent::Report, node, text);
+}
+
+void Journal::nodeTellsNoMore(const QString &node)
+{
+    const QStringList over = reportsOf(node);
+    for (const QString &alarm : over)
+        clear(alarm, QStringLiteral("%1: not known any more, the node has left").arg(alarm));
+}
+
+/// Names of the alarms that \a node has raised.
+QStringList Journal::reportsOf(const QString &node) const
+{
+    QStringList names;
+    for (const auto &[name, alarm] : m_alarms) {
+        if (alarm.event.kind == JournalEvent::Report && alarm.event.source == node)
+            names << name;
+    }
+    return names;
 }
 
 // ---- security: strangers may do it as often as they like ----

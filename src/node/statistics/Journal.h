@@ -14,6 +14,10 @@
 
 namespace qplc {
 
+namespace messages {
+struct NodeEvent;
+}
+
 /// What happens at a master, for people: the one place that makes a line of the log and an event
 /// for viewers out of it.
 ///
@@ -23,6 +27,7 @@ class Journal : public QObject
     Q_OBJECT
 public:
     static constexpr std::size_t mostAlarms = 1000;  // that last
+    static constexpr int mostReports = 64;           // likewise, that one node has reported
 
     Journal();
 
@@ -39,7 +44,8 @@ public:
                const QString &text);
     /// Tells that it is over, and how long it lasted. Nothing is told of what was not raised.
     void clear(const QString &alarm, const QString &text);
-    /// All that lasts is over, but for the troubles of the master itself (of the kind State).
+    /// All that lasts is over, but for the troubles of the master itself (of the kind State), and
+    /// for what nodes report of their devices: that ends when they say so, or leave.
     void clearAll(const QString &text);
     /// \param isTransient  time stands still, or goes on again: this may happen in every cycle
     void stateChanged(const QString &state, bool isTransient);
@@ -66,6 +72,11 @@ public:
     void refused(const QString &name, const QString &address, const QString &reason);
     /// Somebody who was not let in.
     void strangerRefused(const QString &address, const QString &reason);
+    /// What a node tells of its devices and its work. \param isTooMuch  it tells so much that this
+    /// is told together with others
+    void nodeTold(const QString &node, const messages::NodeEvent &event, bool isTooMuch);
+    /// \a node has left: nobody will tell the end of what lasts at it.
+    void nodeTellsNoMore(const QString &node);
     /// A remark of a person. \return false: there are too many of them, and nothing has happened
     bool note(const QString &who, const QString &address, const QString &text);
     void valueCameBack(const QString &signal, const QString &value);
@@ -84,6 +95,7 @@ private:
     };
 
     void append(const JournalEvent &event);
+    QStringList reportsOf(const QString &node) const;
     void dropLeastSevere();
     void tellLimited(const QString &thing, const QString &begin, const JournalEvent &event);
     void tellDue();

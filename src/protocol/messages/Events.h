@@ -60,6 +60,22 @@ struct GetEvents
     static constexpr auto fields = fieldList(field("since", &GetEvents::since, Presence::Checked));
 };
 
+/// A node tells what has happened at its devices or in its work.
+struct NodeEvent
+{
+    static constexpr QPlcMessage::Kind kind = QPlcMessage::NodeEvent;
+    using Answer = NoAnswer;
+    static constexpr int longestAlarm = 64;  // [characters]
+    Severity severity = Severity::Info;
+    QString text;
+    QString alarm;  // name of a condition of the node that lasts; empty: none
+    std::optional<bool> active;
+
+    static constexpr auto fields = fieldList(
+        field("severity", &NodeEvent::severity), field("text", &NodeEvent::text, Presence::Required),
+        field("alarm", &NodeEvent::alarm, Presence::WhenSet), field("active", &NodeEvent::active, Presence::WhenSet));
+};
+
 /// A remark of a person about what happens now: an event, and so in recordings.
 struct Note
 {

@@ -59,6 +59,7 @@ constexpr bool isKind(quint8 number)
     case Kind::Done:
     case Kind::Failed:
     case Kind::NodeFault:
+    case Kind::NodeEvent:
     case Kind::GetStatistics:
     case Kind::Statistics:
     case Kind::GetSchedule:
@@ -215,6 +216,7 @@ using ClientTable = Table<
     Row<GetSignals, Sender::Everybody, Purpose::Question, Turn::InOrder, Outcome::Prompt, Writes::Nothing>,
     Row<SetSignals, Sender::Operators, Purpose::Command, Turn::InOrder, Outcome::Prompt, Writes::Signals>,
     Row<NodeFault, Sender::Everybody, Purpose::Report, Turn::InOrder, Outcome::None, Writes::Nothing>,
+    Row<NodeEvent, Sender::Everybody, Purpose::Report, Turn::InOrder, Outcome::None, Writes::Nothing>,
     Row<GetStatistics, Sender::Everybody, Purpose::Question, Turn::InOrder, Outcome::Prompt, Writes::Nothing>,
     Row<GetSchedule, Sender::Everybody, Purpose::Question, Turn::InOrder, Outcome::Prompt, Writes::Nothing>,
     Row<TakeLease, Sender::Operators, Purpose::Command, Turn::InOrder, Outcome::Prompt, Writes::Signals>,

@@ -46,6 +46,14 @@ struct DriveBench : CanOpenBench
         for (const char *name : {"enable", "velocity", "quickStop", "faultReset"})
             driver.set(QLatin1String(name), 0.0, true);
     }
+    /// What has happened since the last call.
+    std::vector<QPlcDeviceEvent> events()
+    {
+        std::vector<QPlcDeviceEvent> taken;
+        while (const auto event = driver.runner().takeEvent())
+            taken.push_back(*event);
+        return taken;
+    }
     bool isRunning() const { return device.drive->state == peer::Drive::Enabled; }
     AxisState state() const { return AxisState(int(driver.value("state"))); }
 
@@ -83,6 +91,9 @@ private Q_SLOTS:
     void aRestartedDeviceIsConfiguredAnew();
     void aDeviceThatLeavesOperationalIsLost();
     void emergenciesAreSignals();
+    void emergenciesAreEventsFromTheirBeginToTheirEnd();
+    void anErrorBeforeTheStartIsAnEvent();
+    void ofTooManyEmergenciesTheNewestOneIsTold();
     void aMissedPdoIsCounted();
     void framesOfStrangersChangeNothing();
     // Drives
@@ -347,6 +358,73 @@ void tst_CanOpenDriver::emergenciesAreSignals()
     QVERIFY(bench.cycles(2));
     QCOMPARE(bench.driver.value("@emergency"), 0.0);
     QCOMPARE(bench.driver.value("@emergencies"), 1.0);
+}
+
+void tst_CanOpenDriver::emergenciesAreEventsFromTheirBeginToTheirEnd()
+{
+    DriveBench bench;
+    OPEN(bench);
+    bench.events();
+    bench.bus.tellEmergency(bench.device, 0x2310, 0x03);
+    bench.bus.tellEmergency(bench.device, 0x7305, 0x23);
+    bench.bus.tellEmergency(bench.device, 0x0000, 0x03);
+    bench.bus.tellEmergency(bench.device, 0x0000, 0x00);
+    QVERIFY(bench.cycles(2));
+    const std::vector<QPlcDeviceEvent> events = bench.events();
+    QCOMPARE(events.size(), std::size_t(4));
+    QCOMPARE(events[0].text,
+             QString("device 'bench' (node 5 at fake:bench): emergency 2310 (continuous over-current, at the output "
+                     "side), error register 03 (generic, current), bytes of the manufacturer 00 00 00 00 00"));
+    QCOMPARE(events[0].data & 0xFFFFFF, Q_UINT64_C(0x032310));
+    QVERIFY(events[1].text.contains("emergency 7305 (incremental encoder 1)"));
+    QVERIFY(events[2].text.contains("an error is gone, and others remain: emergency 0000"));
+    QVERIFY(events[3].text.endsWith("no error any more"));
+    for (std::size_t i = 0; i < events.size(); ++i) {
+        QCOMPARE(events[i].alarm, QString("emergency of bench"));
+        QCOMPARE(events[i].isActive, i < 3);
+    }
+    QCOMPARE(events[0].severity, QPlcSlaveNode::ErrorEvent);
+    QCOMPARE(events[2].severity, QPlcSlaveNode::WarningEvent);
+    QCOMPARE(events[3].severity, QPlcSlaveNode::InfoEvent);
+}
+
+/// It was told before the program was there.
+void tst_CanOpenDriver::anErrorBeforeTheStartIsAnEvent()
+{
+    DriveBench bench;
+    bench.device.set(0x1001, 0, 0x09);
+    bench.device.add(0x1003, 1, 0x00454210, 4, false);
+    QVERIFY(bench.wiring.isEmpty());
+    OPEN(bench);
+    QVERIFY(bench.cycles(2));
+    const std::vector<QPlcDeviceEvent> events = bench.events();
+    QCOMPARE(events.size(), std::size_t(1));
+    QVERIFY2(events[0].text.contains("emergency 4210 (temperature of the device too high), error register 09 (generic, "
+                                     "temperature), bytes of the manufacturer 45 00 00 00 00"),
+             qPrintable(events[0].text));
+    QVERIFY(events[0].isActive);
+    QCOMPARE(bench.driver.value("@emergency"), double(0x4210));
+    QCOMPARE(bench.driver.value("@emergencies"), 0.0);  // no message has come
+}
+
+void tst_CanOpenDriver::ofTooManyEmergenciesTheNewestOneIsTold()
+{
+    DriveBench bench;
+    OPEN(bench);
+    bench.events();
+    for (int i = 0; i < 100; ++i)
+        bench.bus.tellEmergency(bench.device, quint16(0x2300 + i), 0x03);
+    bench.bus.tellEmergency(bench.device, 0x0000, 0x00);
+    QVERIFY(bench.cycles(2));
+    QCOMPARE(bench.driver.value("@emergencies"), 100.0);
+    const std::vector<QPlcDeviceEvent> events = bench.events();
+    QVERIFY(events.back().isActive);
+    QVERIFY(bench.cycles(1));
+    const std::vector<QPlcDeviceEvent> later = bench.events();
+    QCOMPARE(later.size(), std::size_t(1));
+    QVERIFY(!later.front().isActive);
+    QVERIFY(bench.cycles(1));
+    QVERIFY(bench.events().empty());
 }
 
 void tst_CanOpenDriver::aMissedPdoIsCounted()

@@ -2,6 +2,7 @@
 // What CANopen says on paper: transfers of objects, files of devices, keys, states of a drive.
 #include "CanOpenPeer.h"
 #include "DriverBench.h"
+#include "hardware/canopen/CanOpenEmergency.h"
 #include "hardware/canopen/CanOpenIds.h"
 #include "hardware/canopen/Cia402Axis.h"
 #include "hardware/canopen/EdsFile.h"
@@ -184,6 +185,7 @@ private Q_SLOTS:
     void bitsOfAPdoKeepTheirNeighbours();
     // Emergencies
     void emergenciesAreToldByTheirClass();
+    void anEmergencyHasAllThatItsFrameHas();
     // Axis
     void statuswordsAreStates_data();
     void statuswordsAreStates();
@@ -496,10 +498,32 @@ void tst_CanOpenProtocol::bitsOfAPdoKeepTheirNeighbours()
 void tst_CanOpenProtocol::emergenciesAreToldByTheirClass()
 {
     QCOMPARE(emergencyText(0x8130), QString("the heartbeat of the master was missing"));
-    QCOMPARE(emergencyText(0x2310), QString("current, at the output side"));
+    QCOMPARE(emergencyText(0x2310), QString("continuous over-current, at the output side"));
+    QCOMPARE(emergencyText(0x2311), QString("current, at the output side"));
     QCOMPARE(emergencyText(0x2910), QString("current"));
-    QCOMPARE(emergencyText(0xFF01), QString("additional functions"));
+    QCOMPARE(emergencyText(0x7121), QString("motor blocked"));
+    QCOMPARE(emergencyText(0xF0AA), QString("additional functions"));
+    QCOMPARE(emergencyText(0xFF01), QString("an error of the manufacturer"));
     QCOMPARE(emergencyText(0xA000), QString("an error of the manufacturer"));
+    for (unsigned code = 0; code <= 0xFFFF; ++code)
+        QVERIFY(!emergencyText(quint16(code)).isEmpty());
+}
+
+void tst_CanOpenProtocol::anEmergencyHasAllThatItsFrameHas()
+{
+    qplc::CanFrame frame;
+    frame.size = 8;
+    frame.data = {0x10, 0x23, 0x13, 0xDE, 0xAD, 0xBE, 0xEF, 0x01};
+    const CanOpenEmergency emergency = CanOpenEmergency::fromFrame(frame);
+    QCOMPARE(emergency.text(),
+             QString("emergency 2310 (continuous over-current, at the output side), error register 13 (generic, "
+                     "current, communication), bytes of the manufacturer DE AD BE EF 01"));
+    QCOMPARE(emergency.toBits(), Q_UINT64_C(0x01EFBEADDE132310));
+    QCOMPARE(emergency.manufacturerBits(), Q_UINT64_C(0x01EFBEADDE));
+    QCOMPARE(CanOpenEmergency::fromBits(emergency.toBits()).text(), emergency.text());
+    QVERIFY(emergency.isError());
+    QVERIFY(!CanOpenEmergency::fromBits(0x130000).isError());
+    QCOMPARE(qplc::errorRegisterText(0), QString("none"));
 }
 
 // ---- axis ----
