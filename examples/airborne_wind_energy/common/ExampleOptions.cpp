@@ -167,7 +167,9 @@ void addPlantOptions(QPlcCoreApplication &application)
             "thesis.")
             .arg(PlantConfiguration::names().join(QStringLiteral(", "))),
         "PLANT", "");
-    add(application, "winch", QStringLiteral("ideal, machine or drive: in place of the word in the file of --plant."),
+    add(application, "winch",
+        QStringLiteral("ideal, machine, drive, or canopen (a servo drive with CiA 402): in place of the word in the "
+                       "file of --plant."),
         "KIND", "");
     add(application, "mode",
         QStringLiteral("pumping: the winch generates, or drag: turbines on board do. In place of the word in the file "

@@ -57,12 +57,14 @@ QString withoutComment(const QByteArray &line)
 QString setWinch(PlantConfiguration *configuration, const QString &folder, const QString &key, const QString &value)
 {
     SectionKeys keys(winchSection);
-    keys.addChoice<WinchKind>(
-        "kind", &configuration->winch,
-        {{"ideal", WinchKind::Ideal}, {"machine", WinchKind::Machine}, {"drive", WinchKind::Drive}});
-    keys.addText("hardware", [=](const QString &name) {
-        configuration->winchHardware = name.isEmpty() ? QString() : QDir(folder).filePath(name);
-    });
+    keys.addChoice<WinchKind>("kind", &configuration->winch,
+                              {{"ideal", WinchKind::Ideal},
+                               {"machine", WinchKind::Machine},
+                               {"drive", WinchKind::Drive},
+                               {"canopen", WinchKind::CanOpen}});
+    const auto pathOf = [=](const QString &name) { return name.isEmpty() ? QString() : QDir(folder).filePath(name); };
+    keys.addText("hardware", [=](const QString &name) { configuration->winchHardware = pathOf(name); });
+    keys.addText("canOpenHardware", [=](const QString &name) { configuration->canOpenHardware = pathOf(name); });
     keys.addText("simulated", [=](const QString &bus) { configuration->simulatedWinch = bus; });
     keys.addConstants(&configuration->options.machine);
     return keys.set(key, value);
@@ -216,6 +218,7 @@ private:
         m_hasWinch = true;
         m_configuration->winch = WinchKind::Ideal;
         m_configuration->winchHardware.clear();
+        m_configuration->canOpenHardware.clear();
         m_configuration->simulatedWinch.clear();
         m_configuration->options.machine = WinchDriveParameters();
     }
@@ -245,7 +248,7 @@ QString take(PlantReader *reader, const QString &fileName, const QByteArray &con
 QString takeWords(const PlantWords &words, PlantConfiguration *configuration)
 {
     if (!words.winch.isEmpty() && !setWinch(configuration, {}, kindKey, words.winch).isEmpty())
-        return QStringLiteral("--winch %1: use ideal, machine or drive").arg(words.winch);
+        return QStringLiteral("--winch %1: use ideal, machine, drive or canopen").arg(words.winch);
     if (!words.mode.isEmpty() && !configuration->kite.setMode(words.mode))
         return QStringLiteral("--mode %1: use pumping or drag").arg(words.mode);
     return {};
@@ -295,7 +298,8 @@ QString contradiction(const PlantReader &reader, const QString &fileName, const 
         return needless(reader, fileName, section, keys, reason);
     };
     QStringList machineKeys = reader.keysOf(winchSection);
-    for (const QString &key : {kindKey, QStringLiteral("hardware"), QStringLiteral("simulated")})
+    for (const QString &key :
+         {kindKey, QStringLiteral("hardware"), QStringLiteral("canOpenHardware"), QStringLiteral("simulated")})
         machineKeys.removeAll(key);
     QString error;
     if (configuration.winch != WinchKind::Machine && words.winch.isEmpty())
@@ -399,7 +403,7 @@ bool PlantConfiguration::read(const QString &plant, PlantConfiguration *configur
 
 const char *winchSpeedSignal(WinchKind kind)
 {
-    return kind == WinchKind::Drive ? "winchSpeed" : "tetherSpeed";
+    return isDrive(kind) ? "winchSpeed" : "tetherSpeed";
 }
 
 }  // namespace awe

@@ -12,8 +12,15 @@ namespace awe {
 enum class WinchKind {
     Ideal,    ///< does what the autopilot wants, at once: a part of the model
     Machine,  ///< an electrical machine that has to follow what the autopilot wants: a part of the model
-    Drive     ///< hardware behind the node Winch, which tells what it really does
+    Drive,    ///< hardware behind the node Winch, which tells what it really does
+    CanOpen   ///< likewise, a servo drive on a CANopen bus
 };
+
+/// Whether the winch is hardware, and tells what it does.
+constexpr bool isDrive(WinchKind kind)
+{
+    return kind == WinchKind::Drive || kind == WinchKind::CanOpen;
+}
 
 /// What the autopilot does with turbines on board: section [turbines].
 struct TurbineSettings
@@ -34,8 +41,9 @@ struct PlantWords
 struct PlantConfiguration
 {
     WinchKind winch = WinchKind::Ideal;
-    QString winchHardware;   // configuration of the node Winch
-    QString simulatedWinch;  // CAN bus of the simulated drive; empty: the drive is a real one
+    QString winchHardware;    // configuration of the node Winch for WinchKind::Drive
+    QString canOpenHardware;  // likewise, for WinchKind::CanOpen
+    QString simulatedWinch;   // CAN bus of the simulated drive; empty: the drive is a real one
     KiteConfiguration kite;
     PlantOptions options;  // sections [wind], [tether], [steering], [mast], and what winch and mode ask for
     TurbineSettings turbines;
@@ -43,7 +51,9 @@ struct PlantConfiguration
 
     PlantConfiguration() { options.mast.azimuth = KiteConfiguration::derived; }
 
-    bool hasDrive() const { return winch == WinchKind::Drive; }
+    bool hasDrive() const { return isDrive(winch); }
+    /// The configuration of the node Winch for the kind of the winch.
+    QString hardware() const { return winch == WinchKind::CanOpen ? canOpenHardware : winchHardware; }
 
     /// The options, with the mast downwind unless the file says where it stands. \param wind
     /// decides where downwind is

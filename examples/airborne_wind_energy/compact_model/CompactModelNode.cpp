@@ -10,7 +10,7 @@ CompactModelNode::CompactModelNode(const KiteSimulation &simulation, WinchKind w
     , m_simulation(simulation)
     , m_tetherSpeed(this, winchSpeedSignal(winch))
 {
-    if (winch == WinchKind::Drive)
+    if (isDrive(winch))
         m_winchLoad.emplace(this, "winchLoad");
     addOptions();
 }

@@ -72,7 +72,7 @@ QPlcSignalIndexList ModelNode::declareOutputSignals()
     m_averagePower = outputs.insert(QStringLiteral("averagePower"));
     m_energy = outputs.insert(QStringLiteral("energy"));
     m_crashed = outputs.insert(QStringLiteral("crashed"));
-    if (m_winch == WinchKind::Drive)
+    if (isDrive(m_winch))
         m_winchLoad = outputs.insert(QStringLiteral("winchLoad"));
     m_optionIndices.clear();
     for (const OptionSignal &signal : m_optionSignals)
@@ -132,7 +132,7 @@ QPlcSignalList ModelNode::collect(const PlantOutputs &outputs) const
     list.insert(m_averagePower, outputs.averagePower);
     list.insert(m_energy, outputs.energy);
     list.insert(m_crashed, outputs.crashed);
-    if (m_winch == WinchKind::Drive)
+    if (isDrive(m_winch))
         list.insert(m_winchLoad, outputs.groundTension);
     for (std::size_t i = 0; i < m_optionSignals.size(); ++i)
         list.insert(m_optionIndices[i], valueOf(m_optionSignals[i], m_simulation.details()));

@@ -99,10 +99,12 @@ bool readPlant(QPlcCoreApplication &application, Settings *settings)
     }
     if (run.clock.isLockstep())
         run.clock = QPlcClock::realTime();
-    if (!QFile::exists(run.plant.winchHardware)) {
+    if (!QFile::exists(run.plant.hardware())) {
         application.usageError(QStringLiteral("the plant has a winch drive, and its configuration '%1' is not there: "
-                                              "name it by 'hardware' in the file of --plant")
-                                   .arg(run.plant.winchHardware));
+                                              "name it by '%2' in the file of --plant")
+                                   .arg(run.plant.hardware(),
+                                        run.plant.winch == awe::WinchKind::CanOpen ? QStringLiteral("canOpenHardware")
+                                                                                   : QStringLiteral("hardware")));
         return false;
     }
     settings->processes = true;
@@ -198,12 +200,14 @@ int conclude(QJsonObject report, const Settings &settings, int exitCode)
 /// What the programs are told of the winch drive.
 void addWinch(QPlcCoreApplication &application, const awe::RunSettings &run, awe::ProcessArguments *arguments)
 {
-    arguments->hardware = run.plant.winchHardware;
+    arguments->hardware = run.plant.hardware();
     if (!application.isSet(QStringLiteral("scale")) && !application.isSet(QStringLiteral("real-time")))
         arguments->master << QStringLiteral("--real-time");
     if (run.plant.simulatedWinch.isEmpty())
         return;
     arguments->winch << QStringLiteral("--bus=%1").arg(run.plant.simulatedWinch);
+    if (run.plant.winch == awe::WinchKind::CanOpen)
+        arguments->winch << QStringLiteral("--canopen");
     if (application.isSet(QStringLiteral("scale")))
         arguments->winch << QStringLiteral("--scale=%1").arg(application.value(QStringLiteral("scale")));
 }
@@ -314,7 +318,8 @@ int main(int argc, char **argv)
                              QStringLiteral("awe_sil --plant drag --duration 1860"),
                              QStringLiteral("awe_sil --plant mast --duration 600"),
                              QStringLiteral("awe_sil --plant reel-in.ini --controls 0,0,-4 --duration 25"),
-                             QStringLiteral("awe_sil --winch drive --duration 120 --report flight.json")});
+                             QStringLiteral("awe_sil --winch drive --duration 120 --report flight.json"),
+                             QStringLiteral("awe_sil --winch canopen --duration 120")});
     addOptions(application);
     Settings settings;
     if (!application.parseOptions() || !readOptions(application, &settings))

@@ -19,6 +19,7 @@ class tst_PlantConfiguration : public QObject
 private Q_SLOTS:
     void withoutAFileTheWinchIsIdeal();
     void winchKindSelectsTheDrive();
+    void oneWordSelectsADriveOnCanOpen();
     void builtInFileDescribesTheKiteOfTheThesis();
     void everyKeyAcceptsExactlyItsDocumentedRange();
     void kiteStartsInTheConfiguredState();
@@ -74,6 +75,25 @@ void tst_PlantConfiguration::winchKindSelectsTheDrive()
     QVERIFY(plant.hasDrive());
     QCOMPARE(winchSpeedSignal(plant.winch), "winchSpeed");
     QCOMPARE(plant.winchHardware, m_folder.filePath(QStringLiteral("winch.ini")));
+}
+
+void tst_PlantConfiguration::oneWordSelectsADriveOnCanOpen()
+{
+    PlantConfiguration plant;
+    QString error;
+    QVERIFY2(PlantConfiguration::read(PlantConfiguration::builtInFile(), &plant, &error, {"canopen", {}}),
+             qPrintable(error));
+    QVERIFY(plant.hasDrive());
+    QCOMPARE(winchSpeedSignal(plant.winch), "winchSpeed");
+    QVERIFY(plant.hardware().endsWith(QLatin1String("/winch-canopen.ini")));
+    QVERIFY(QFile::exists(plant.hardware()));
+    QVERIFY(plant.simulatedWinch.startsWith(QLatin1String("fake:")));
+
+    PlantConfiguration ofFile;
+    QVERIFY2(PlantConfiguration::read(write("[winch]\nkind = canopen\ncanOpenHardware = servo.ini\n"), &ofFile, &error),
+             qPrintable(error));
+    QCOMPARE(ofFile.hardware(), m_folder.filePath(QStringLiteral("servo.ini")));
+    QVERIFY(ofFile.simulatedWinch.isEmpty());
 }
 
 /// One line of the built-in file that shows a key of a section:
@@ -368,7 +388,7 @@ void tst_PlantConfiguration::wordsOfTheCommandLineAreStronger()
     QVERIFY2(read(QStringLiteral("ideal"), QStringLiteral("drag")), qPrintable(error));
     QVERIFY(plant.options.hasTurbines && !plant.options.hasMachine);
     QVERIFY(!read(QStringLiteral("steam"), {}));
-    QCOMPARE(error, QStringLiteral("--winch steam: use ideal, machine or drive"));
+    QCOMPARE(error, QStringLiteral("--winch steam: use ideal, machine, drive or canopen"));
     QVERIFY(!read({}, QStringLiteral("fast")));
     QCOMPARE(error, QStringLiteral("--mode fast: use pumping or drag"));
 }
@@ -450,7 +470,7 @@ void tst_PlantConfiguration::badLineIsNamedWithItsRemedy_data()
     const auto add = [](const char *name, const char *text, const char *expected) {
         QTest::newRow(name) << QByteArray(text) << QString::fromUtf8(expected);
     };
-    add("kind", "[winch]\nkind = steam\n", "plant.ini:2: kind = steam: use ideal, machine or drive");
+    add("kind", "[winch]\nkind = steam\n", "plant.ini:2: kind = steam: use ideal, machine, drive or canopen");
     add("key of the winch", "[winch]\n; a comment\nkin = drive\n",
         "plant.ini:3: 'kin' is not a key of [winch]; did you mean 'kind'?");
     add("other key of the winch", "[winch]\nropes = 2\n",

@@ -147,7 +147,7 @@ void tst_ProgramOptions::badOptionsAreRefusedWithOneSentence_data()
         row(program, qPrintable(QStringLiteral("--plant ") + plant),
             qPrintable(plant + QStringLiteral(":2: mass = 0: use a number from 0.001 to 1e+06 kg")));
         row(program, "--plant real", "choose another file, or one of drag, mast, realistic, thesis");
-        row(program, "--winch steam", "--winch steam: use ideal, machine or drive");
+        row(program, "--winch steam", "--winch steam: use ideal, machine, drive or canopen");
         row(program, "--plant realistic --mode drag", "kind = machine and mode drag exclude each other");
     }
     for (const char *program : {"awe_autopilot", "awe_sil"}) {

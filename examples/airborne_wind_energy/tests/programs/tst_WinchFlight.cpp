@@ -75,6 +75,7 @@ private Q_SLOTS:
     void emergencyStopStopsDriveAndFlight();
     void killedNodeHoldsThenEntersSafeStateThenRecovers();
     void lostDriveCanReconnect();
+    void oneOptionFliesWithADriveOnCanOpen();
     void aDriveOnCanOpenFollowsStopsQuicklyAndFollowsAgain();
 
 private:
@@ -275,6 +276,16 @@ void tst_WinchFlight::lostDriveCanReconnect()
     QVERIFY(witness.sees(Witness::DriveFollowsAgain));
     sil.sendSignal(SIGTERM);
     QCOMPARE(sil.waitForEnd(), 0);
+}
+
+void tst_WinchFlight::oneOptionFliesWithADriveOnCanOpen()
+{
+    const Outcome outcome
+        = runProgram(path("awe_sil"), {"--winch", "canopen", "--duration=3", "--report", reportFile()});
+    QVERIFY2(outcome.exitCode == 0, qPrintable(outcome.errors));
+    const QJsonObject winch = report().value(QStringLiteral("winch")).toObject();
+    QVERIFY2(winch[QStringLiteral("mechanical_energy_J")].toDouble() > 0.0, qPrintable(outcome.output));
+    QVERIFY(winch[QStringLiteral("max_current_A")].toDouble() > 0.0);
 }
 
 void tst_WinchFlight::aDriveOnCanOpenFollowsStopsQuicklyAndFollowsAgain()
