@@ -131,6 +131,13 @@ protected:
     /// returns when it has. A driver of a bus that confirms frames later calls this in open(), with
     /// false, and in each read() or write(). QPlcHardwareNode::makeSafe() waits for it.
     void setDelivered(bool isDelivered) { m_isDelivered.store(isDelivered, std::memory_order_relaxed); }
+    /// Returns why the device has not taken the values of write(), and what to do; after
+    /// setDelivered(false). For the report of QPlcHardwareNode::makeSafe(), in the thread of the
+    /// driver. The default says that the device has not confirmed them.
+    virtual QString undeliveredText() const;
+    /// Tells in configure() that outputs of other devices need this one, for example because it
+    /// sends the clock of their bus: QPlcHardwareNode::makeSafe() opens it, too.
+    void setServesOthers() { m_servesOthers = true; }
 
     /// Notes that something has happened at the device, for the event log of the plant. It neither
     /// waits nor allocates: call it in open(), read() or write(), also in the cycle. The node calls
@@ -175,6 +182,7 @@ private:
     const std::unique_ptr<qplc::NotedEvents> m_events;
     qint64 m_now = 0;  // [ns]
     std::atomic<bool> m_isDelivered{true};
+    bool m_servesOthers = false;
     QString m_errorText;
     const char *m_operation = nullptr;  // that failed in a cycle; null: m_errorText says it
     int m_errorNumber = 0;

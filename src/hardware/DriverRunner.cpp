@@ -370,13 +370,14 @@ void DriverRunner::publish()
 
 // ---- the thread of the driver ----
 
-void DriverRunner::start(Report report, EventReport eventReport)
+void DriverRunner::start(Report report, EventReport eventReport, Report deliveryReport)
 {
     if (m_thread.joinable())
         return;
     prepare();
     m_report = std::move(report);
     m_eventReport = std::move(eventReport);
+    m_deliveryReport = std::move(deliveryReport);
     m_stop = false;
     m_thread = std::thread([this] { run(); });
 }
@@ -405,6 +406,7 @@ void DriverRunner::run()
                 next = monotonicNow();
                 tell({});
                 tellEvents();
+                tellDelivery();
             } else {
                 tell(m_driver->errorString());
                 waitFor(backOff.next(QRandomGenerator::global()->generateDouble()));
@@ -413,6 +415,7 @@ void DriverRunner::run()
         case Open:
             if (exchange()) {
                 tellEvents();
+                tellDelivery();
                 next = std::max<qint64>(next + m_driver->m_interval.count(), monotonicNow());
                 waitFor(std::chrono::nanoseconds(next - monotonicNow()));
             }
@@ -482,6 +485,17 @@ void DriverRunner::tellEvents()
         if (m_eventReport)
             m_eventReport(*event);
     }
+}
+
+void DriverRunner::tellDelivery()
+{
+    if (!m_deliveryReport)
+        return;
+    const bool isDelivered = m_driver->m_isDelivered.load(std::memory_order_relaxed);
+    const QString problem = isDelivered ? QString() : m_driver->undeliveredText();
+    if (problem != m_toldDelivery)
+        m_deliveryReport(problem);
+    m_toldDelivery = problem;
 }
 
 void DriverRunner::waitFor(std::chrono::nanoseconds time)

@@ -61,12 +61,14 @@ public:
 
     /// The wires are known: values can be set. start() and openNow() do it, too.
     void prepare();
-    /// Begins to open the device. \param report  what it needs outlives stop(), as that of \a
-    /// eventReport
-    void start(Report report, EventReport eventReport = {});
+    /// Begins to open the device. What the reports need outlives stop().
+    /// \param deliveryReport  gets the reason when the device has not taken its values, and an
+    /// empty text when it has
+    void start(Report report, EventReport eventReport = {}, Report deliveryReport = {});
     /// Gives the device its safe values and lets it go.
     void stop();
-    bool hasOutputs() const { return !m_writeChannels.empty(); }
+    /// Whether it can bring something into a safe state, or others need it for that.
+    bool isNeededForSafety() const { return !m_writeChannels.empty() || m_driver->m_servesOthers; }
     /// Outputs that nobody has given a value.
     QStringList unsetOutputs() const;
     bool isOnline() const { return m_state.load(std::memory_order_acquire) >= Open; }
@@ -130,6 +132,7 @@ private:
     void setPriority();
     void tell(const QString &error);
     void tellEvents();
+    void tellDelivery();
     void waitFor(std::chrono::nanoseconds time);
     void wake() noexcept;
     void wakeForEvents() noexcept;
@@ -161,12 +164,14 @@ private:
 
     Report m_report;
     EventReport m_eventReport;
+    Report m_deliveryReport;
     std::atomic<State> m_state{Closed};
     std::atomic<quint64> m_failures{0};
     std::atomic<bool> m_stop{false};
     int m_priority = 0;  // of the thread: SCHED_FIFO; 0: ordinary
     int m_wakeUp = -1;   // eventfd
     QString m_told;      // last error
+    QString m_toldDelivery;
     std::thread m_thread;
 };
 

@@ -50,6 +50,11 @@ QPlcDeviceEvent QPlcDriver::describeEvent(quint64 data) const
     return event;
 }
 
+QString QPlcDriver::undeliveredText() const
+{
+    return QStringLiteral("it does not confirm them; check its power and wires");
+}
+
 // ---- errors ----
 
 QString QPlcDriver::errorString() const

@@ -269,7 +269,8 @@ struct QPlcHardwareNode::Private
         give(safeValues, true);
     }
 
-    void open(DriverRunner *runner)
+    /// \param isWatched  whether it is told which values a device has not taken
+    void open(DriverRunner *runner, bool isWatched = false)
     {
         QPlcHardwareNode *node = q;
         const auto report = [node, name = runner->name()](const QString &error) {
@@ -280,7 +281,11 @@ struct QPlcHardwareNode::Private
             QMetaObject::invokeMethod(
                 node, [node, event] { node->tellEvent(event); }, Qt::QueuedConnection);
         };
-        runner->start(report, reportEvent);
+        const auto reportDelivery = [this, node, name = runner->name()](const QString &problem) {
+            QMetaObject::invokeMethod(
+                node, [this, name, problem] { undelivered.insert(name, problem); }, Qt::QueuedConnection);
+        };
+        runner->start(report, reportEvent, isWatched ? DriverRunner::Report(reportDelivery) : DriverRunner::Report());
     }
 
     static void give(const std::vector<GivenValue> &values, bool isSafe) noexcept
@@ -311,8 +316,9 @@ struct QPlcHardwareNode::Private
     std::vector<std::unique_ptr<ChannelPort>> ports;  // destroyed before the runners
     std::vector<SafeStop> safeStops;
     std::vector<GivenValue> safeValues;
-    std::vector<GivenValue> constants;  // while the node computes
-    QMap<QString, QString> failures;    // of drivers that are not online
+    std::vector<GivenValue> constants;   // while the node computes
+    QMap<QString, QString> failures;     // of drivers that are not online
+    QMap<QString, QString> undelivered;  // why the device of a driver has not taken its values, of makeSafe()
     bool isOpen = false;
     bool isSafe = false;  // until the next initialization
 };
@@ -409,11 +415,11 @@ QStringList QPlcHardwareNode::makeSafe(std::chrono::milliseconds timeout)
     m_hardware->isOpen = true;
     std::vector<DriverRunner *> runners;
     for (const std::unique_ptr<DriverRunner> &runner : m_hardware->runners) {
-        if (runner->hasOutputs())
+        if (runner->isNeededForSafety())
             runners.push_back(runner.get());
     }
     for (DriverRunner *runner : runners)
-        m_hardware->open(runner);
+        m_hardware->open(runner, true);
     const auto isMissing = [](const DriverRunner *runner) { return !runner->isDelivered(); };
     const qint64 end = qplc::monotonicNow() + std::chrono::nanoseconds(timeout).count();
     while (std::any_of(runners.begin(), runners.end(), isMissing) && qplc::monotonicNow() < end)
@@ -422,10 +428,9 @@ QStringList QPlcHardwareNode::makeSafe(std::chrono::milliseconds timeout)
     QStringList problems;
     for (const DriverRunner *runner : runners) {
         if (runner->isOnline() && isMissing(runner))
-            problems << QStringLiteral(
-                            "device '%1' has not taken its safe values: nobody on its bus acknowledges them; "
-                            "switch the device on, check wires, terminators and bit rate")
-                            .arg(runner->name());
+            problems << QStringLiteral("device '%1' has not taken its safe values: %2")
+                            .arg(runner->name(),
+                                 m_hardware->undelivered.value(runner->name(), QStringLiteral("no answer yet")));
         else if (isMissing(runner))
             problems << QStringLiteral("device '%1' was not reached: %2")
                             .arg(runner->name(),

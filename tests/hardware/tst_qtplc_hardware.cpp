@@ -18,6 +18,8 @@ private Q_SLOTS:
     void watchdogIsActiveUnlessDisabled_data();
     void watchdogIsActiveUnlessDisabled();
     void safeNamesWhatItCannotReachAndEnds();
+    void safeWaitsForTheAnswerOfDrives();
+    void safeSendsTheSyncThatDrivesWaitFor();
     void checkShowsWarnings();
     void invalidConfigurationEndsWithExitCodeTwo_data();
     void invalidConfigurationEndsWithExitCodeTwo();
@@ -118,6 +120,64 @@ void tst_qtplc_hardware::safeNamesWhatItCannotReachAndEnds()
     for (const char *told : {"'drive' was not", "'drive' has not", "'wheel' was not", "'wheel' has not"})
         QVERIFY2(!safe.errors.contains(QLatin1String(told)), qPrintable(safe.errors));
     qunsetenv("QTPLC_FAKE_DEVICES");
+}
+
+/// Their program was killed while they turned.
+void tst_qtplc_hardware::safeWaitsForTheAnswerOfDrives()
+{
+    const FakeDevices folder;
+    peer::Bus bus(QStringLiteral("safe"));
+    for (const int node : {5, 6}) {
+        peer::Device &device = bus.addDevice(node);
+        device.makeDrive();
+        device.nmt = peer::Device::Operational;
+        device.drive->state = peer::Drive::Enabled;
+        device.drive->isStubborn = node == 6;
+    }
+    QVERIFY(bus.open());
+    bus.start();
+    QByteArray text("[node]\nname = A\n");
+    for (const char *node : {"5", "6", "7"})
+        text += QByteArray("[drive") + node + "]\ndriver = canopen\ndevice = fake:safe\nprofile = 402\nnode = " + node
+            + "\nsync = " + (*node == '5' ? "every cycle" : "from others") + "\nsdo-timeout = 50 ms\n[drive" + node
+            + ".safe]\nenable = 0\nvelocity = 0\n";
+    QFile file(folder.path("a.ini"));
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    file.write(text);
+    file.close();
+    const Run safe = run({file.fileName(), "--safe"});
+    bus.stop();
+    QCOMPARE(safe.code, 1);
+    QVERIFY2(!safe.errors.contains("drive5"), qPrintable(safe.errors));
+    QVERIFY(bus.devices.at(0)->drive->state != peer::Drive::Enabled);
+    QVERIFY2(safe.errors.contains("device 'drive6' has not taken its safe values: it still tells the state Operation "
+                                  "enabled, in spite of the quick stop"),
+             qPrintable(safe.errors));
+    QVERIFY2(safe.errors.contains("device 'drive7' was not reached: node 7 at fake:safe does not answer"),
+             qPrintable(safe.errors));
+}
+
+/// The section that sends it has no outputs.
+void tst_qtplc_hardware::safeSendsTheSyncThatDrivesWaitFor()
+{
+    const FakeDevices folder;
+    peer::Bus bus(QStringLiteral("sync"));
+    peer::Device &device = bus.addDevice(5);
+    device.makeDrive();
+    device.nmt = peer::Device::Operational;
+    device.drive->state = peer::Drive::Enabled;
+    QVERIFY(bus.open());
+    bus.start();
+    QFile file(folder.path("a.ini"));
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    file.write("[node]\nname = A\n[drive]\ndriver = canopen\ndevice = fake:sync\nnode = 5\nsync = from others\n"
+               "profile = 402\n[drive.safe]\nenable = 0\nvelocity = 0\n"
+               "[clock]\ndriver = canopen\ndevice = fake:sync\nsync = every cycle\n");
+    file.close();
+    const Run safe = run({file.fileName(), "--safe"});
+    bus.stop();
+    QVERIFY2(safe.code == 0, qPrintable(safe.errors));
+    QVERIFY(device.drive->state != peer::Drive::Enabled);
 }
 
 void tst_qtplc_hardware::checkShowsWarnings()

@@ -182,6 +182,12 @@ protected:
         return true;
     }
 
+    QString undeliveredText() const override
+    {
+        return QStringLiteral("nobody on its bus acknowledges them; switch the device on, check wires, terminators and "
+                              "bit rate");
+    }
+
 private:
     struct Entry
     {

@@ -196,6 +196,7 @@ void CanOpenAxisChannels::step(qint64 now) noexcept
     if (now - m_statusTime > m_driver->timeout().count())
         m_feedback.isKnown = false;  // what the drive told is old
     const AxisCommand wanted = command();
+    m_isSafe = wanted.isSafe;
     if (m_places[ModeDisplay].pdo < 0)
         m_feedback.mode = wanted.mode;  // the drive does not tell it
     m_outputs = m_axis.step(wanted, m_feedback);
@@ -206,11 +207,22 @@ void CanOpenAxisChannels::stop() noexcept
     m_outputs = m_axis.step(AxisCommand(), m_feedback);
 }
 
+AxisState CanOpenAxisChannels::state() const noexcept
+{
+    return m_feedback.isKnown ? Cia402Axis::stateOf(m_feedback.statusword) : AxisState::Unknown;
+}
+
+bool CanOpenAxisChannels::hasAnswered(qint64 since) const noexcept
+{
+    const AxisState is = state();
+    return is != AxisState::Unknown && m_statusTime > since && !(m_isSafe && is == AxisState::OperationEnabled);
+}
+
 void CanOpenAxisChannels::show(qint64 now) noexcept
 {
     if (!m_feedback.isKnown)
         return;
-    const AxisState state = Cia402Axis::stateOf(m_feedback.statusword);
+    const AxisState state = this->state();
     const std::array<double, std::size(shownNames)> values{
         double(quint8(state)),
         state == AxisState::OperationEnabled ? 1.0 : 0.0,

@@ -49,6 +49,11 @@ public:
     const AxisOutputs *outputs() const noexcept { return hasCommand() ? &m_outputs : nullptr; }
     /// Gives values to the read channels.
     void show(qint64 now) noexcept;
+    bool isAxis() const noexcept { return m_isAxis; }
+    /// Whether the drive has told a state after \a since [ns], in which it does what was commanded:
+    /// in the safe state one without operation.
+    bool hasAnswered(qint64 since) const noexcept;
+    AxisState state() const noexcept;
 
 private:
     /// Channels that are written, in the order of their names.
@@ -78,6 +83,7 @@ private:
     Cia402Axis m_axis;
     AxisFeedback m_feedback;
     AxisOutputs m_outputs;
+    bool m_isSafe = true;     // the last command
     qint64 m_statusTime = 0;  // [ns]
     Place m_places[FeedbackCount];
     std::unique_ptr<QPlcWriteChannel> m_orders[OrderCount];

@@ -214,6 +214,8 @@ bool CanOpenClient::configure(const CanOpenConfiguration &plan)
 {
     if (!checkIdentity(plan.identity))
         return false;
+    if (plan.isAxis)
+        stopDrive();
     for (const CanOpenSetting &setting : plan.startValues) {
         if (!write(setting.address, setting.value))
             return false;
@@ -228,6 +230,14 @@ bool CanOpenClient::configure(const CanOpenConfiguration &plan)
     if (needsMode && !writeNumber({0x6060, 0}, quint8(plan.mode), 1))
         return false;
     return configureHeartbeats(plan);
+}
+
+// A drive that another program has left running brakes before it is configured, also if it refuses
+// the configuration.
+void CanOpenClient::stopDrive()
+{
+    constexpr quint16 quickStop = 0x0002;  // of the controlword
+    writeNumber({0x6040, 0}, quickStop, 2);
 }
 
 bool CanOpenClient::checkIdentity(const CanOpenIdentity &identity)

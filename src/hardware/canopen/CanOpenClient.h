@@ -50,6 +50,7 @@ public:
     quint32 abortCode() const { return m_abortCode; }
 
 private:
+    void stopDrive();
     bool checkIdentity(const CanOpenIdentity &identity);
     bool checkNumber(const char *what, quint8 sub, quint32 wanted);
     bool configurePdo(const Pdo &pdo);

@@ -9,6 +9,7 @@
 #include "hardware/can/CanBusDriver.h"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 
 namespace qplc {
@@ -70,6 +71,8 @@ protected:
     {
         m_plan.read(settings);
         makeBus(m_plan.device, settings);
+        if (m_plan.node == 0 || m_plan.sync == SyncSource::EveryCycle)
+            setServesOthers();  // they wait for its SYNC
         m_pdos.setPlan(m_plan);
         m_axis.setPlan(m_plan);
         const QByteArray title = QStringLiteral("node %1 at %2").arg(m_plan.node).arg(m_plan.device).toLocal8Bit();
@@ -104,7 +107,10 @@ protected:
             bus().close();
             return false;
         }
+        setDelivered(false);
         m_nextHeartbeat = 0;
+        m_sentCount = 0;
+        m_syncAt = m_heardAt = 0;
         m_pdos.begin();
         m_axis.begin();
         return true;
@@ -131,7 +137,31 @@ protected:
     {
         if (!takeFrames())  // what came since the last SYNC belongs to it
             return false;
-        return send(m_outgoing.data(), collect());
+        setDelivered(isAnswered());
+        const int count = collect();
+        int sent = 0;
+        if (!send(m_outgoing.data(), count, &sent))
+            return false;
+        noteSent(sent == count);
+        return true;
+    }
+
+    QString undeliveredText() const override
+    {
+        if (m_plan.node == 0)
+            return QStringLiteral("the bus does not take its SYNC; check wires, terminators and bit rate");
+        if (m_sentCount == 0)
+            return QStringLiteral("it is sent nothing before each object that is written in a PDO has a value, and "
+                                  "while the bus takes no frames; give each of them a safe value");
+        if (m_pdos.waitsForSync() && m_syncAt < m_sentAt)
+            return QStringLiteral("no SYNC came after them, and its PDOs wait for one; start the device or section "
+                                  "that sends it");
+        if (m_axis.isAxis() && m_axis.state() != AxisState::Unknown)
+            return QStringLiteral(
+                       "it still tells the state %1, in spite of the quick stop; use the emergency stop, and "
+                       "look at its local control and its quick stop option code (605Ah)")
+                .arg(Cia402Axis::stateText(m_axis.state()));
+        return QStringLiteral("it has told nothing since they were sent; check its TPDOs, its power and the bus");
     }
 
     QString remedy(int errorNumber) const override
@@ -249,6 +279,32 @@ private:
 
     // ---- in the cycle ----
 
+    /// Whether the device has told something since it got the present values: it lives, and as a
+    /// drive it does what was commanded.
+    bool isAnswered() const noexcept
+    {
+        if (m_plan.node == 0)
+            return m_hasSentAll;
+        const bool isTaken = m_sentCount > 0 && (!m_pdos.waitsForSync() || m_syncAt >= m_sentAt);
+        return isTaken && (m_axis.isAxis() ? m_axis.hasAnswered(m_sentAt) : m_heardAt > m_sentAt);
+    }
+
+    /// The frames of collect() have gone out. \param all  the bus has taken each of them
+    void noteSent(bool all) noexcept
+    {
+        const auto isSame
+            = [](const CanFrame &one, const CanFrame &other) { return one.id == other.id && one.data == other.data; };
+        const auto end = m_outgoing.begin() + m_pdoCount;
+        m_hasSentAll = all;
+        if (!all || m_pdoCount != m_sentCount || !std::equal(m_outgoing.begin(), end, m_sent.begin(), isSame)) {
+            std::copy(m_outgoing.begin(), end, m_sent.begin());
+            m_sentCount = all ? m_pdoCount : 0;
+            m_sentAt = now();
+        }
+        if (all && m_plan.sync == SyncSource::EveryCycle)
+            m_syncAt = now();
+    }
+
     bool takeFrames() noexcept
     {
         return receive([this](const CanFrame &frame) { deliver(frame); });
@@ -261,12 +317,15 @@ private:
         const qint64 time = timeOf(frame);
         if (frame.id == CanOpenIds::Sync) {
             m_pdos.noteSync();
+            m_syncAt = time;
             return;
         }
-        if (takeReport(frame))
-            return;
-        if (const auto *pdo = m_pdos.take(frame, time))
+        if (takeReport(frame)) {
+            m_heardAt = time;
+        } else if (const auto *pdo = m_pdos.take(frame, time)) {
+            m_heardAt = time;
             m_axis.take(*pdo, frame, time);
+        }
     }
 
     /// The frames of this cycle: values, heartbeat, and SYNC as the last one. \return their number
@@ -274,6 +333,7 @@ private:
     {
         m_axis.step(now());
         int count = m_plan.node > 0 ? m_pdos.collect(m_axis.outputs(), m_outgoing.data()) : 0;
+        m_pdoCount = count;
         if (m_plan.node > 0 && m_plan.master > 0 && now() >= m_nextHeartbeat) {
             const qint64 period = std::chrono::nanoseconds(m_plan.heartbeat).count();
             const qint64 next = m_nextHeartbeat + period;
@@ -325,6 +385,13 @@ private:
     QByteArray m_lossText;  // for errors
     QByteArray m_stateText;
     std::array<CanFrame, 2 * Pdo::MaximumNumber + 3> m_outgoing;
+    int m_pdoCount = 0;                                   // of the device, at its begin
+    std::array<CanFrame, 2 * Pdo::MaximumNumber> m_sent;  // PDOs, as the device has them
+    int m_sentCount = 0;
+    bool m_hasSentAll = false;
+    qint64 m_sentAt = 0;         // the first time with these values [ns]
+    qint64 m_syncAt = 0;         // the last SYNC [ns]
+    qint64 m_heardAt = 0;        // the last frame of the device [ns]
     qint64 m_nextHeartbeat = 0;  // of the master [ns]
     quint64 m_heartbeatLost = 0;
 };

@@ -3,6 +3,8 @@
 
 #include "QPlcDriver.h"
 
+#include <algorithm>
+
 namespace qplc {
 
 void CanOpenPdos::setPlan(const CanOpenConfiguration &plan)
@@ -158,6 +160,12 @@ std::optional<double> CanOpenPdos::targetOf(const AxisOutputs &axis, quint16 ind
     default:
         return std::nullopt;
     }
+}
+
+bool CanOpenPdos::waitsForSync() const noexcept
+{
+    return std::any_of(m_outputs.begin(), m_outputs.end(),
+                       [](const Output &output) { return output.pdo.isSynchronous(); });
 }
 
 void CanOpenPdos::noteSync() noexcept

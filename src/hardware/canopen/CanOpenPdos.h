@@ -43,6 +43,8 @@ public:
     /// or missed.
     void noteSync() noexcept;
 
+    /// Whether the device takes values at a SYNC.
+    bool waitsForSync() const noexcept;
     /// Synchronous PDOs of the device that did not come between two SYNCs.
     quint64 missed() const { return m_missed; }
     /// Values that did not fit into their object.

@@ -154,6 +154,7 @@ private:
         }
         for (Entry &entry : m_entries)
             entry.written.clear();
+        setDelivered(false);
         return m_link->open() || fail(QStringLiteral("%1: %2").arg(m_device, m_link->errorText()));
     }
 
@@ -177,9 +178,32 @@ private:
         for (auto &[number, unit] : m_units)
             unit.isAsked = unit.hasFailed = unit.hasRefused = false;
         collectWrites();
-        const std::vector<ModbusBlock> blocks = planToWrite(m_places);
-        return std::all_of(blocks.begin(), blocks.end(),
-                           [this](const ModbusBlock &block) { return writeBlock(block); });
+        std::vector<ModbusBlock> later;
+        for (const ModbusBlock &block : planToWrite(m_places)) {
+            if (!writeBlock(block, &later))
+                return false;
+        }
+        for (const ModbusBlock &block : later) {
+            if (!writeBlock(block, nullptr))
+                return false;
+        }
+        setDelivered(findUnwritten() == nullptr);
+        return true;
+    }
+
+    QString undeliveredText() const override
+    {
+        QStringList texts;
+        for (const auto &[number, unit] : m_units) {
+            const Entry *entry = findUnwritten(number);
+            if (entry && unit.fault.isEmpty())
+                texts << QStringLiteral("unit %1 has no value for '%2'; give it a finite safe value")
+                             .arg(number)
+                             .arg(entry->name);
+            else if (entry)
+                texts << unit.fault;
+        }
+        return texts.join(QStringLiteral("; "));
     }
 
     void configureRegisters(QPlcDriverSettings &settings)
@@ -285,7 +309,8 @@ private:
         Unit &unit = m_units[block.request.unit];
         if (!isToBeAsked(unit))
             return true;
-        if (!ask(&unit, [&] { return m_link->read(block.request, m_buffer.data()); })) {
+        if (!ask(&unit, unit.health.attempts(m_retries),
+                 [&] { return m_link->read(block.request, m_buffer.data()); })) {
             QStringList names;
             for (std::size_t member : block.members)
                 names << m_entries[m_toRead[member]].name;
@@ -322,18 +347,32 @@ private:
         }
     }
 
-    bool writeBlock(const ModbusBlock &block)
+    /// \param later  gets the block if its unit has never answered and is silent: the others come
+    /// first, and it is asked again after them. Null: that is now
+    bool writeBlock(const ModbusBlock &block, std::vector<ModbusBlock> *later)
     {
         Unit &unit = m_units[block.request.unit];
         if (!isToBeAsked(unit))
             return true;
+        const bool mayWait = later && m_units.size() > 1 && !unit.health.hasAnswered() && m_retries > 0;
+        const auto isOfUnit = [&block](const ModbusBlock &one) { return one.request.unit == block.request.unit; };
+        if (mayWait && std::any_of(later->begin(), later->end(), isOfUnit)) {
+            later->push_back(block);
+            return true;
+        }
         ModbusRequest request = block.request;
         request.isSingle = m_isSingleAllowed && request.count == 1;
         for (std::size_t member : block.members) {
             const auto place = m_buffer.begin() + (m_places[member].address - request.first);
             std::copy(m_words[member].begin(), m_words[member].end(), place);
         }
-        if (!ask(&unit, [&] { return m_link->write(request, m_buffer.data()); })) {
+        const auto write = [&] { return m_link->write(request, m_buffer.data()); };
+        const int attempts = mayWait ? 1 : later ? unit.health.attempts(m_retries) : m_retries;
+        if (!ask(&unit, attempts, write)) {
+            if (mayWait && m_link->isAnswerBad()) {
+                later->push_back(block);
+                return true;
+            }
             QStringList names;
             for (std::size_t member : block.members)
                 names << m_entries[m_toWrite[member]].name;
@@ -344,15 +383,32 @@ private:
         return true;
     }
 
+    /// A value that its unit has not confirmed as it is now; null: there is none. \param number
+    /// of the unit; -1: any
+    const Entry *findUnwritten(int number = -1) const
+    {
+        const auto isUnwritten = [&](const Entry &entry) {
+            if (!entry.writing || !entry.writing->isWired() || (number >= 0 && entry.place.unit != number))
+                return false;
+            if (!entry.writing->hasValue() || !std::isfinite(entry.writing->value()))
+                return true;
+            std::vector<quint16> words(std::size_t(entry.place.size()));
+            entry.place.encode(entry.writing->value(), words.data());
+            return words != entry.written || m_units.at(entry.place.unit).hasFailed;
+        };
+        const auto found = std::find_if(m_entries.begin(), m_entries.end(), isUnwritten);
+        return found == m_entries.end() ? nullptr : &*found;
+    }
+
     // ---- units that fail ----
 
     bool isToBeAsked(const Unit &unit) const { return !unit.hasFailed && unit.health.isDue(now()); }
 
     template<typename Request>
-    bool ask(Unit *unit, Request request)
+    bool ask(Unit *unit, int attempts, Request request)
     {
         unit->isAsked = true;
-        for (int left = unit->health.attempts(m_retries); left > 0; --left) {
+        for (int left = attempts; left > 0; --left) {
             if (request())
                 return true;
             unit->health.countError();

@@ -8,6 +8,7 @@
 #include <QtCore/QTimer>
 
 #include <chrono>
+#include <csignal>
 #include <unistd.h>
 
 namespace {
@@ -107,10 +108,20 @@ int monitor(QPlcNodeApplication &application, QPlcHardwareNode &node)
     return code;
 }
 
+/// A device hangs. What is not safe was told before.
+void endNow(int)
+{
+    constexpr char text[] = "a device hangs: ended without closing it\n";
+    const ssize_t written = ::write(STDERR_FILENO, text, sizeof text - 1);
+    Q_UNUSED(written)
+    ::_exit(NotSafe);
+}
+
 /// After the node has died: writes the safe values, and ends in any case.
 int makeSafe(QPlcHardwareNode &node)
 {
     constexpr unsigned longest = 4;  // [s] also if a device hangs; below TimeoutStopSec of the service
+    std::signal(SIGALRM, endNow);
     ::alarm(longest);
     const QStringList problems = node.makeSafe(std::chrono::seconds(2));
     for (const QString &problem : problems)

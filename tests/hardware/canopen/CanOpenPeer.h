@@ -296,13 +296,14 @@ public:
     int quickStopOption = 2;
     qint8 modeDisplay = 0;
     bool isHomed = false;
+    bool isStubborn = false;  // it does not do what it is told
 
 private:
     // The table of commands; a command that the state does not know changes nothing.
     void command(quint16 word)
     {
         const bool isPowered = state == Ready || state == SwitchedOn || state == Enabled || state == QuickStop;
-        if (state == FaultReaction || state == Fault)
+        if (state == FaultReaction || state == Fault || isStubborn)
             return;
         if (!(word & 0x02)) {
             if (isPowered)

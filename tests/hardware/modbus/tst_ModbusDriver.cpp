@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "../DriverBench.h"
+#include "QPlcHardwareNode.h"
 #include "hardware/modbus/FakeModbusDevice.h"
 
 #include <QtTest/QtTest>
@@ -38,6 +39,8 @@ private Q_SLOTS:
     void aBadAnswerIsAskedForAgain();
     void valuesAreHeldAfterBadAnswersUntilTheirTimeout();
     void aSilentUnitLeavesTheOthersAlone();
+    void aSilentUnitIsAskedAgainAfterTheOthers();
+    void aSilentUnitIsNotCalledSafe();
     void aUnitThatRefusesIsLostAlone();
     void aUnitThatIsBackGetsAllValuesAgain();
     void onePercentOfBadAnswersCostsNoValue();
@@ -335,6 +338,45 @@ void tst_ModbusDriver::aSilentUnitLeavesTheOthersAlone()
     QCOMPARE(bench.value("@online.2"), 1.0);
 }
 
+/// Its retries must not keep safe values from others.
+void tst_ModbusDriver::aSilentUnitIsAskedAgainAfterTheOthers()
+{
+    DriverBench bench("modbus", keys("register.a = holding 1, unit 1\nregister.b = holding 2, unit 2\n"));
+    QCOMPARE(bench.wireWrite("a") + bench.wireWrite("b"), QString());
+    bench.set("a", 7.0, true);
+    bench.set("b", 8.0, true);
+    m_device->damageAnswers(1.0, 1);
+    expectLoss();
+    QVERIFY2(bench.open(), qPrintable(bench.errorString()));
+    std::vector<int> units;
+    for (const ModbusRequest &request : m_device->takeWrites())
+        units.push_back(request.unit);
+    QCOMPARE(units, (std::vector<int>{1, 2, 1, 1}));
+    QVERIFY(!bench.runner().isDelivered());
+    m_device->damageAnswers(0.0);
+    bench.advance(200ms);
+    QVERIFY2(bench.exchange(), qPrintable(bench.errorString()));
+    QVERIFY(bench.runner().isDelivered());
+}
+
+void tst_ModbusDriver::aSilentUnitIsNotCalledSafe()
+{
+    QPlcHardwareNode node;
+    QVERIFY(node.configure("[node]\nname = A\n[io]\ndriver = modbus\ndevice = fake:drive\nregister.a = holding 1, unit "
+                           "1\nregister.b = holding 2, unit 2\n[io.safe]\na = 7\nb = 8\n",
+                           "a.ini"));
+    m_device->damageAnswers(1.0, 1);
+    expectLoss();
+    const QStringList problems = node.makeSafe(300ms);
+    QCOMPARE(problems.size(), 1);
+    QVERIFY2(problems.first().startsWith("device 'io' has not taken its safe values: fake:drive: cannot write holding "
+                                         "register 1 (a) of unit 1: the answer is damaged"),
+             qPrintable(problems.first()));
+    QCOMPARE(m_device->values(ModbusRegister::Holding, 2, 1, 2), Words{8});
+    m_device->damageAnswers(0.0);
+    node.closeDevices();
+}
+
 void tst_ModbusDriver::aUnitThatRefusesIsLostAlone()
 {
     DriverBench bench("modbus", keys("register.a = holding 1\nregister.b = holding 7, unit 2\n"));
@@ -468,5 +510,5 @@ void tst_ModbusDriver::invalidKeysAreReported()
     QVERIFY2(bench.errors().contains(error), qPrintable(bench.errors()));
 }
 
-QTEST_APPLESS_MAIN(tst_ModbusDriver)
+QTEST_GUILESS_MAIN(tst_ModbusDriver)
 #include "tst_ModbusDriver.moc"
