@@ -269,11 +269,8 @@ private:
     QPlcChannel *writeChannel(Entry *entry, QString *error)
     {
         if (!entry->place.isWritable()) {
-            *error = entry->place.isOfBits() || entry->place.type != ModbusRegister::Bit
-                ? QStringLiteral("'%1' can only be read: it is of the %2s")
-                      .arg(entry->name, QLatin1String(spaceName(entry->place.space)))
-                : QStringLiteral("'%1' is a bit of a register, which can only be read; write the whole register")
-                      .arg(entry->name);
+            *error = QStringLiteral("'%1' can only be read: it is of the %2s")
+                         .arg(entry->name, QLatin1String(spaceName(entry->place.space)));
             return nullptr;
         }
         for (const Entry &other : m_entries) {
@@ -362,13 +359,11 @@ private:
         }
         ModbusRequest request = block.request;
         request.isSingle = m_isSingleAllowed && request.count == 1;
-        for (std::size_t member : block.members) {
-            const auto place = m_buffer.begin() + (m_places[member].address - request.first);
-            std::copy(m_words[member].begin(), m_words[member].end(), place);
-        }
-        const auto write = [&] { return m_link->write(request, m_buffer.data()); };
         const int attempts = mayWait ? 1 : later ? unit.health.attempts(m_retries) : m_retries;
-        if (!ask(&unit, attempts, write)) {
+        ModbusRequest reading;
+        compose(block);
+        const bool isComplete = keepOtherBits(block, &unit, attempts, &reading);
+        if (!isComplete || !ask(&unit, attempts, [&] { return m_link->write(request, m_buffer.data()); })) {
             if (mayWait && m_link->isAnswerBad()) {
                 later->push_back(block);
                 return true;
@@ -376,10 +371,41 @@ private:
             QStringList names;
             for (std::size_t member : block.members)
                 names << m_entries[m_toWrite[member]].name;
-            return noteFault(&unit, "write", request, names);
+            return isComplete ? noteFault(&unit, "write", request, names) : noteFault(&unit, "read", reading, names);
         }
         for (std::size_t member : block.members)
             m_entries[m_toWrite[member]].written = m_words[member];
+        return true;
+    }
+
+    /// The words of a block into m_buffer, and which of their bits it has into m_masks.
+    void compose(const ModbusBlock &block)
+    {
+        std::fill_n(m_buffer.begin(), block.request.count, quint16(0));
+        m_masks.assign(std::size_t(block.request.count), 0);
+        for (std::size_t member : block.members) {
+            const ModbusRegister &place = m_places[member];
+            for (std::size_t i = 0; i < m_words[member].size(); ++i) {
+                const std::size_t at = std::size_t(place.address - block.request.first) + i;
+                m_buffer[at] = quint16(m_buffer[at] | m_words[member][i]);
+                m_masks[at] = quint16(m_masks[at] | (place.isPart() ? place.mask() : 0xFFFF));
+            }
+        }
+    }
+
+    /// The other bits of registers of which a block has some stay as the device has them now.
+    /// \param reading  the request that failed
+    bool keepOtherBits(const ModbusBlock &block, Unit *unit, int attempts, ModbusRequest *reading)
+    {
+        for (std::size_t i = 0; i < m_masks.size(); ++i) {
+            if (m_masks[i] == 0xFFFF)
+                continue;
+            quint16 word = 0;
+            *reading = {block.request.unit, block.request.space, quint16(block.request.first + i), 1, false};
+            if (!ask(unit, attempts, [&] { return m_link->read(*reading, &word); }))
+                return false;
+            m_buffer[i] = quint16(m_buffer[i] | (word & ~m_masks[i]));
+        }
         return true;
     }
 
@@ -513,6 +539,7 @@ private:
     std::vector<std::size_t> m_toWrite;
     std::vector<ModbusRegister> m_places;
     std::vector<std::vector<quint16>> m_words;
+    std::vector<quint16> m_masks;  // of the words of a block
 
     std::map<quint8, Unit> m_units;
     std::unique_ptr<QPlcReadChannel> m_errors;  // of all of them

@@ -67,6 +67,8 @@ std::vector<ModbusBlock> planToWrite(const std::vector<ModbusRegister> &register
 
 bool overlap(const ModbusRegister &a, const ModbusRegister &b)
 {
+    if (a.isPart() && b.isPart() && (a.mask() & b.mask()) == 0)
+        return false;
     return a.unit == b.unit && a.space == b.space && a.address < b.address + b.size()
         && b.address < a.address + a.size();
 }

@@ -19,7 +19,8 @@ struct ModbusBlock
 std::vector<ModbusBlock> planToRead(const std::vector<ModbusRegister> &registers, int gap);
 /// The fewest requests that write these registers, and nothing else. \pre none of them overlap
 std::vector<ModbusBlock> planToWrite(const std::vector<ModbusRegister> &registers);
-/// Whether they share a bit or a register of a device.
+/// Whether they share a bit or a register of a device; parts of a register share it only if they
+/// have bits in common.
 bool overlap(const ModbusRegister &a, const ModbusRegister &b);
 
 }  // namespace qplc

@@ -200,12 +200,20 @@ double ModbusRegister::decode(const quint16 *words) const
 void ModbusRegister::encode(double value, quint16 *words) const
 {
     const double raw = RawNumber::scaled(value, factor, offset);
-    quint64 bits = type == Bit ? quint64(raw >= 0.5) : modbusNumbers[type].encode(raw);
+    quint64 bits = isOfBits() ? quint64(raw >= 0.5) : number().encode(raw);
+    if (isPart())
+        bits = (bits & RawNumber::lowBits(bitCount)) << bit;
     const int count = size();
     for (int i = 0; i < count; ++i, bits >>= 16) {
         const auto word = quint16(bits);
         words[isLowWordFirst ? i : count - 1 - i] = isLowByteFirst ? qbswap(word) : word;
     }
+}
+
+quint16 ModbusRegister::mask() const
+{
+    const auto bits = quint16(RawNumber::lowBits(bitCount) << bit);
+    return isLowByteFirst ? qbswap(bits) : bits;
 }
 
 bool ModbusRegister::parse(const QString &text, const ModbusRegister &defaults, ModbusRegister *result, QString *error)

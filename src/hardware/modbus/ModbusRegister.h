@@ -31,7 +31,11 @@ struct ModbusRegister
     double offset = 0.0;
 
     bool isOfBits() const { return space == Coil || space == Discrete; }
-    bool isWritable() const { return space == Coil || (space == Holding && type != Bit); }
+    bool isWritable() const { return space == Coil || space == Holding; }
+    /// Whether it is a part of a register, whose other bits belong to others.
+    bool isPart() const { return type == Bit && !isOfBits(); }
+    /// The bits of a word that belong to it, as on the wire. \pre isPart()
+    quint16 mask() const;
     /// How many bits (Coil, Discrete) or registers it takes.
     int size() const;
     RawNumber number() const;
@@ -39,7 +43,7 @@ struct ModbusRegister
     RawNumber::Limits limits() const;
     /// \param words  size() of them, one for each bit or register
     double decode(const quint16 *words) const;
-    /// The nearest value that the type can hold.
+    /// The nearest value that the type can hold; of a part of a register, with 0 in all other bits.
     void encode(double value, quint16 *words) const;
 
     /// \param defaults  has what \a text does not say

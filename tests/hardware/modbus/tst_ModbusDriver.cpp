@@ -27,6 +27,9 @@ private Q_SLOTS:
     void aChannelMayBeReadAndWritten();
     void neighboursAreWrittenInOneRequest();
     void writeSingleCanBeDisabled();
+    void writtenBitsLeaveTheOthers();
+    void writtenBitsAndTheirNeighboursAreOneRequest();
+    void bitsThatFillARegisterNeedNoReading();
     void valuesAreWrittenInEveryCycle();
     void valuesMayBeWrittenWhenTheyChange();
     void afterALossAllIsWrittenAgain();
@@ -133,6 +136,65 @@ void tst_ModbusDriver::writeSingleCanBeDisabled()
     bench.set("a", 1.0);
     QVERIFY(bench.exchange());
     QVERIFY(!m_device->takeWrites().at(0).isSingle);
+}
+
+/// Several writers have bits of one register, and the device has the rest.
+void tst_ModbusDriver::writtenBitsLeaveTheOthers()
+{
+    DriverBench bench("modbus",
+                      keys("register.enable = holding 30, bit 0\nregister.mode = holding 30, bits 4-7\n"
+                           "register.swapped = holding 40, bit 0, byte-order little\n"));
+    QCOMPARE(bench.wireWrite("enable") + bench.wireWrite("mode") + bench.wireWrite("swapped"), QString());
+    m_device->set(ModbusRegister::Holding, 30, {0xA5F0});
+    bench.set("enable", 1.0);
+    bench.set("mode", 3.0);
+    bench.set("swapped", 1.0);
+    QVERIFY2(bench.open(), qPrintable(bench.errorString()));
+    QCOMPARE(m_device->values(ModbusRegister::Holding, 30, 1), Words{0xA531});
+    QCOMPARE(m_device->values(ModbusRegister::Holding, 40, 1), Words{0x0100});
+    QVERIFY(bench.runner().isDelivered());
+    m_device->set(ModbusRegister::Holding, 30, {0x25FE});  // by the device itself
+    bench.set("enable", 0.0);
+    QVERIFY2(bench.exchange(), qPrintable(bench.errorString()));
+    QCOMPARE(m_device->values(ModbusRegister::Holding, 30, 1), Words{0x253E});
+    m_device->answerWith(ModbusException::UnknownAddress, ModbusRegister::Holding, 30);
+    QVERIFY(!bench.exchange());
+    QVERIFY2(bench.errorString().contains("cannot read holding register 30 (enable, mode) of unit 1"),
+             qPrintable(bench.errorString()));
+    m_device->answerWith(ModbusException::None, ModbusRegister::Holding, 30);
+}
+
+void tst_ModbusDriver::writtenBitsAndTheirNeighboursAreOneRequest()
+{
+    DriverBench bench("modbus",
+                      keys("write = on-change\nregister.before = holding 9\nregister.bit = holding 10, bit 15\n"
+                           "register.other = holding 10, bit 1\nregister.after = holding 11, int32\n"));
+    for (const char *name : {"before", "bit", "other", "after"}) {
+        QCOMPARE(bench.wireWrite(QString::fromLatin1(name)), QString());
+        bench.set(QString::fromLatin1(name), 1.0);
+    }
+    QVERIFY(bench.open());
+    QCOMPARE(m_device->takeWrites().size(), std::size_t(1));
+    QCOMPARE(m_device->values(ModbusRegister::Holding, 9, 4), (Words{1, 0x8002, 0, 1}));
+    m_device->takeReads();
+    QVERIFY(bench.exchange());
+    QVERIFY(m_device->takeWrites().empty() && m_device->takeReads().empty());
+    bench.set("bit", 0.0);
+    QVERIFY(bench.exchange());
+    QCOMPARE(m_device->takeWrites().size(), std::size_t(1));
+    QCOMPARE(m_device->values(ModbusRegister::Holding, 9, 4), (Words{1, 0x0002, 0, 1}));
+    QVERIFY(bench.runner().isDelivered());
+}
+
+void tst_ModbusDriver::bitsThatFillARegisterNeedNoReading()
+{
+    DriverBench bench("modbus", keys("register.low = holding 5, bits 0-7\nregister.high = holding 5, bits 8-15\n"));
+    QCOMPARE(bench.wireWrite("low") + bench.wireWrite("high"), QString());
+    bench.set("low", 0x34);
+    bench.set("high", 0x12);
+    QVERIFY(bench.open());
+    QCOMPARE(m_device->values(ModbusRegister::Holding, 5, 1), Words{0x1234});
+    QVERIFY(m_device->takeReads().empty());
 }
 
 void tst_ModbusDriver::valuesAreWrittenInEveryCycle()
@@ -469,12 +531,11 @@ void tst_ModbusDriver::lostDeviceHasNoFreshValues()
 
 void tst_ModbusDriver::writingAReadOnlyRegisterIsRefused()
 {
-    DriverBench bench("modbus", keys("register.a = input 1\nregister.b = discrete 1\nregister.c = holding 1, bit 3\n"));
+    DriverBench bench("modbus", keys("register.a = input 1\nregister.b = discrete 1\nregister.c = input 1, bit 3\n"));
     QCOMPARE(bench.errors(), QString());
     QCOMPARE(bench.wireWrite("a"), QString("'a' can only be read: it is of the input registers"));
     QCOMPARE(bench.wireWrite("b"), QString("'b' can only be read: it is of the discrete inputs"));
-    QCOMPARE(bench.wireWrite("c"),
-             QString("'c' is a bit of a register, which can only be read; write the whole register"));
+    QCOMPARE(bench.wireWrite("c"), QString("'c' can only be read: it is of the input registers"));
     QVERIFY(bench.wireRead("aa").contains("did you mean 'a'"));
 }
 
@@ -484,6 +545,13 @@ void tst_ModbusDriver::onePlaceHasOneWriter()
     QCOMPARE(bench.wireWrite("a"), QString());
     QCOMPARE(bench.wireWrite("b"), QString("'b' and 'a' are the same place of the device; write one of them"));
     QCOMPARE(bench.wireRead("b"), QString());
+    DriverBench bits(
+        "modbus",
+        keys("register.a = holding 1, bits 2-4\nregister.b = holding 1, bit 4\nregister.c = holding 1, bit "
+             "5\nregister.d = holding 1\n"));
+    QCOMPARE(bits.wireWrite("a") + bits.wireWrite("c"), QString());
+    QCOMPARE(bits.wireWrite("b"), QString("'b' and 'a' are the same place of the device; write one of them"));
+    QCOMPARE(bits.wireWrite("d"), QString("'d' and 'a' are the same place of the device; write one of them"));
 }
 
 void tst_ModbusDriver::invalidKeysAreReported_data()

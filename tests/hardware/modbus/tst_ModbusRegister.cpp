@@ -187,7 +187,17 @@ void tst_ModbusRegister::bitsOfARegisterAreANumber()
     QCOMPARE(parsed("holding 0, bits 9-9").decode(Words{0x0200}.data()), 1.0);
     QCOMPARE(parsed("holding 0, bits 12-15, factor 0.5, offset -1").decode(Words{0x7fff}.data()), 2.5);
     QCOMPARE(parsed("holding 0, bits 0-7, byte-order little").decode(Words{0x12ff}.data()), 18.0);
-    QVERIFY(!parsed("holding 0, bits 4-7").isWritable());
+    QVERIFY(!parsed("input 0, bits 4-7").isWritable());
+    quint16 word = 0;
+    parsed("holding 0, bits 4-7, factor 0.5").encode(2.5, &word);
+    QCOMPARE(word, quint16(0x0050));
+    parsed("holding 0, bits 4-7").encode(99.0, &word);
+    QCOMPARE(word, quint16(0x00f0));
+    parsed("holding 0, bit 0, byte-order little").encode(1.0, &word);
+    QCOMPARE(word, quint16(0x0100));
+    QCOMPARE(parsed("holding 0, bits 9-11").mask(), quint16(0x0e00));
+    QCOMPARE(parsed("holding 0, bits 0-15").mask(), quint16(0xffff));
+    QCOMPARE(parsed("holding 0, bit 9, byte-order little").mask(), quint16(0x0002));
 }
 
 void tst_ModbusRegister::randomValuesAreReadBack()
