@@ -202,8 +202,9 @@ const Case cases[] = {
     // ---- meaning: direction ----
     {"written input register", Semantic, MODBUS "register.a = input 1\n[d.write]\na = x\n", "6:5: 'a' can only be read",
      "it is of the input registers"},
-    {"written bit of a register", Semantic, MODBUS "register.a = holding 1, bit 3\n[d.write]\na = x\n",
-     "6:5: 'a' is a bit", "write the whole register"},
+    {"written bits of a register twice", Semantic,
+     MODBUS "register.a = holding 1, bit 3\nregister.b = holding 1, bits 2-4\n[d.write]\na = x\nb = y\n",
+     "8:5: 'b' and 'a' are the same place of the device", "write one of them"},
     {"output that is read", Semantic, GPIO "output.lamp = 1\ninput.door = 2, pull-up\n[d.read]\nx = lamp\n",
      "7:5: driver 'gpio' has no channel 'lamp' to read", "known are: door"},
     {"misspelt channel", Semantic, MODBUS "register.speed = holding 1\n[d.read]\nx = sped\n",

@@ -185,6 +185,12 @@ int SerialLine::write(const char *bytes, int size) noexcept
     return -1;
 }
 
+int SerialLine::waiting() const noexcept
+{
+    int count = 0;
+    return ::ioctl(m_descriptor, TIOCOUTQ, &count) == 0 ? count : 0;
+}
+
 bool SerialLine::isUsualRate(int baud)
 {
     return codeOf(baud) != B0;

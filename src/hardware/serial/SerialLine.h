@@ -51,6 +51,8 @@ public:
     int readEach(Take take);
     /// \return how many bytes were taken; -1, with errno, when the line is gone
     int write(const char *bytes, int size) noexcept;
+    /// Bytes that were taken and have not left yet, as far as the kernel knows.
+    int waiting() const noexcept;
 
     /// Rates that devices have usually [bit/s]. Other ones are possible, too.
     static bool isUsualRate(int baud);

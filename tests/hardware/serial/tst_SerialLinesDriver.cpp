@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "FarEnd.h"
+#include "hardware/serial/LineTemplate.h"
 #include "hardware/serial/LineText.h"
 
 #include <QtTest/QtTest>
@@ -34,6 +35,13 @@ private Q_SLOTS:
     void aNumberThatIsNoneIsCounted();
     void aLineThatIsTooLongIsThrownAway();
     void anInstrumentIsAsked();
+    void valuesAreSentInLines();
+    void linesMayBeSentWhenTheirValuesChange();
+    void anInstrumentThatOnlyTakesLinesMayBeSilent();
+    void aLineThatIsBusyGetsNoOldValues();
+    void linesThatNeedMoreThanTheirIntervalAreAWarning();
+    void numbersHaveTheFormOfTheirLine_data();
+    void numbersHaveTheFormOfTheirLine();
     void aSilentInstrumentIsNamed();
     void linesThatDoNotMatchAreNamed();
     void aLineThatIsUnpluggedIsOpenedAgain();
@@ -132,6 +140,132 @@ void tst_SerialLinesDriver::anInstrumentIsAsked()
     QCOMPARE(scale.far.receive(), QByteArray("W?\r\n"));
 }
 
+void tst_SerialLinesDriver::valuesAreSentInLines()
+{
+    Instrument supply("interval = 100 ms\nsend.set = SET {voltage:.2},{current:.3}\\r\nsend.on = OUT {on}\\r\n"
+                      "ask = MEAS?\\r\npattern = ^(?<voltage>\\S+)$\n");
+    DriverBench &bench = supply.bench;
+    QCOMPARE(bench.errors(), QString());
+    for (const char *name : {"voltage", "current", "on"})
+        QCOMPARE(bench.wireWrite(name), QString());
+    QCOMPARE(bench.wireRead("voltage"), QString());
+    bench.set("on", 1.0);
+    QVERIFY2(bench.open(), qPrintable(bench.errorString()));
+    QCOMPARE(supply.far.receive(), QByteArray("OUT 1\rMEAS?\r"));  // the other one has no values yet
+    QVERIFY(!bench.runner().isDelivered());
+    bench.set("voltage", 12.3456);
+    bench.set("current", -0.0001);
+    QVERIFY2(bench.exchange(), qPrintable(bench.errorString()));
+    QCOMPARE(supply.far.receive(), QByteArray("SET 12.35,0.000\rOUT 1\rMEAS?\r"));
+    QVERIFY(bench.runner().isDelivered());
+    QVERIFY(supply.say("12.31\r"));
+    QCOMPARE(bench.value("voltage"), 12.31);
+}
+
+void tst_SerialLinesDriver::linesMayBeSentWhenTheirValuesChange()
+{
+    Instrument heater("send.a = A{a}\\n\nsend.b = B{b}\\n\nwrite = on-change\n");
+    DriverBench &bench = heater.bench;
+    QCOMPARE(bench.errors() + bench.wireWrite("a") + bench.wireWrite("b"), QString());
+    bench.set("a", 1.0);
+    bench.set("b", 2.0);
+    QVERIFY2(bench.open(), qPrintable(bench.errorString()));
+    QCOMPARE(heater.far.receive(), QByteArray("A1\nB2\n"));
+    QVERIFY(bench.exchange());
+    bench.set("b", 3.0);
+    QVERIFY(bench.exchange());
+    QCOMPARE(heater.far.receive(), QByteArray("B3\n"));
+    bench.close();
+    QVERIFY(bench.open());  // it may have been switched off meanwhile
+    QCOMPARE(heater.far.receive(), QByteArray("A1\nB3\n"));
+}
+
+void tst_SerialLinesDriver::anInstrumentThatOnlyTakesLinesMayBeSilent()
+{
+    Instrument lamp("send.level = L{level}\\n\n");
+    QCOMPARE(lamp.bench.errors() + lamp.bench.wireWrite("level"), QString());
+    lamp.bench.set("level", 1.0);
+    QVERIFY2(lamp.bench.open(), qPrintable(lamp.bench.errorString()));
+    lamp.bench.advance(1min);
+    QVERIFY2(lamp.bench.exchange(), qPrintable(lamp.bench.errorString()));
+}
+
+/// Nobody takes them, as behind a slow line: what is old waits no longer than the rest of a line.
+void tst_SerialLinesDriver::aLineThatIsBusyGetsNoOldValues()
+{
+    Instrument lamp("send.level = {level:90}\\n\n");
+    DriverBench &bench = lamp.bench;
+    QCOMPARE(bench.errors() + bench.wireWrite("level") + bench.wireRead("@unsent"), QString());
+    bench.set("level", 0.0);
+    QVERIFY2(bench.open(), qPrintable(bench.errorString()));
+    int cycles = 0;
+    for (; cycles < 100000 && !(bench.value("@unsent") >= 10.0); ++cycles) {
+        bench.set("level", double(cycles));
+        QVERIFY2(bench.exchange(), qPrintable(bench.errorString()));
+    }
+    QVERIFY(bench.value("@unsent") >= 10.0);
+    QVERIFY(!bench.runner().isDelivered());
+    bench.set("level", -1.0, true);
+    QVERIFY(bench.exchange() && bench.exchange());
+    QByteArray all;
+    const QByteArray safe = QByteArray(88, ' ') + "-1\n";
+    while (!all.endsWith(safe)) {
+        const QByteArray more = lamp.far.receive();
+        QVERIFY(!more.isEmpty());
+        all += more;
+        QVERIFY(bench.exchange());
+    }
+    const QList<QByteArray> lines = all.split('\n');
+    for (int i = 0; i + 1 < lines.size(); ++i)
+        QCOMPARE(lines.at(i).size(), 90);  // each of them is whole
+    bench.advance(6s);
+    for (cycles = 0; cycles < 100000 && bench.exchange(); ++cycles)
+        bench.advance(1ms);
+    QVERIFY2(bench.errorString().contains("takes no bytes; look at its adapter"), qPrintable(bench.errorString()));
+}
+
+void tst_SerialLinesDriver::linesThatNeedMoreThanTheirIntervalAreAWarning()
+{
+    const QByteArray keys = "baud = 1200\nsend.a = SETPOINT {a:.3}\\r\\n\n";
+    const Instrument slow(keys + "interval = 50 ms\n");
+    QCOMPARE(slow.bench.warnings().size(), 1);
+    const QString warning = QPlcParseError::toString(slow.bench.warnings());
+    QVERIFY2(warning.contains("take 100.0 ms at 1200 baud, so some are left out; make the interval longer"),
+             qPrintable(warning));
+    QVERIFY(Instrument(keys + "interval = 150 ms\n").bench.warnings().isEmpty());
+    QVERIFY(Instrument(keys + "interval = 50 ms\nwrite = on-change\n").bench.warnings().isEmpty());
+}
+
+void tst_SerialLinesDriver::numbersHaveTheFormOfTheirLine_data()
+{
+    QTest::addColumn<QByteArray>("text");
+    QTest::addColumn<double>("value");
+    QTest::addColumn<QByteArray>("line");
+    QTest::newRow("as it is") << QByteArray("{a}") << 0.1 << QByteArray("0.1");
+    QTest::newRow("large") << QByteArray("{a}") << -1.5e30 << QByteArray("-1.5e+30");
+    QTest::newRow("whole") << QByteArray("V{a:.0};") << 2.6 << QByteArray("V3;");
+    QTest::newRow("zeros") << QByteArray("{a:07.2}") << -3.14159 << QByteArray("-003.14");
+    QTest::newRow("blanks") << QByteArray("{a:7.1}|") << 3.14159 << QByteArray("    3.1|");
+    QTest::newRow("wider") << QByteArray("{a:03.0}") << 12345.0 << QByteArray("12345");
+    QTest::newRow("nothing below zero") << QByteArray("{a:.2}") << -0.001 << QByteArray("0.00");
+    QTest::newRow("braces") << QByteArray("{{{a}}}") << 5.0 << QByteArray("{5}");
+    QTest::newRow("twice") << QByteArray("{a},{a:.1}") << 5.0 << QByteArray("5,5.0");
+    QTest::newRow("no number") << QByteArray("{a}") << qQNaN() << QByteArray();
+    QTest::newRow("endless") << QByteArray("{a}") << qInf() << QByteArray();
+    QTest::newRow("too long") << QByteArray("{a:.1}") << 1e300 << QByteArray();
+}
+
+void tst_SerialLinesDriver::numbersHaveTheFormOfTheirLine()
+{
+    QFETCH(QByteArray, text);
+    QFETCH(double, value);
+    QFETCH(QByteArray, line);
+    LineTemplate sent;
+    QCOMPARE(LineTemplate::parse(text, &sent), QString());
+    QCOMPARE(sent.names(), QStringList{"a"});
+    QCOMPARE(sent.text({value}), line);
+}
+
 void tst_SerialLinesDriver::aSilentInstrumentIsNamed()
 {
     Instrument scale(scalePattern);
@@ -209,6 +343,13 @@ void tst_SerialLinesDriver::invalidKeysAreRefused_data()
     QTest::newRow("ask without a pace") << QByteArray("pattern = (?<a>.)\nask = W\n") << "add for example 'interval";
     QTest::newRow("too long a question") << "pattern = (?<a>.)\ninterval = 1 s\nask = " + QByteArray(257, 'a') + '\n'
                                          << "write at most 256";
+    QTest::newRow("sent line without a value") << QByteArray("send.a = ON\\r\n") << "give each number a name";
+    QTest::newRow("brace without a partner") << QByteArray("send.a = {a\n") << "a brace at byte 1 has no partner";
+    QTest::newRow("closing brace") << QByteArray("send.a = {a}}\n") << "a brace at byte 4 has no partner";
+    QTest::newRow("form of a number") << QByteArray("send.a = {a:x}\n") << "'a:x' is not a number of a line";
+    QTest::newRow("too long a line") << "send.a = {a}" + QByteArray(256, 'x') + '\n' << "more than 256 bytes";
+    QTest::newRow("escape") << QByteArray("send.a = {a}\\q\n") << "has an unknown character behind";
+    QTest::newRow("when to write") << QByteArray("send.a = {a}\nwrite = never\n") << "never";
     QTest::newRow("format") << QByteArray("pattern = (?<a>.)\nformat = 8X1\n") << "'8X1' is not a format";
 }
 
