@@ -113,6 +113,9 @@ protected:
     /// returns those that exist.
     virtual QStringList channelNames(QPlcChannel::Direction direction) const;
 
+    /// Returns true when the node is closing the device: an open() that waits should return false.
+    /// \threadsafe yes
+    bool isClosing() const { return m_isClosing.load(std::memory_order_relaxed); }
     /// Opens the device. It has to return within a few seconds.
     /// \return false after fail(): the node tries again
     virtual bool open() = 0;
@@ -182,6 +185,7 @@ private:
     const std::unique_ptr<qplc::NotedEvents> m_events;
     qint64 m_now = 0;  // [ns]
     std::atomic<bool> m_isDelivered{true};
+    std::atomic<bool> m_isClosing{false};
     bool m_servesOthers = false;
     QString m_errorText;
     const char *m_operation = nullptr;  // that failed in a cycle; null: m_errorText says it

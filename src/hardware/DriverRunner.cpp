@@ -24,6 +24,7 @@ namespace qplc {
 namespace {
 
 constexpr std::chrono::hours longestTime{24};
+constexpr std::chrono::milliseconds eventPause{100};  // when there are too many
 constexpr qint64 Never = QPlcReadChannel::Never;
 
 /// For a message about the channel \a name: those that it might have meant, or all.
@@ -379,6 +380,7 @@ void DriverRunner::start(Report report, EventReport eventReport, Report delivery
     m_eventReport = std::move(eventReport);
     m_deliveryReport = std::move(deliveryReport);
     m_stop = false;
+    m_driver->m_isClosing = false;
     m_thread = std::thread([this] { run(); });
 }
 
@@ -387,6 +389,7 @@ void DriverRunner::stop()
     if (!m_thread.joinable())
         return;
     m_stop = true;
+    m_driver->m_isClosing = true;
     wake();
     m_thread.join();
 }
@@ -398,7 +401,7 @@ void DriverRunner::run()
     BackOff backOff;
     qint64 next = monotonicNow();
     while (!m_stop.load(std::memory_order_acquire)) {
-        tellEvents();
+        const bool doEventsWait = tellEvents();
         switch (m_state.load(std::memory_order_acquire)) {
         case Closed:
             if (openNow()) {
@@ -422,7 +425,7 @@ void DriverRunner::run()
             break;
         case InThread:  // only within exchange()
         case InCycle:
-            waitFor(longestTime);
+            waitFor(doEventsWait ? std::chrono::nanoseconds(eventPause) : std::chrono::nanoseconds(longestTime));
             break;
         case Failed:
             tell(m_driver->errorString());
@@ -479,12 +482,17 @@ std::optional<QPlcDeviceEvent> DriverRunner::takeEvent()
     return event;
 }
 
-void DriverRunner::tellEvents()
+/// \return whether some of them wait: there were too many
+bool DriverRunner::tellEvents()
 {
-    while (const std::optional<QPlcDeviceEvent> event = takeEvent()) {
-        if (m_eventReport)
+    while (!m_driver->m_events->isEmpty()) {
+        if (!m_eventRate.take(monotonicNow()))
+            return true;
+        const std::optional<QPlcDeviceEvent> event = takeEvent();
+        if (event && m_eventReport)
             m_eventReport(*event);
     }
+    return false;
 }
 
 void DriverRunner::tellDelivery()

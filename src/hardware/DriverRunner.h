@@ -7,6 +7,7 @@
 #include "QPlcWriteChannel.h"
 #include "realtime/SnapshotBuffer.h"
 #include "realtime/TimeSource.h"
+#include "transport/TokenBucket.h"
 
 #include <atomic>
 #include <functional>
@@ -131,7 +132,7 @@ private:
     void run();
     void setPriority();
     void tell(const QString &error);
-    void tellEvents();
+    bool tellEvents();
     void tellDelivery();
     void waitFor(std::chrono::nanoseconds time);
     void wake() noexcept;
@@ -164,6 +165,7 @@ private:
 
     Report m_report;
     EventReport m_eventReport;
+    TokenBucket m_eventRate{10, 64};  // more wait, and the driver notes the newest state later
     Report m_deliveryReport;
     std::atomic<State> m_state{Closed};
     std::atomic<quint64> m_failures{0};

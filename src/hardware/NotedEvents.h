@@ -24,7 +24,9 @@ struct NotedEvents
     {
         return m_isNew.load(std::memory_order_relaxed) && m_isNew.exchange(false, std::memory_order_relaxed);
     }
-    /// The oldest one. Of the thread that tells it.
+    /// Of the thread that tells them.
+    bool isEmpty() noexcept { return m_ring.front() == nullptr; }
+    /// The oldest one. Likewise.
     std::optional<quint64> take() noexcept
     {
         quint64 data = 0;

@@ -34,8 +34,9 @@ struct BenchDevice
     std::atomic<int> priority{-1};  // of the thread that reads; 0: ordinary
     std::atomic<int> writes{0};
     std::atomic<double> torqueAtClose{-1.0};
-    std::atomic<quint64> event{0};    // that the next read finds: 1: hot, 2: cold, more: others; 0: none
-    std::atomic<bool> isSlow{false};  // a call takes its time
+    std::atomic<quint64> event{0};        // that the next read finds: 1: hot, 2: cold, more: others; 0: none
+    std::atomic<bool> isFlooding{false};  // each read finds an event
+    std::atomic<bool> isSlow{false};      // a call takes its time
     std::atomic<bool> isVisited{false};
     std::atomic<bool> hasMet{false};  // two threads have called the driver at a time
 };
@@ -99,6 +100,8 @@ private:
             return fail("read from the bench", EIO);
         if (const quint64 event = m_device->event.exchange(0))
             noteEvent(event);
+        if (m_device->isFlooding)
+            noteEvent(quint64(m_device->reads));
         if (!m_device->isSilent && m_device->reads > m_device->silentReads)
             m_speed.set(m_gain * m_device->speed);
         return true;

@@ -94,6 +94,8 @@ private Q_SLOTS:
     void exceptionInACycleCountsAsDeviceLoss();
     void exceptionOnCloseIsReported();
     void everyDriverTellsWhetherItIsOnline();
+    void aFloodOfEventsIsToldSlowly_data() { addPaces(); }
+    void aFloodOfEventsIsToldSlowly();
     void unknownChannelErrorListsKnownChannels();
     void cycleErrorNamesActionReasonAndRemedy();
 };
@@ -501,6 +503,29 @@ void tst_DriverRunner::everyDriverTellsWhetherItIsOnline()
     bench.close();
     QCOMPARE(bench.value("@online"), 0.0);
     QCOMPARE(bench.value("@failures"), 1.0);
+}
+
+/// Logs and disks are not for thousands of lines a second.
+void tst_DriverRunner::aFloodOfEventsIsToldSlowly()
+{
+    QFETCH(int, pace);
+    Bench bench(pace, pace == QPlcDriver::OwnPace ? "device = bench0\ninterval = 100 us\n" : "device = bench0\n");
+    QCOMPARE(bench.wireRead("speed"), QString());
+    bench.device->isFlooding = true;
+    std::atomic<int> told{0};
+    DriverRunner &runner = bench.runner();
+    runner.start([](const QString &) {}, [&told](const QPlcDeviceEvent &) { ++told; });
+    QTRY_VERIFY(runner.isOnline());
+    for (int i = 0; i < 2000 && pace == QPlcDriver::EveryCycle; ++i) {
+        runner.write(monotonicNow());
+        runner.read(monotonicNow());
+    }
+    QTRY_VERIFY_WITH_TIMEOUT(bench.device->reads >= 2000, 30000);
+    QTRY_VERIFY(told >= 64);
+    bench.device->isFlooding = false;
+    runner.leave(monotonicNow());
+    runner.stop();
+    QVERIFY2(told < 1000, qPrintable(QString::number(told)));
 }
 
 void tst_DriverRunner::unknownChannelErrorListsKnownChannels()

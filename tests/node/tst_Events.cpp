@@ -365,7 +365,7 @@ void tst_Events::nodesReportEventsAndAlarms_data()
 {
     QTest::addColumn<QString>("kind");
     QTest::newRow("in the process of the master") << "local";
-    QTest::newRow("over the network") << "tcp";
+    QTest::newRow("over the network") << datagrams();
 }
 
 void tst_Events::nodesReportEventsAndAlarms()
@@ -395,7 +395,7 @@ void tst_Events::anAlarmOfANodeLastsAsLongAsTheNodeIsThere()
     node.endAlarm("water", "the water is cold");
     node.reportEvent(QPlcSlaveNode::InfoEvent, "nobody hears this");
     for (int i = 1; i <= 2; ++i) {
-        QVERIFY(m_master->admit(node, "tcp"));
+        QVERIFY(m_master->admit(node, datagrams()));
         QTRY_COMPARE(alarms().size(), 2 * i - 1);
         node.disconnectFromMaster();
         QTRY_COMPARE(alarms().size(), 2 * i);
@@ -420,7 +420,7 @@ void tst_Events::anAlarmOfANodeOutlivesAPhase()
 void tst_Events::aNodeThatReportsTooMuchIsToldTogether()
 {
     CounterNode node;
-    QVERIFY(m_master->admit(node, "tcp"));
+    QVERIFY(m_master->admit(node, datagrams()));
     for (int i = 0; i < 1000; ++i) {
         node.beginAlarm("contact", QPlcSlaveNode::WarningEvent, QString("bounce %1").arg(i));
         node.endAlarm("contact", "quiet");

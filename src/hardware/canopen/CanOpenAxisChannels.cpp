@@ -57,6 +57,7 @@ void CanOpenAxisChannels::setPlan(const CanOpenConfiguration &plan)
         m_places[i].pdo = owner.number;
         m_places[i].number = owner.entries.at(entry).number;
         m_places[i].first = owner.firstBit(entry);
+        m_places[i].freshTime = plan.freshTime(owner).count();
     }
 }
 
@@ -193,7 +194,8 @@ void CanOpenAxisChannels::step(qint64 now) noexcept
 {
     if (!m_isAxis || !hasCommand())
         return;
-    if (now - m_statusTime > m_driver->timeout().count())
+    const qint64 freshTime = m_places[Statusword].freshTime;
+    if (freshTime > 0 && now - m_statusTime > freshTime)
         m_feedback.isKnown = false;  // what the drive told is old
     const AxisCommand wanted = command();
     m_isSafe = wanted.isSafe;

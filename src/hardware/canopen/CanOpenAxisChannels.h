@@ -65,6 +65,7 @@ private:
         int pdo = -1;  // number of the TPDO; -1: it is in none
         int first = 0;
         RawNumber number;
+        qint64 freshTime = 0;  // [ns]; 0: as long as the device lives
     };
     struct Shown
     {

@@ -11,9 +11,10 @@ namespace qplc {
 
 namespace {
 
-constexpr quint32 pdoNoRemote = 1U << 30;                    // it cannot be asked for by a remote frame
-constexpr std::chrono::nanoseconds longestPause{1'000'000};  // between two looks at a bus without a descriptor
-constexpr int mostFrames = 4096;                             // that are taken at once, so that it ends
+constexpr quint32 pdoNoRemote = 1U << 30;                     // it cannot be asked for by a remote frame
+constexpr std::chrono::nanoseconds longestPause{1'000'000};   // between two looks at a bus without a descriptor
+constexpr std::chrono::nanoseconds longestWait{100'000'000};  // until it is asked whether to end
+constexpr int mostFrames = 4096;                              // that are taken at once, so that it ends
 
 QString hexText(quint32 number)
 {
@@ -64,7 +65,7 @@ bool CanOpenClient::send(const CanFrame &frame)
 void CanOpenClient::waitForFrames(std::chrono::nanoseconds time) const
 {
     pollfd descriptor{m_bus.descriptor(), POLLIN, 0};
-    const std::chrono::nanoseconds pause = descriptor.fd >= 0 ? time : std::min(time, longestPause);
+    const std::chrono::nanoseconds pause = std::min(time, descriptor.fd >= 0 ? longestWait : longestPause);
     const timespec duration = timeSpec(std::max<qint64>(0, pause.count()));
     ::ppoll(&descriptor, 1, &duration, nullptr);
 }
@@ -96,13 +97,22 @@ bool CanOpenClient::waitUntil(const std::function<bool()> &isDone, std::chrono::
     const qint64 end = monotonicNow() + time.count();
     while (!isDone()) {
         const qint64 left = end - monotonicNow();
-        if (left <= 0)
+        if (left <= 0 || failAtEnd())
             return false;
         waitForFrames(std::chrono::nanoseconds(left));
         if (!receive(nullptr))
             return false;
     }
     return true;
+}
+
+/// \return whether waiting ends early
+bool CanOpenClient::failAtEnd()
+{
+    const bool isEnding = m_isEnding && m_isEnding();
+    if (isEnding)
+        fail(QStringLiteral("%1 was given up, because its node ends").arg(title()));
+    return isEnding;
 }
 
 bool CanOpenClient::command(NmtCommand command)
@@ -118,6 +128,8 @@ bool CanOpenClient::exchange(SdoTransfer *transfer)
     const auto nextEnd = [this] { return std::min<qint64>(monotonicNow() + m_answerTime.count(), m_end); };
     qint64 end = nextEnd();
     while (transfer->state() == SdoTransfer::Running || transfer->hasRequest()) {
+        if (failAtEnd())
+            return false;
         if (transfer->hasRequest()) {
             if (!send(SdoFrame::toFrame(CanOpenIds::SdoRequest + quint32(m_node), transfer->request())))
                 return false;

@@ -26,6 +26,8 @@ public:
     CanOpenClient(CanBus &bus, const QString &device, int node, std::chrono::nanoseconds answerTime);
 
     void setListener(Listener listener) { m_listener = std::move(listener); }
+    /// Lets waiting end early. \param isEnding  is asked several times a second
+    void setEnd(std::function<bool()> isEnding) { m_isEnding = std::move(isEnding); }
 
     /// Reads an object. \return false, with the reason in errorString()
     bool read(ObjectAddress address, QByteArray *value);
@@ -61,6 +63,7 @@ private:
     /// Takes what has come in. \return false when the bus is lost
     bool receive(SdoTransfer *transfer);
     void waitForFrames(std::chrono::nanoseconds time) const;
+    bool failAtEnd();
     bool fail(const QString &error);
     QString title() const;
 
@@ -73,6 +76,7 @@ private:
     const std::chrono::nanoseconds m_answerTime;
     const qint64 m_end;  // [ns]
     Listener m_listener;
+    std::function<bool()> m_isEnding;
     QString m_error;
     quint32 m_abortCode = 0;
 };

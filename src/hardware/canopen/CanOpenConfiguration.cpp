@@ -34,6 +34,8 @@ void CanOpenConfiguration::read(QPlcDriverSettings &settings)
     sync = SyncSource(
         settings.choice(QStringLiteral("sync"),
                         {QStringLiteral("none"), QStringLiteral("every cycle"), QStringLiteral("from others")}));
+    if (sync == SyncSource::EveryCycle)
+        settings.claim(QStringLiteral("sync"), QStringLiteral("sending the SYNC of %1").arg(device));
     if (settings.has(QStringLiteral("node")))
         readNode(settings);
     else if (sync != SyncSource::EveryCycle)
@@ -51,6 +53,7 @@ int CanOpenConfiguration::readBitRate(const QString &device, QPlcDriverSettings 
 void CanOpenConfiguration::readNode(QPlcDriverSettings &settings)
 {
     node = int(settings.integer(QStringLiteral("node"), 1, 1, CanOpenIds::MaximumNode));
+    settings.claim(QStringLiteral("node"), QStringLiteral("node %1 of %2").arg(node).arg(device));
     master = int(settings.integer(QStringLiteral("master"), 127, 0, CanOpenIds::MaximumNode));
     if (master == node)
         settings.addError(QStringLiteral("master"),
@@ -71,8 +74,8 @@ void CanOpenConfiguration::readNode(QPlcDriverSettings &settings)
     if (!hasKeys && isAxis)
         addPdosOfAxis();
     else if (!hasKeys) {
-        addPdosOfFile(true);
-        addPdosOfFile(false);
+        addPdosOfFile(true, settings);
+        addPdosOfFile(false, settings);
     }
     if (!hasKeys && pdos.isEmpty())
         settings.addError({},
@@ -80,6 +83,8 @@ void CanOpenConfiguration::readNode(QPlcDriverSettings &settings)
                                          "606C:00', 'profile = 402', or the EDS file of the device")
                               .arg(settings.name()));
     checkIds(settings);
+    checkWriters(settings);
+    checkTimes(settings);
     checkAxis(settings);
 }
 
@@ -194,7 +199,7 @@ void CanOpenConfiguration::readPdos(bool isTransmit, QPlcDriverSettings &setting
         pdo.isTransmit = isTransmit;
         pdo.number = name.toInt(&isNumber);
         QString error;
-        if (!isNumber || pdo.number < 1 || pdo.number > Pdo::MaximumNumber)
+        if (!isNumber || pdo.number < 1 || pdo.number > Pdo::MaximumNumber || name != QString::number(pdo.number))
             error = QStringLiteral("'%1' is no PDO; write %2 with a number from 1 to %3")
                         .arg(key, prefix)
                         .arg(Pdo::MaximumNumber);
@@ -254,7 +259,7 @@ bool CanOpenConfiguration::readPdoWord(const QString &word, Pdo *pdo, QString *e
                          .arg(Pdo::LastSynchronous);
     } else if (ids.match(word).hasMatch()) {
         pdo->id = word.mid(3).toUInt(nullptr, 0);
-        if (pdo->id < 0x181 || pdo->id > 0x57F)
+        if (!CanOpenIds::isPdo(pdo->id))
             *error = QStringLiteral("'%1' is no id of a PDO; take one from 0x181 to 0x57F").arg(word);
     } else if (pdo->isTransmit && word.startsWith(QLatin1String("every ")) && durationFromText(word.mid(6), &time)) {
         pdo->transmission = Pdo::OnEvent;
@@ -306,7 +311,7 @@ bool CanOpenConfiguration::readEntry(const QString &word, PdoEntry *entry, QStri
 }
 
 // As the device has them by default.
-void CanOpenConfiguration::addPdosOfFile(bool isTransmit)
+void CanOpenConfiguration::addPdosOfFile(bool isTransmit, QPlcDriverSettings &settings)
 {
     const CanOpenDictionary &objects = m_file.dictionary();
     const auto valueOf = [&](quint16 index, int sub) {
@@ -334,9 +339,37 @@ void CanOpenConfiguration::addPdosOfFile(bool isTransmit)
             if (entry != 0 && bits <= Pdo::MaximumBits)
                 pdo.entries.append(entryOf({quint16(entry >> 16), quint8(entry >> 8)}, bits));
         }
-        if (!pdo.entries.isEmpty() && pdo.bits() <= Pdo::MaximumBits)
+        const QString problem = problemOfFile(pdo);
+        if (!problem.isEmpty())
+            settings.addError(QStringLiteral("eds"), problem);
+        else if (!pdo.entries.isEmpty())
             pdos.append(pdo);
+        if (problem.isEmpty() && pdo.isSynchronous() && sync == SyncSource::Nobody)
+            settings.addWarning(
+                QStringLiteral("eds"),
+                QStringLiteral("%1 of the file waits for SYNC; add 'sync = every cycle', or 'sync = from "
+                               "others' if another section or device sends it")
+                    .arg(pdo.title()));
     }
+}
+
+// With an id of network management or SYNC, the values of a PDO would command all devices of the
+// bus.
+QString CanOpenConfiguration::problemOfFile(const Pdo &pdo) const
+{
+    const QString title = QStringLiteral("%1 of the file").arg(pdo.title());
+    if (!CanOpenIds::isPdo(pdo.id))
+        return QStringLiteral(
+                   "%1 has the id 0x%2, which is not one of a PDO (0x181 to 0x57F); correct the file, or write "
+                   "the PDOs that you use as keys (tpdo1, rpdo1)")
+            .arg(title, QString::number(pdo.id, 16));
+    if (pdo.bits() > Pdo::MaximumBits)
+        return QStringLiteral("%1 has %2 bits, and a frame has %3; correct the file, or write the PDOs that you use as "
+                              "keys (tpdo1, rpdo1)")
+            .arg(title)
+            .arg(pdo.bits())
+            .arg(Pdo::MaximumBits);
+    return {};
 }
 
 PdoEntry CanOpenConfiguration::entryOf(ObjectAddress address, int bits) const
@@ -400,6 +433,45 @@ void CanOpenConfiguration::checkIds(QPlcDriverSettings &settings)
                                   .arg(pdo.title(), QString::number(pdo.id, 16), titleOfId.value(pdo.id)));
         titleOfId.insert(pdo.id, pdo.title());
     }
+}
+
+// Of two PDOs, the one without a writer would give the object its first value again and again.
+void CanOpenConfiguration::checkWriters(QPlcDriverSettings &settings)
+{
+    constexpr quint16 firstObject = 0x20;  // below are dummies, which fill a PDO
+    QHash<quint32, QString> titleOfObject;
+    for (const Pdo &pdo : qAsConst(pdos)) {
+        if (pdo.isTransmit)
+            continue;
+        for (const PdoEntry &entry : pdo.entries) {
+            const quint32 key = entry.address.key();
+            if (entry.address.index >= firstObject && titleOfObject.contains(key))
+                settings.addError(QStringLiteral("rpdo%1").arg(pdo.number),
+                                  QStringLiteral("object %1 is in %2, too; write it in one of them")
+                                      .arg(entry.address.toText(), titleOfObject.value(key)));
+            titleOfObject.insert(key, pdo.title());
+        }
+    }
+}
+
+void CanOpenConfiguration::checkTimes(QPlcDriverSettings &settings)
+{
+    for (const Pdo &pdo : qAsConst(pdos)) {
+        if (settings.has(QStringLiteral("timeout")) && pdo.isTransmit && !pdo.isSynchronous()
+            && timeout < pdo.eventTime * 1ms)
+            settings.addError(QStringLiteral("timeout"),
+                              QStringLiteral("timeout is shorter than the time of %1 (%2 ms), so its values would be "
+                                             "invalid between two frames; write at least that")
+                                  .arg(pdo.title())
+                                  .arg(pdo.eventTime));
+    }
+}
+
+std::chrono::nanoseconds CanOpenConfiguration::freshTime(const Pdo &pdo) const
+{
+    if (pdo.isSynchronous())
+        return timeout;
+    return pdo.eventTime > 0 ? std::max<std::chrono::nanoseconds>(timeout, 3 * pdo.eventTime * 1ms) : 0ns;
 }
 
 // A drive cannot be commanded without these.

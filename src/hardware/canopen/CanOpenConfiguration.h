@@ -41,6 +41,7 @@ public:
     /// \return [bit/s]; 0: not said
     static int readBitRate(const QString &device, QPlcDriverSettings &settings);
 
+    std::chrono::nanoseconds timeout{100'000'000};  // of the driver; before read()
     QString device;
     int bitRate = 0;  // [bit/s]; 0: not said
     int node = 0;     // 0: none, the section only sends SYNC
@@ -55,6 +56,9 @@ public:
     AxisMode mode = AxisMode::SyncVelocity;
     AxisLimits limits;
 
+    /// For how long the values of a PDO of the device are fresh. \return 0: as long as the device
+    /// lives
+    std::chrono::nanoseconds freshTime(const Pdo &pdo) const;
     /// The PDO and the entry in it that have an object. \param isTransmit  the device sends it
     /// \return false when there is none
     bool find(const QString &text, bool isTransmit, int *pdo, int *entry) const;
@@ -70,10 +74,13 @@ private:
     bool readPdoWord(const QString &word, Pdo *pdo, QString *error) const;
     bool readEntry(const QString &word, PdoEntry *entry, QString *error) const;
     bool readSetting(const QString &text, CanOpenSetting *setting, QString *error) const;
-    void addPdosOfFile(bool isTransmit);
+    void addPdosOfFile(bool isTransmit, QPlcDriverSettings &settings);
+    QString problemOfFile(const Pdo &pdo) const;
     void addPdosOfAxis();
     void addPdo(int number, bool isTransmit, std::initializer_list<ObjectAddress> objects);
     void checkIds(QPlcDriverSettings &settings);
+    void checkWriters(QPlcDriverSettings &settings);
+    void checkTimes(QPlcDriverSettings &settings);
     void checkAxis(QPlcDriverSettings &settings);
     const CanOpenObject *objectOf(const QString &text) const;
     PdoEntry entryOf(ObjectAddress address, int bits) const;

@@ -69,6 +69,7 @@ public:
 protected:
     void configure(QPlcDriverSettings &settings) override
     {
+        m_plan.timeout = timeout();
         m_plan.read(settings);
         makeBus(m_plan.device, settings);
         if (m_plan.node == 0 || m_plan.sync == SyncSource::EveryCycle)
@@ -225,6 +226,7 @@ private:
         m_monitor.forget();
         CanOpenClient client(bus(), m_plan.device, m_plan.node, m_plan.answerTime);
         client.setListener([this](const CanFrame &frame) { takeReport(frame); });
+        client.setEnd([this] { return isClosing(); });
         if (!client.command(NmtCommand::EnterPreOperational) || !client.configure(m_plan))
             return fail(client.errorString());
         m_monitor.takeError(client.readError());

@@ -18,6 +18,8 @@ struct CanOpenIds
     static constexpr quint32 SdoRequest = 0x600;
     static constexpr quint32 Heartbeat = 0x700;
 
+    /// Whether a PDO can have an id, and nothing else has it.
+    static constexpr bool isPdo(quint32 id) { return id >= 0x181 && id <= 0x57F; }
     /// The id that a PDO of a device has by default (number 1 ... 4). \param isTransmit  the device
     /// sends it
     static constexpr quint32 pdo(int number, bool isTransmit, int node)

@@ -12,7 +12,7 @@ void CanOpenPdos::setPlan(const CanOpenConfiguration &plan)
     m_isAxis = plan.isAxis;
     for (const Pdo &pdo : plan.pdos) {
         if (pdo.isTransmit) {
-            m_inputs.push_back({pdo, {}});
+            m_inputs.push_back({pdo, {}, plan.freshTime(pdo)});
             continue;
         }
         Output output;
@@ -42,6 +42,7 @@ QPlcReadChannel *CanOpenPdos::readChannel(const QString &object, const QString &
             continue;
         input.fields.push_back({input.pdo.firstBit(entry), input.pdo.entries.at(entry).number,
                                 std::make_unique<QPlcReadChannel>(m_driver, name)});
+        input.fields.back().channel->setTimeout(input.freshTime);
         return input.fields.back().channel.get();
     }
     return nullptr;

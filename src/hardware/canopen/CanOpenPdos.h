@@ -63,8 +63,9 @@ private:
     {
         Pdo pdo;
         std::vector<Field<QPlcReadChannel>> fields;
-        bool isDue = false;    // a SYNC was seen
-        bool hasCome = false;  // since the last SYNC
+        std::chrono::nanoseconds freshTime{0};  // of its values; 0: as long as the device lives
+        bool isDue = false;                     // a SYNC was seen
+        bool hasCome = false;                   // since the last SYNC
     };
     struct Output
     {

@@ -666,6 +666,16 @@ public:
         device.tellEmergency(code, errorRegister, &out);
         m_bus.send(out.data(), int(out.size()));
     }
+    /// A frame of some device.
+    void send(quint32 id, const QByteArray &data)
+    {
+        const std::lock_guard lock(mutex);
+        qplc::CanFrame frame;
+        frame.id = id;
+        frame.size = quint8(data.size());
+        std::copy(data.begin(), data.end(), frame.data.begin());
+        m_bus.send(&frame, 1);
+    }
     void boot(Device &device)
     {
         const std::lock_guard lock(mutex);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The driver canopen against devices that were written from the standard alone.
 #include "CanOpenBench.h"
+#include "QPlcHardwareNode.h"
 #include "hardware/canopen/CanOpenClient.h"
 #include "hardware/canopen/CanOpenScan.h"
 #include "hardware/canopen/Cia402Axis.h"
@@ -84,7 +85,15 @@ private Q_SLOTS:
     void whatADeviceRefusesIsToldWithItsReason();
     void aHundredObjectsAreReadAndWritten();
     void aDeviceThatNeverStartsIsNotOpen();
+    void theEndOfTheNodeDoesNotWaitForADeviceThatStarts();
     void aScanFindsAllDevicesAndChangesNothing();
+    // Contradictions
+    void contradictionsAreRefused_data();
+    void contradictionsAreRefused();
+    void onePlaceHasOneSection();
+    void valuesOfASlowPdoAreFreshUntilTheNextOne();
+    void valuesOnEventAreFreshWhileTheDeviceLives();
+    void aDriveThatTellsItsStateSeldomIsEnabled();
     // Cycle
     void nothingIsSentBeforeItsValueIsKnown();
     void lossOfTheHeartbeatIsSeenAfterTwoOfThem();
@@ -245,6 +254,29 @@ void tst_CanOpenDriver::aDeviceThatNeverStartsIsNotOpen()
              qPrintable(error));
 }
 
+/// It may take three heartbeats: a minute and a half.
+void tst_CanOpenDriver::theEndOfTheNodeDoesNotWaitForADeviceThatStarts()
+{
+    CanOpenBench bench;
+    peer::Device &device = bench.bus.addDevice(5);
+    device.makeDrive();
+    device.ignoresStart = true;
+    qplc::DriverRunner &runner = bench.addDriver(sensor + "heartbeat = 30 s\n").runner();
+    QVERIFY(bench.bus.open());
+    bench.bus.start();
+    runner.start([](const QString &) {});
+    const auto isConfigured = [&] {
+        const std::lock_guard lock(bench.bus.mutex);
+        return device.value(0x1017) == 30000;
+    };
+    QTRY_VERIFY(isConfigured());
+    QElapsedTimer timer;
+    timer.start();
+    runner.stop();
+    QVERIFY2(timer.elapsed() < 30000, qPrintable(QString::number(timer.elapsed())));
+    bench.bus.stop();
+}
+
 void tst_CanOpenDriver::aScanFindsAllDevicesAndChangesNothing()
 {
     CanOpenBench bench;
@@ -276,6 +308,104 @@ void tst_CanOpenDriver::aScanFindsAllDevicesAndChangesNothing()
         QCOMPARE(device->nmt, peer::Device::PreOperational);
     QVERIFY(!qplc::CanOpenScan::run("fake:", 500ms, &found, &error));
     QVERIFY(!error.isEmpty());
+}
+
+// ---- contradictions ----
+
+void tst_CanOpenDriver::contradictionsAreRefused_data()
+{
+    QTest::addColumn<QByteArray>("keys");
+    QTest::addColumn<QByteArray>("file");
+    QTest::addColumn<QString>("error");
+    const QByteArray id = "[1400]\nSubNumber=2\n[1400sub1]\nParameterName=Id\nDataType=7\nDefaultValue=";
+    const QByteArray rest = "\n[1600]\nSubNumber=2\n[1600sub0]\nParameterName=Count\nDataType=5\nDefaultValue=1\n"
+                            "[1600sub1]\nParameterName=Entry\nDataType=7\nDefaultValue=0x60710010\n";
+    QTest::newRow("PDO of a file that commands the bus")
+        << QByteArray("node = 5\neds = drive.eds\n") << id + "0x000" + rest
+        << "RPDO 1 of the file has the id 0x0, which is not one of a PDO (0x181 to 0x57F); correct the file";
+    QTest::newRow("PDO of a file that is SYNC")
+        << QByteArray("node = 5\neds = drive.eds\n") << id + "0x080" + rest << "has the id 0x80, which is not one";
+    QTest::newRow("PDO of a file without the node")
+        << QByteArray("node = 5\neds = drive.eds\n") << id + "0x600" + rest << "has the id 0x600, which is not one";
+    QTest::newRow("one object in two PDOs")
+        << QByteArray("node = 5\nrpdo1 = 6071:00\nrpdo2 = 6060:00, 6071:00\n") << QByteArray()
+        << "object 6071:00 is in RPDO 1, too; write it in one of them";
+    QTest::newRow("a PDO twice") << QByteArray("node = 5\ntpdo1 = 6064:00\ntpdo01 = id 0x285, 606C:00\n")
+                                 << QByteArray() << "'tpdo01' is no PDO; write tpdo with a number from 1 to 64";
+    QTest::newRow("timeout below the time of a PDO")
+        << QByteArray("node = 5\ntimeout = 50 ms\ntpdo1 = every 200 ms, 6064:00\n") << QByteArray()
+        << "timeout is shorter than the time of TPDO 1 (200 ms), so its values would be invalid";
+}
+
+void tst_CanOpenDriver::contradictionsAreRefused()
+{
+    QFETCH(QByteArray, keys);
+    QFETCH(QByteArray, file);
+    QFETCH(QString, error);
+    CanOpenBench bench;
+    QFile eds(bench.filePath("drive.eds"));
+    QVERIFY(eds.open(QIODevice::WriteOnly) && eds.write(file) == file.size());
+    eds.close();
+    const QString told = bench.addDriver(keys).errors();
+    QVERIFY2(told.contains(error), qPrintable(told));
+}
+
+void tst_CanOpenDriver::onePlaceHasOneSection()
+{
+    QPlcHardwareNode node;
+    QVERIFY(!node.configure("[a]\ndriver = canopen\ndevice = fake:x\nnode = 5\nsync = every cycle\ntpdo1 = 6064:00\n"
+                            "[b]\ndriver = canopen\ndevice = fake:x\nnode = 5\nsync = every cycle\ntpdo1 = 6064:00\n"
+                            "[c]\ndriver = canopen\ndevice = fake:y\nnode = 5\nsync = every cycle\ntpdo1 = 6064:00\n",
+                            "a.ini"));
+    const QString errors = QPlcParseError::toString(node.configurationErrors());
+    QVERIFY2(errors.contains("node 5 of fake:x is used twice, first in line 4"), qPrintable(errors));
+    QVERIFY2(errors.contains("sending the SYNC of fake:x is used twice, first in line 5"), qPrintable(errors));
+    QVERIFY2(!errors.contains("fake:y"), qPrintable(errors));
+}
+
+void tst_CanOpenDriver::valuesOfASlowPdoAreFreshUntilTheNextOne()
+{
+    CanOpenBench bench;
+    peer::Device &device = bench.bus.addDevice(5);
+    device.makeDrive();
+    DriverBench &driver = bench.addDriver("node = 5\ntpdo1 = every 200 ms, 6064:00\n");
+    QCOMPARE(driver.wireRead("6064:00"), QString());
+    OPEN(bench);
+    QVERIFY(bench.cycles(250));
+    for (int i = 0; i < 1000; ++i) {
+        QVERIFY2(bench.cycle(), qPrintable(driver.errorString()));
+        QVERIFY(driver.isFresh("6064:00"));
+    }
+}
+
+void tst_CanOpenDriver::valuesOnEventAreFreshWhileTheDeviceLives()
+{
+    CanOpenBench bench;
+    peer::Device &device = bench.bus.addDevice(5);
+    device.makeDrive();
+    DriverBench &driver = bench.addDriver("node = 5\ntpdo1 = every 10 ms, 606C:00\ntpdo2 = on event, 6064:00\n");
+    QCOMPARE(driver.wireRead("6064:00") + driver.wireRead("606C:00"), QString());
+    OPEN(bench);
+    QVERIFY(!driver.isFresh("6064:00"));
+    bench.bus.send(qplc::CanOpenIds::pdo(2, true, 5), QByteArray(4, '\1'));
+    QVERIFY(bench.cycles(2000));
+    QVERIFY(driver.isFresh("6064:00"));
+    device.isAlive = false;
+    int cycles = 0;
+    while (cycles < 1000 && bench.cycle())
+        ++cycles;
+    QVERIFY(!driver.isFresh("6064:00"));
+}
+
+void tst_CanOpenDriver::aDriveThatTellsItsStateSeldomIsEnabled()
+{
+    DriveBench bench("sync = every cycle\nprofile = 402\ntpdo1 = every 150 ms, 6041:00, 6061:00, 606C:00\n"
+                     "rpdo1 = 6040:00, 6060:00, 60FF:00\n");
+    OPEN(bench);
+    bench.command(1.0, 100.0);
+    QVERIFY(bench.cycles(2000));
+    QVERIFY(bench.isRunning());
+    QCOMPARE(bench.driver.value("enabled"), 1.0);
 }
 
 // ---- cycle ----
