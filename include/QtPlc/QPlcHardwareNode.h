@@ -80,8 +80,8 @@ public:
     /// Disconnects from the master, writes the safe values to all devices, and closes them.
     ~QPlcHardwareNode() override;
 
-    /// Reads the configuration: JSON if the name ends with ".json", else INI. Call it once, before
-    /// the node connects.
+    /// Reads the configuration, of at most 1 MiB: JSON if the name ends with ".json", else INI.
+    /// Call it once, before the node connects.
     /// \return false on any error: see configurationErrors(); nothing is wired then
     bool configureFromFile(const QString &fileName);
     /// Reads the configuration from a text, as above.

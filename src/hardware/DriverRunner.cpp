@@ -25,6 +25,7 @@ namespace {
 
 constexpr std::chrono::hours longestTime{24};
 constexpr std::chrono::milliseconds eventPause{100};  // when there are too many
+constexpr int mostEvents = 64;                        // that are told in a second
 constexpr qint64 Never = QPlcReadChannel::Never;
 
 /// For a message about the channel \a name: those that it might have meant, or all.
@@ -482,11 +483,22 @@ std::optional<QPlcDeviceEvent> DriverRunner::takeEvent()
     return event;
 }
 
-/// \return whether some of them wait: there were too many
+bool DriverRunner::mayTellEvent()
+{
+    const qint64 now = monotonicNow();
+    if (now - m_eventsSince > 1'000'000'000) {
+        m_eventsSince = now;
+        m_eventsTold = 0;
+    }
+    return m_eventsTold++ < mostEvents;
+}
+
+/// \return whether some of them wait, and the driver notes the newest state later: there were too
+/// many
 bool DriverRunner::tellEvents()
 {
     while (!m_driver->m_events->isEmpty()) {
-        if (!m_eventRate.take(monotonicNow()))
+        if (!mayTellEvent())
             return true;
         const std::optional<QPlcDeviceEvent> event = takeEvent();
         if (event && m_eventReport)

@@ -7,7 +7,6 @@
 #include "QPlcWriteChannel.h"
 #include "realtime/SnapshotBuffer.h"
 #include "realtime/TimeSource.h"
-#include "transport/TokenBucket.h"
 
 #include <atomic>
 #include <functional>
@@ -133,6 +132,7 @@ private:
     void setPriority();
     void tell(const QString &error);
     bool tellEvents();
+    bool mayTellEvent();
     void tellDelivery();
     void waitFor(std::chrono::nanoseconds time);
     void wake() noexcept;
@@ -165,7 +165,8 @@ private:
 
     Report m_report;
     EventReport m_eventReport;
-    TokenBucket m_eventRate{10, 64};  // more wait, and the driver notes the newest state later
+    qint64 m_eventsSince = 0;  // begin of this second of events [ns]
+    int m_eventsTold = 0;      // in it
     Report m_deliveryReport;
     std::atomic<State> m_state{Closed};
     std::atomic<quint64> m_failures{0};

@@ -8,10 +8,10 @@
 #include "HardwareLogging.h"
 #include "realtime/Host.h"
 #include "realtime/TimeSource.h"
+#include "signals/IniParser.h"
 #include "signals/MessageText.h"
 
 #include <QtCore/QCoreApplication>
-#include <QtCore/QFile>
 
 #include <algorithm>
 #include <cmath>
@@ -344,11 +344,11 @@ QPlcHardwareNode::~QPlcHardwareNode()
 
 bool QPlcHardwareNode::configureFromFile(const QString &fileName)
 {
-    QFile file(fileName);
-    if (file.open(QIODevice::ReadOnly))
-        return configure(file.readAll(), fileName);
-    m_hardware->errors = {{fileName, 0, 0, QStringLiteral("cannot be read: %1").arg(file.errorString())}};
-    return false;
+    constexpr qint64 largest = 1 << 20;  // [byte]
+    QByteArray text;
+    return qplc::IniParser::readFile(fileName, QStringLiteral("the configuration of a hardware node"), largest, &text,
+                                     &m_hardware->errors)
+        && configure(text, fileName);
 }
 
 bool QPlcHardwareNode::configure(const QByteArray &text, const QString &fileName)

@@ -257,7 +257,12 @@ void tst_HardwareConfiguration::aMissingFileIsNamed()
     QPlcHardwareNode node;
     QVERIFY(!node.configureFromFile("/nowhere/winch.ini"));
     QCOMPARE(QPlcParseError::toString(node.configurationErrors()),
-             QString("/nowhere/winch.ini: cannot be read: No such file or directory"));
+             QString("/nowhere/winch.ini: cannot open: No such file or directory; give the path of the configuration "
+                     "of a hardware node"));
+    QVERIFY(!node.configureFromFile("/dev/zero"));
+    QCOMPARE(QPlcParseError::toString(node.configurationErrors()),
+             QString("/dev/zero: has more than 1048576 bytes; give the configuration of a hardware node, which has "
+                     "fewer"));
     QCOMPARE(errorsOf("{\"drive\": 3,\n \"x\" }", "a.json"),
              QString("a.json:2:6: this is not JSON: missing name separator"));
     QCOMPARE(

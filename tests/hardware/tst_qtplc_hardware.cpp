@@ -200,7 +200,7 @@ void tst_qtplc_hardware::invalidConfigurationEndsWithExitCodeTwo_data()
     QTest::addColumn<QString>("error");
     QTest::newRow("unknown driver") << QByteArray("[node]\nname = A\n[x]\ndriver = nonsense\n")
                                     << "4:10: there is no driver 'nonsense'";
-    QTest::newRow("missing") << QByteArray() << "cannot be read: No such file or directory";
+    QTest::newRow("missing") << QByteArray() << "cannot open: No such file or directory";
 }
 
 void tst_qtplc_hardware::invalidConfigurationEndsWithExitCodeTwo()
