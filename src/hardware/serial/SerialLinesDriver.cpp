@@ -55,7 +55,8 @@ protected:
         QStringList keys;
         for (const QString &name : settings.namesBehind(prefix))
             keys << prefix + name;
-        if (settings.has(QStringLiteral("pattern")) || (keys.isEmpty() && m_sends.empty()))
+        if (settings.has(QStringLiteral("pattern"))
+            || (keys.isEmpty() && settings.namesBehind(QStringLiteral("send.")).isEmpty()))
             keys.prepend(QStringLiteral("pattern"));
         for (const QString &key : qAsConst(keys))
             addPattern(settings, key);
@@ -165,7 +166,7 @@ private:
         for (const QString &name : names) {
             const QString key = prefix + name;
             const QByteArray text = bytes(settings, key, QString());
-            if (text.isEmpty())
+            if (text.isEmpty() && !settings.text(key).isEmpty())
                 continue;  // an error already
             Send send;
             const QString error = LineTemplate::parse(text, &send.line);

@@ -344,6 +344,7 @@ void tst_SerialLinesDriver::invalidKeysAreRefused_data()
     QTest::newRow("too long a question") << "pattern = (?<a>.)\ninterval = 1 s\nask = " + QByteArray(257, 'a') + '\n'
                                          << "write at most 256";
     QTest::newRow("sent line without a value") << QByteArray("send.a = ON\\r\n") << "give each number a name";
+    QTest::newRow("empty line") << QByteArray("send.a =\n") << "give each number a name";
     QTest::newRow("brace without a partner") << QByteArray("send.a = {a\n") << "a brace at byte 1 has no partner";
     QTest::newRow("closing brace") << QByteArray("send.a = {a}}\n") << "a brace at byte 4 has no partner";
     QTest::newRow("form of a number") << QByteArray("send.a = {a:x}\n") << "'a:x' is not a number of a line";
