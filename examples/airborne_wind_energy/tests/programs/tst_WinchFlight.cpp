@@ -281,7 +281,7 @@ void tst_WinchFlight::lostDriveCanReconnect()
 void tst_WinchFlight::oneOptionFliesWithADriveOnCanOpen()
 {
     const Outcome outcome
-        = runProgram(path("awe_sil"), {"--winch", "canopen", "--duration=3", "--report", reportFile()});
+        = runProgram(path("awe_sil"), {"--winch", "canopen", "--duration=6", "--report", reportFile()});
     QVERIFY2(outcome.exitCode == 0, qPrintable(outcome.errors));
     const QJsonObject winch = report().value(QStringLiteral("winch")).toObject();
     QVERIFY2(winch[QStringLiteral("mechanical_energy_J")].toDouble() > 0.0, qPrintable(outcome.output));
