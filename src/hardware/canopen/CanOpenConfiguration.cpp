@@ -355,7 +355,7 @@ void CanOpenConfiguration::addPdosOfFile(bool isTransmit, QPlcDriverSettings &se
 
 // With an id of network management or SYNC, the values of a PDO would command all devices of the
 // bus.
-QString CanOpenConfiguration::problemOfFile(const Pdo &pdo) const
+QString CanOpenConfiguration::problemOfFile(const Pdo &pdo)
 {
     const QString title = QStringLiteral("%1 of the file").arg(pdo.title());
     if (!CanOpenIds::isPdo(pdo.id))

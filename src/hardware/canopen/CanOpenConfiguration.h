@@ -75,7 +75,7 @@ private:
     bool readEntry(const QString &word, PdoEntry *entry, QString *error) const;
     bool readSetting(const QString &text, CanOpenSetting *setting, QString *error) const;
     void addPdosOfFile(bool isTransmit, QPlcDriverSettings &settings);
-    QString problemOfFile(const Pdo &pdo) const;
+    static QString problemOfFile(const Pdo &pdo);
     void addPdosOfAxis();
     void addPdo(int number, bool isTransmit, std::initializer_list<ObjectAddress> objects);
     void checkIds(QPlcDriverSettings &settings);
