@@ -34,7 +34,7 @@ void CanOpenConfiguration::read(QPlcDriverSettings &settings)
     sync = SyncSource(
         settings.choice(QStringLiteral("sync"),
                         {QStringLiteral("none"), QStringLiteral("every cycle"), QStringLiteral("from others")}));
-    if (sync == SyncSource::EveryCycle)
+    if (sync == SyncSource::EveryCycle && !device.isEmpty())
         settings.claim(QStringLiteral("sync"), QStringLiteral("sending the SYNC of %1").arg(device));
     if (settings.has(QStringLiteral("node")))
         readNode(settings);
@@ -53,7 +53,8 @@ int CanOpenConfiguration::readBitRate(const QString &device, QPlcDriverSettings 
 void CanOpenConfiguration::readNode(QPlcDriverSettings &settings)
 {
     node = int(settings.integer(QStringLiteral("node"), 1, 1, CanOpenIds::MaximumNode));
-    settings.claim(QStringLiteral("node"), QStringLiteral("node %1 of %2").arg(node).arg(device));
+    if (!device.isEmpty())
+        settings.claim(QStringLiteral("node"), QStringLiteral("node %1 of %2").arg(node).arg(device));
     master = int(settings.integer(QStringLiteral("master"), 127, 0, CanOpenIds::MaximumNode));
     if (master == node)
         settings.addError(QStringLiteral("master"),
