@@ -139,8 +139,8 @@ void tst_qtplc_hardware::safeWaitsForTheAnswerOfDrives()
     QByteArray text("[node]\nname = A\n");
     for (const char *node : {"5", "6", "7"})
         text += QByteArray("[drive") + node + "]\ndriver = canopen\ndevice = fake:safe\nprofile = 402\nnode = " + node
-            + "\nsync = " + (*node == '5' ? "every cycle" : "from others") + "\nsdo-timeout = 50 ms\n[drive" + node
-            + ".safe]\nenable = 0\nvelocity = 0\n";
+            + "\nsync = " + (*node == '5' ? "every cycle" : "from others") + "\n"
+            + (*node == '7' ? "sdo-timeout = 50 ms\n" : "") + "[drive" + node + ".safe]\nenable = 0\nvelocity = 0\n";
     QFile file(folder.path("a.ini"));
     QVERIFY(file.open(QIODevice::WriteOnly));
     file.write(text);

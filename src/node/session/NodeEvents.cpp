@@ -43,8 +43,10 @@ void NodeEvents::end(const QString &alarm, const QString &text)
         ++m_leftOut;  // its begin
     one.event = {messages::Severity::Info, text, alarm, false};
     one.isDue = true;
-    if (!one.isKnown)
-        m_alarms.erase(found);  // nobody has heard of it
+    if (!one.isKnown) {  // nobody has heard of it
+        ++m_leftOut;
+        m_alarms.erase(found);
+    }
     sendDue();
 }
 
