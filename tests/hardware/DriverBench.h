@@ -65,6 +65,8 @@ public:
     qint64 now() const { return m_now; }
     void advance(std::chrono::nanoseconds time) { m_now += time.count(); }
 
+    /// For the next exchange(); before open() an exchange() makes it known to the device that is
+    /// opened.
     void set(const QString &channel, double value, bool isSafe = false)
     {
         m_runner.setValue(m_writeNames.indexOf(channel), value, isSafe);

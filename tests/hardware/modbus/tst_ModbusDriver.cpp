@@ -149,6 +149,7 @@ void tst_ModbusDriver::writtenBitsLeaveTheOthers()
     bench.set("enable", 1.0);
     bench.set("mode", 3.0);
     bench.set("swapped", 1.0);
+    bench.exchange();
     QVERIFY2(bench.open(), qPrintable(bench.errorString()));
     QCOMPARE(m_device->values(ModbusRegister::Holding, 30, 1), Words{0xA531});
     QCOMPARE(m_device->values(ModbusRegister::Holding, 40, 1), Words{0x0100});
@@ -173,6 +174,7 @@ void tst_ModbusDriver::writtenBitsAndTheirNeighboursAreOneRequest()
         QCOMPARE(bench.wireWrite(QString::fromLatin1(name)), QString());
         bench.set(QString::fromLatin1(name), 1.0);
     }
+    bench.exchange();
     QVERIFY(bench.open());
     QCOMPARE(m_device->takeWrites().size(), std::size_t(1));
     QCOMPARE(m_device->values(ModbusRegister::Holding, 9, 4), (Words{1, 0x8002, 0, 1}));
@@ -192,6 +194,7 @@ void tst_ModbusDriver::bitsThatFillARegisterNeedNoReading()
     QCOMPARE(bench.wireWrite("low") + bench.wireWrite("high"), QString());
     bench.set("low", 0x34);
     bench.set("high", 0x12);
+    bench.exchange();
     QVERIFY(bench.open());
     QCOMPARE(m_device->values(ModbusRegister::Holding, 5, 1), Words{0x1234});
     QVERIFY(m_device->takeReads().empty());
@@ -407,6 +410,7 @@ void tst_ModbusDriver::aSilentUnitIsAskedAgainAfterTheOthers()
     QCOMPARE(bench.wireWrite("a") + bench.wireWrite("b"), QString());
     bench.set("a", 7.0, true);
     bench.set("b", 8.0, true);
+    bench.exchange();
     m_device->damageAnswers(1.0, 1);
     expectLoss();
     QVERIFY2(bench.open(), qPrintable(bench.errorString()));

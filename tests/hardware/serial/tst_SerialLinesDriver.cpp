@@ -150,6 +150,7 @@ void tst_SerialLinesDriver::valuesAreSentInLines()
         QCOMPARE(bench.wireWrite(name), QString());
     QCOMPARE(bench.wireRead("voltage"), QString());
     bench.set("on", 1.0);
+    bench.exchange();
     QVERIFY2(bench.open(), qPrintable(bench.errorString()));
     QCOMPARE(supply.far.receive(), QByteArray("OUT 1\rMEAS?\r"));  // the other one has no values yet
     QVERIFY(!bench.runner().isDelivered());
@@ -169,6 +170,7 @@ void tst_SerialLinesDriver::linesMayBeSentWhenTheirValuesChange()
     QCOMPARE(bench.errors() + bench.wireWrite("a") + bench.wireWrite("b"), QString());
     bench.set("a", 1.0);
     bench.set("b", 2.0);
+    bench.exchange();
     QVERIFY2(bench.open(), qPrintable(bench.errorString()));
     QCOMPARE(heater.far.receive(), QByteArray("A1\nB2\n"));
     QVERIFY(bench.exchange());
