@@ -247,7 +247,8 @@ public:
         if ((word & 0x80) && !(m_word & 0x80) && state == Fault)
             state = SwitchOnDisabled;
         m_word = word;
-        command(word);
+        if (!isStubborn)
+            command(word);
         modeDisplay = mode;
         const bool isBraking = state == QuickStop || state == FaultReaction;
         if (state == Enabled && mode == 9)
@@ -263,6 +264,8 @@ public:
     void fail() { state = FaultReaction; }
     void stopQuickly()
     {
+        if (isStubborn)
+            return;
         if (state == Enabled)
             state = QuickStop;
         else if (state == Ready || state == SwitchedOn)
@@ -303,7 +306,7 @@ private:
     void command(quint16 word)
     {
         const bool isPowered = state == Ready || state == SwitchedOn || state == Enabled || state == QuickStop;
-        if (state == FaultReaction || state == Fault || isStubborn)
+        if (state == FaultReaction || state == Fault)
             return;
         if (!(word & 0x02)) {
             if (isPowered)
