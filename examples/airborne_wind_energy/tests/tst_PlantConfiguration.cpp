@@ -474,7 +474,8 @@ void tst_PlantConfiguration::badLineIsNamedWithItsRemedy_data()
     add("key of the winch", "[winch]\n; a comment\nkin = drive\n",
         "plant.ini:3: 'kin' is not a key of [winch]; did you mean 'kind'?");
     add("other key of the winch", "[winch]\nropes = 2\n",
-        "plant.ini:2: 'ropes' is not a key of [winch]; use one of kind, hardware, simulated, drumRadius, ");
+        "plant.ini:2: 'ropes' is not a key of [winch]; use one of kind, hardware, canOpenHardware, simulated, "
+        "drumRadius, ");
     add("constant of the machine", "[winch]\nkind = machine\ngearRatio = 0\n",
         "plant.ini:3: gearRatio = 0: use a number from 0.01 to 10000");
     add("section", "[kites]\n",

@@ -170,10 +170,11 @@ void tst_ModbusDriver::writtenBitsAndTheirNeighboursAreOneRequest()
     DriverBench bench("modbus",
                       keys("write = on-change\nregister.before = holding 9\nregister.bit = holding 10, bit 15\n"
                            "register.other = holding 10, bit 1\nregister.after = holding 11, int32\n"));
-    for (const char *name : {"before", "bit", "other", "after"}) {
-        QCOMPARE(bench.wireWrite(QString::fromLatin1(name)), QString());
-        bench.set(QString::fromLatin1(name), 1.0);
-    }
+    const QStringList names{"before", "bit", "other", "after"};
+    for (const QString &name : names)
+        QCOMPARE(bench.wireWrite(name), QString());
+    for (const QString &name : names)
+        bench.set(name, 1.0);
     bench.exchange();
     QVERIFY(bench.open());
     QCOMPARE(m_device->takeWrites().size(), std::size_t(1));
