@@ -35,6 +35,8 @@
 /// | pan | drag; over an axis only this one | arrow keys |
 /// | zoom into a box | drag with Shift or the right button | |
 /// | show everything | double click | `A` |
+/// | export the visible part as CSV | context menu | `Ctrl+E` |
+/// | copy the visible part as a table | context menu | `Ctrl+C` |
 /// | export it as PNG, SVG or PDF | context menu | `Ctrl+Shift+E` |
 /// | copy it as a picture | context menu | `Ctrl+Shift+C` |
 ///

@@ -72,12 +72,12 @@ void ChartExport::saveTable(const Table &table)
     QFileDialog *dialog
         = openDialog(m_panel, tr("Export as a table"), {tr("Comma-separated values (*.csv)")}, QStringLiteral("csv"));
     connect(dialog, &QFileDialog::fileSelected, this,
-            [this, table](const QString &name) { m_export.save(table(TableExport::Csv), name); });
+            [this, table](const QString &name) { m_export.save(table(TableText::Csv), name); });
 }
 
 void ChartExport::copyTable(const Table &table)
 {
-    m_export.copy(table(TableExport::Tsv));
+    m_export.copy(table(TableText::Tsv));
 }
 
 void ChartExport::savePicture()

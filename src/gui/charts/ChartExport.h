@@ -21,7 +21,7 @@ class ChartExport : public QObject
     Q_OBJECT
 public:
     using Picture = std::function<std::unique_ptr<ChartPicture>()>;
-    using Table = std::function<TableExport(TableExport::Format)>;
+    using Table = std::function<std::shared_ptr<TextTable>(TableText::Format)>;
 
     /// \param panel  in which it tells  \param picture  of what is seen at the moment
     ChartExport(QWidget *panel, Picture picture);

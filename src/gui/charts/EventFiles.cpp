@@ -82,13 +82,13 @@ QString EventFiles::fileName(QPlcPast::Time event, const QString &signal)
     return begins + time.toString(QStringLiteral("yyyy-MM-dd_HH-mm-ss.zzz_")) + name + QStringLiteral(".csv");
 }
 
-void EventFiles::save(QPlcPast::Time event, const QString &signal, const TableExport &table)
+void EventFiles::save(QPlcPast::Time event, const QString &signal, std::shared_ptr<TextTable> table)
 {
     if (m_waiting.size() == MostWaiting) {
         fail(tr("An event is not saved: events come faster than they can be written. Give the trigger a hold-off."));
         return;
     }
-    m_waiting.push_back({fileName(event, signal), table});
+    m_waiting.push_back({fileName(event, signal), std::move(table)});
     next();
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "PlotExport.h"
+#include "QPlcPast.h"
 
 #include <QtCore/QJsonObject>
 
@@ -47,7 +48,7 @@ public:
     void begin(const EventFileSettings &settings);
     /// Writes \a table, whose stores have to live until it is done: else cancel() first. \param
     /// event time of it [ns since 1970] \param signal that the event is of
-    void save(QPlcPast::Time event, const QString &signal, const TableExport &table);
+    void save(QPlcPast::Time event, const QString &signal, std::shared_ptr<TextTable> table);
     /// Gives up what is not written yet.
     void cancel(const QString &reason);
     /// Files since begin().
@@ -65,7 +66,7 @@ private:
     struct Wanted
     {
         QString file;
-        TableExport table;
+        std::shared_ptr<TextTable> table;
     };
     void next();
     void fail(const QString &sentence);

@@ -2,6 +2,7 @@
 // What a person can do with a time plot, by mouse, keys and menu.
 #include "QPlcTimePlotPrivate.h"
 #include "gui/panel/SignalEdit.h"
+#include "gui/plot/TableExport.h"
 
 #include <QtWidgets/QBoxLayout>
 #include <QtWidgets/QMenu>
@@ -342,19 +343,19 @@ QRect QPlcTimePlot::Private::rightAxisArea() const
 
 ChartExport::Table QPlcTimePlot::Private::table(Time begin, Time end) const
 {
-    return [this, begin, end](TableExport::Format format) {
+    return [this, begin, end](TableText::Format format) {
         std::vector<TableExport::Column> columns;
         for (const PlotCurve &curve : curves) {
             if (!curve.isSeen())
                 continue;
             columns.push_back(
                 TableExport::Column::of(curve.source, curve.text(), curve.settings.gain, curve.settings.offset));
-            columns.back().hasQuality = format == TableExport::Csv;  // people paste numbers
+            columns.back().hasQuality = format == TableText::Csv;  // people paste numbers
             columns.back().shift = curve.run.shift;
             columns.back().begin = curve.run.begin;
             columns.back().end = curve.run.end;
         }
-        return TableExport(format, std::move(columns), begin, end);
+        return std::make_shared<TableExport>(format, std::move(columns), begin, end);
     };
 }
 

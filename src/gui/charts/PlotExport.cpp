@@ -20,7 +20,7 @@ PlotExport::PlotExport(QObject *parent)
     connect(&m_timer, &QTimer::timeout, this, &PlotExport::goOn);
 }
 
-void PlotExport::save(const TableExport &table, const QString &fileName)
+void PlotExport::save(std::shared_ptr<TextTable> table, const QString &fileName)
 {
     forget();
     m_file = std::make_unique<QSaveFile>(fileName);
@@ -28,18 +28,18 @@ void PlotExport::save(const TableExport &table, const QString &fileName)
         fail(tr("%1 cannot be written: %2. Choose another place.").arg(fileName, m_file->errorString()));
         return;
     }
-    begin(table);
+    begin(std::move(table));
 }
 
-void PlotExport::copy(const TableExport &table)
+void PlotExport::copy(std::shared_ptr<TextTable> table)
 {
     forget();
-    begin(table);
+    begin(std::move(table));
 }
 
-void PlotExport::begin(const TableExport &table)
+void PlotExport::begin(std::shared_ptr<TextTable> table)
 {
-    m_table = std::make_unique<TableExport>(table);
+    m_table = std::move(table);
     if (m_file)
         m_file->write(m_table->header());
     else

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "gui/plot/TableExport.h"
+#include "gui/plot/TextTable.h"
 
-#include <QtCore/QBuffer>
 #include <QtCore/QObject>
 #include <QtCore/QSaveFile>
 #include <QtCore/QTimer>
@@ -22,10 +21,10 @@ class PlotExport : public QObject
 public:
     explicit PlotExport(QObject *parent);
 
-    /// Begins; another one that has not finished is given up. The stores have to live until
-    /// finished() or failed(): else cancel() first.
-    void save(const TableExport &table, const QString &fileName);
-    void copy(const TableExport &table);
+    /// Begins; another one that has not finished is given up. What the table reads has to live
+    /// until finished() or failed(): else cancel() first.
+    void save(std::shared_ptr<TextTable> table, const QString &fileName);
+    void copy(std::shared_ptr<TextTable> table);
     bool isBusy() const { return m_table != nullptr; }
     /// Gives up, and says so when there was something.
     void cancel(const QString &reason);
@@ -36,14 +35,14 @@ Q_SIGNALS:
     void failed(const QString &sentence);
 
 private:
-    void begin(const TableExport &table);
+    void begin(std::shared_ptr<TextTable> table);
     void goOn();
     void end();
     void fail(const QString &sentence);
     void forget();
 
     QTimer m_timer;
-    std::unique_ptr<TableExport> m_table;
+    std::shared_ptr<TextTable> m_table;
     std::unique_ptr<QSaveFile> m_file;  // null: the clipboard
     QByteArray m_text;                  // for the clipboard
 };

@@ -15,7 +15,7 @@ void QPlcTimePlot::Private::connectTrigger()
     connect(triggerBar, &TriggerBar::savingBegins, this, [this] { eventFiles->begin(triggerBar->fileSettings()); });
     connect(triggerBar, &TriggerBar::eventCame, this, [this](Time event, Time begin, Time end) {
         const QString signal = triggerBar->settings().value(QStringLiteral("signal")).toString();
-        eventFiles->save(event, signal, table(begin, end)(TableExport::Csv));
+        eventFiles->save(event, signal, table(begin, end)(TableText::Csv));
     });
     connect(eventFiles, &EventFiles::savedChanged, this, [this] { triggerBar->showSaved(eventFiles->saved()); });
     connect(eventFiles, &EventFiles::failed, this, [this](const QString &sentence) {

@@ -101,6 +101,7 @@ public:
     std::vector<Extent> extents(const SpectrumJob::Wish &of) const;
     bool isFollowing() const;
     void show(const std::vector<SpectrumJob::Result> &results);
+    ChartExport::Table table() const;
 
     // -- texts --
     void showTexts();
@@ -279,6 +280,28 @@ void QPlcSpectrum::Private::show(const std::vector<SpectrumJob::Result> &compute
     showTexts();
 }
 
+/// What is seen at the moment of the wish.
+ChartExport::Table QPlcSpectrum::Private::table() const
+{
+    const SeenRange frequencies = canvas->seenFrequencies();
+    if (canvas->isSpectrogram()) {
+        SpectrogramTable::Source source;
+        if (!results.empty() && results.front().problem.isEmpty() && !shownPasts.empty())
+            source = {shownPasts.front().text(), SpectrumCanvas::densityUnit(shownPasts.front().unit),
+                      results.front().begin, results.front().picture};
+        return [source, frequencies, times = canvas->seenTimes()](TableText::Format format) {
+            return std::make_shared<SpectrogramTable>(format, source, times, frequencies);
+        };
+    }
+    std::vector<SpectrumTable::Column> columns;
+    for (const SpectrumCanvas::Curve &curve : canvas->curves())
+        columns.push_back(
+            {curve.title, curve.isDensity ? SpectrumCanvas::densityUnit(curve.unit) : curve.unit, curve.lines});
+    return [columns, frequencies](TableText::Format format) {
+        return std::make_shared<SpectrumTable>(format, columns, frequencies);
+    };
+}
+
 // ---- texts ----
 
 void QPlcSpectrum::Private::showTexts()
@@ -440,6 +463,7 @@ void QPlcSpectrum::Private::makeActions()
         canvas->placeCursor(std::nullopt);
         showReadout();
     });
+    exporter()->addTableActions([this] { return table(); });
     exporter()->addPictureActions();
 }
 
@@ -448,7 +472,7 @@ QMenu *QPlcSpectrum::Private::createMenu()
     return makeMenu({{"amplitude", "density", "spectrogram", "next"},
                      {"logFrequency", "logValues", "all", "zoomIn", "zoomOut"},
                      {"highest", "lineDown", "lineUp", "removeCursor"},
-                     {"savePicture", "copyPicture"},
+                     {"saveTable", "copyTable", "savePicture", "copyPicture"},
                      {"panelMenu"}});  // of the frame around
 }
 

@@ -9,6 +9,7 @@
 #include "XyPlotEditor.h"
 #include "gui/models/ValueFormat.h"
 #include "gui/panel/PanelSettings.h"
+#include "gui/plot/TableExport.h"
 
 #include <QtCore/QDateTime>
 #include <QtCore/QElapsedTimer>
@@ -259,19 +260,19 @@ public:
     {
         const QPlcPast::Time end = seenEnd();
         const QPlcPast::Time begin = end - context()->timeAxis()->span();
-        return [this, begin, end](TableExport::Format format) {
+        return [this, begin, end](TableText::Format format) {
             std::vector<TableExport::Column> columns;
             QStringList added;
             for (const std::unique_ptr<XyCurve> &curve : canvas->curves()) {
                 for (const QPlcPast &past : {curve->x(), curve->y()}) {
                     if (!added.contains(past.expression)) {
                         columns.push_back(TableExport::Column::of(past, past.text()));
-                        columns.back().hasQuality = format == TableExport::Csv;
+                        columns.back().hasQuality = format == TableText::Csv;
                     }
                     added << past.expression;
                 }
             }
-            return TableExport(format, std::move(columns), begin, end);
+            return std::make_shared<TableExport>(format, std::move(columns), begin, end);
         };
     }
 

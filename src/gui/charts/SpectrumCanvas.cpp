@@ -239,6 +239,14 @@ void SpectrumCanvas::scaleValues()
         setAxisScale(yLeft, 0.0, room * highest);
 }
 
+SeenRange SpectrumCanvas::seen(int axis) const
+{
+    if (!m_isHeld)
+        return {};
+    const QwtInterval interval = axisInterval(axis);
+    return {interval.minValue(), interval.maxValue()};
+}
+
 /// Not set: the curves have several.
 std::optional<QString> SpectrumCanvas::commonUnit() const
 {

@@ -3,7 +3,7 @@
 
 #include "QPlcTheme.h"
 #include "ZoomedAxes.h"
-#include "gui/plot/Spectrum.h"
+#include "gui/plot/SpectrumTable.h"
 
 #include <QtCore/QVector>
 
@@ -73,6 +73,10 @@ public:
     /// The value of the spectrogram at a place; not set: there is none.
     std::optional<double> densityAt(double time, double frequency) const;
 
+    /// What is seen of the axes: all of it, until somebody zooms.
+    SeenRange seenFrequencies() const { return seen(frequencyAxis()); }
+    SeenRange seenTimes() const { return seen(xBottom); }  // [s], in a spectrogram
+
     /// "m²/Hz", "(m/s)²/Hz"
     static QString densityUnit(const QString &unit);
 
@@ -87,6 +91,7 @@ private:
     void showColors();
     void showTitles();
     std::optional<QString> commonUnit() const;
+    SeenRange seen(int axis) const;
     int frequencyAxis() const { return isSpectrogram() ? yLeft : xBottom; }
     void hold(QPointF topLeft, QPointF bottomRight);
 

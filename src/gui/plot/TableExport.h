@@ -2,8 +2,8 @@
 #pragma once
 
 #include "PastRows.h"
+#include "TextTable.h"
 #include "gui/store/SignalStore.h"
-#include "signals/TableText.h"
 
 #include <QtCore/QByteArray>
 #include <QtCore/QString>
@@ -20,7 +20,7 @@ namespace qplc {
 /// column, nothing where there is none. Columns of several stores are one table: each time of any
 /// of them is a row. As in tables of recordings, a column can be followed by the qualities of its
 /// values: 0 Good, 1 to 252 Held for so many rows, 253 Safe, 254 Invalid.
-class TableExport
+class TableExport : public TextTable
 {
 public:
     using Time = SignalStore::Time;
@@ -50,11 +50,10 @@ public:
     TableExport(Format format, std::vector<Column> columns, Time begin, Time end);
 
     /// "UTC,time [s],kite.elevation [deg]"
-    QByteArray header() const;
-    bool isAtEnd() const;
-    /// The next rows, at most so many.
-    QByteArray next(int mostRows);
-    std::int64_t rows() const { return m_rows; }  // that were given
+    QByteArray header() const override;
+    bool isAtEnd() const override;
+    QByteArray next(int mostRows) override;
+    std::int64_t rows() const override { return m_rows; }
 
 private:
     /// A store with the next row of it.

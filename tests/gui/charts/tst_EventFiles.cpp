@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "../../common/Waiting.h"
 #include "gui/charts/EventFiles.h"
+#include "gui/plot/TableExport.h"
 
 #include <QtCore/QDir>
 #include <QtCore/QTemporaryDir>
@@ -28,9 +29,10 @@ private Q_SLOTS:
     void cancellingLeavesNoHalfFiles();
 
 private:
-    TableExport table() const
+    std::shared_ptr<TextTable> table() const
     {
-        return {TableExport::Csv, {{&m_store, 0, 1.0, 0.0, "speed", "m/s"}}, begin, begin + 9 * s};
+        const std::vector<TableExport::Column> columns{{&m_store, 0, 1.0, 0.0, "speed", "m/s"}};
+        return std::make_shared<TableExport>(TableExport::Csv, columns, begin, begin + 9 * s);
     }
     QStringList files() const { return QDir(m_folder->path()).entryList(QDir::Files, QDir::Name); }
 

@@ -8,6 +8,8 @@
 #include "gui/panel/WindowContext.h"
 #include "gui/plant/PlantFeed.h"
 
+#include <QtGui/QClipboard>
+#include <QtGui/QGuiApplication>
 #include <QtWidgets/QAction>
 #include <QtWidgets/QComboBox>
 
@@ -60,6 +62,14 @@ struct SpectrumWindow
     {
         return canvas()->curves().size() == curves && canvas()->isVisible() && canvas()->canvas()->width() > 100;
     }
+    /// The lines of the table in the clipboard.
+    QStringList copied()
+    {
+        QGuiApplication::clipboard()->clear();
+        trigger("copyTable");
+        waitUntil([] { return !QGuiApplication::clipboard()->text().isEmpty(); }, 10000);
+        return QGuiApplication::clipboard()->text().split(QLatin1Char('\n'), Qt::SkipEmptyParts);
+    }
     void trigger(const char *name) { panel.findChild<QAction *>(QLatin1String(name))->trigger(); }
     double height(int curve, double frequency) const
     {
@@ -95,6 +105,7 @@ private Q_SLOTS:
     void zoomedAxesStay();
     void settingsAreEdited();
     void formulasHaveSpectra();
+    void whatIsShownIsCopiedAsATable();
 };
 
 void tst_QPlcSpectrum::settingsAreRestoredUnchanged_data()
@@ -310,6 +321,37 @@ void tst_QPlcSpectrum::formulasHaveSpectra()
     QVERIFY(window.show());
     QTRY_VERIFY(window.hasCurves(1) && showsText(window.panel, "1000 values"));
     QVERIFY(std::fabs(window.height(0, 5.0) - 6.0) < 0.02);
+}
+
+/// With the frequencies that are seen; a spectrogram has a row for each piece of time.
+void tst_QPlcSpectrum::whatIsShownIsCopiedAsATable()
+{
+    SpectrumWindow window;
+    window.take(1000);
+    window.apply(R"({"signals":["force","speed"]})");
+    QVERIFY(window.show());
+    QTRY_VERIFY(window.hasCurves(2));
+    QStringList lines = window.copied();
+    const Spectrum::Lines first = window.canvas()->curves().first().lines;
+    QCOMPARE(lines.first(), QStringLiteral("frequency [Hz]\tforce [N]\tspeed [m/s]"));
+    QCOMPARE(lines.size(), int(first.values.size()) + 1);
+    const QStringList row = lines.at(1 + 50).split(QLatin1Char('\t'));
+    QVERIFY(std::fabs(row.at(0).toDouble() - 5.0) < 1e-9);
+    QCOMPARE(row.at(1).toDouble(), first.values.at(50));
+    window.trigger("zoomIn");
+    const QwtInterval seen = window.canvas()->axisInterval(QwtPlot::xBottom);
+    lines = window.copied();
+    QVERIFY(lines.size() > 2 && lines.size() < int(first.values.size()));
+    QVERIFY(lines.at(1).section(QLatin1Char('\t'), 0, 0).toDouble() >= seen.minValue());
+    QVERIFY(lines.last().section(QLatin1Char('\t'), 0, 0).toDouble() <= seen.maxValue());
+    window.trigger("density");
+    QTRY_VERIFY(!window.canvas()->curves().isEmpty() && window.canvas()->curves().first().isDensity);
+    QCOMPARE(window.copied().first(), QString::fromUtf8("frequency [Hz]\tforce [N²/Hz]\tspeed [(m/s)²/Hz]"));
+    window.trigger("spectrogram");
+    QTRY_VERIFY(window.canvas()->isSpectrogram());
+    lines = window.copied();
+    QVERIFY2(lines.first().startsWith(QStringLiteral("UTC\ttime [s]\tforce at 0 Hz [")), qPrintable(lines.first()));
+    QCOMPARE(lines.at(1).count(QLatin1Char('\t')), lines.first().count(QLatin1Char('\t')));
 }
 
 QTEST_MAIN(tst_QPlcSpectrum)

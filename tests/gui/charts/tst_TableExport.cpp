@@ -35,6 +35,12 @@ QByteArray textOf(TableExport table)
     return text;
 }
 
+std::shared_ptr<TextTable> tableOf(TableExport::Format format, const SignalStore &store, SignalStore::Time first,
+                                   SignalStore::Time last)
+{
+    return std::make_shared<TableExport>(format, std::vector<TableExport::Column>{column(store, 0)}, first, last);
+}
+
 }  // namespace
 
 class tst_TableExport : public QObject
@@ -222,7 +228,7 @@ void tst_TableExport::aFileIsWrittenWhole()
     const TableExport table(TableExport::Csv, {column(store, 0)}, begin, begin + 9999 * s);
     PlotExport job(this);
     QSignalSpy finished(&job, &PlotExport::finished);
-    job.save(table, name);
+    job.save(std::make_shared<TableExport>(table), name);
     QVERIFY(!QFile::exists(name));  // until it is whole
     QVERIFY(job.isBusy());
     QVERIFY(finished.wait());
@@ -237,7 +243,7 @@ void tst_TableExport::failureToWriteAFileIsReported()
     const SignalStore store(1, 16);
     PlotExport job(this);
     QSignalSpy failed(&job, &PlotExport::failed);
-    job.save(TableExport(TableExport::Csv, {column(store, 0)}, 0, 1), QStringLiteral("/nowhere/at/all.csv"));
+    job.save(tableOf(TableExport::Csv, store, 0, 1), QStringLiteral("/nowhere/at/all.csv"));
     QCOMPARE(failed.size(), 1);
     QVERIFY(failed[0][0].toString().contains(QStringLiteral("/nowhere/at/all.csv")));
     QVERIFY(!job.isBusy());
@@ -251,7 +257,7 @@ void tst_TableExport::givingUpLeavesNoFile()
     append(&store, begin, {1.0F});
     PlotExport job(this);
     QSignalSpy failed(&job, &PlotExport::failed);
-    job.save(TableExport(TableExport::Csv, {column(store, 0)}, begin, begin), name);
+    job.save(tableOf(TableExport::Csv, store, begin, begin), name);
     job.cancel(QStringLiteral("no more"));
     job.cancel(QStringLiteral("nothing to give up"));
     QCOMPARE(failed.size(), 1);
@@ -264,7 +270,7 @@ void tst_TableExport::theClipboardGetsTabs()
     append(&store, begin, {1.0F});
     PlotExport job(this);
     QSignalSpy finished(&job, &PlotExport::finished);
-    job.copy(TableExport(TableExport::Tsv, {column(store, 0)}, begin, begin));
+    job.copy(tableOf(TableExport::Tsv, store, begin, begin));
     QVERIFY(finished.wait());
     QVERIFY(QGuiApplication::clipboard()->text().endsWith(QStringLiteral("\t0\t1\n")));
 }

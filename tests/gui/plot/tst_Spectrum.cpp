@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "gui/plot/Spectrum.h"
+#include "gui/plot/SpectrumTable.h"
 
 #include <QtTest/QtTest>
 
@@ -29,6 +29,37 @@ Spectrum::Samples noise(std::size_t count)
     for (std::size_t i = 0; i < count; ++i)
         samples.push_back(float(std::sqrt(12.0) * (double(numbers()) / double(std::mt19937::max()) - 0.5)));
     return samples;
+}
+
+/// Values 0, 1, 2, ... with lines at 0, \a step, ...
+Spectrum::Lines linesOf(std::size_t count, double step)
+{
+    Spectrum::Lines lines;
+    lines.step = step;
+    for (std::size_t i = 0; i < count; ++i)
+        lines.values.push_back(double(i));
+    return lines;
+}
+
+Spectrum::Picture pictureOf(std::size_t columns, std::size_t lines)
+{
+    Spectrum::Picture picture;
+    picture.step = 0.5;
+    picture.begin = 1.0;
+    picture.duration = 2.0;
+    picture.columns = columns;
+    picture.lines = lines;
+    for (std::size_t i = 0; i < columns * lines; ++i)
+        picture.values.push_back(float(i));
+    return picture;
+}
+
+QByteArray textOf(TextTable &table)
+{
+    QByteArray text = table.header();
+    while (!table.isAtEnd())
+        text += table.next(1);
+    return text;
 }
 
 double meanSquare(const Spectrum::Samples &samples)
@@ -92,6 +123,10 @@ private Q_SLOTS:
     void skippedCycleIsNoPartOfARun();
     void newestOfEqualRunsIsTaken();
     void smallDifferencesOfTimeAreNoGap();
+    void tableHasARowForEachFrequency();
+    void tableHasWhatIsSeen();
+    void tableOfASpectrogramHasARowForEachPieceOfTime();
+    void piecesOfALargeSpectrogramAreSmall();
 };
 
 void tst_Spectrum::sineShowsItsAmplitudeAtItsFrequency_data()
@@ -317,6 +352,46 @@ void tst_Spectrum::smallDifferencesOfTimeAreNoGap()
 {
     const EvenRun run = runOf({0, 1000, 2030, 3000, 3980, 5000});
     QCOMPARE(run.size(), std::size_t(6));
+}
+
+void tst_Spectrum::tableHasARowForEachFrequency()
+{
+    SpectrumTable table(TableText::Csv, {{"force", "N", linesOf(3, 1.0)}, {"speed", "m/s", linesOf(2, 1.5)}}, {});
+    QCOMPARE(textOf(table), QByteArray("frequency [Hz],force [N],speed [m/s]\r\n0,0,0\r\n1,1,\r\n1.5,,1\r\n2,2,\r\n"));
+    QCOMPARE(table.rows(), std::int64_t(4));
+    SpectrumTable nothing(TableText::Csv, {}, {});
+    QCOMPARE(textOf(nothing), QByteArray("frequency [Hz]\r\n"));
+}
+
+void tst_Spectrum::tableHasWhatIsSeen()
+{
+    SpectrumTable table(TableText::Csv, {{"force", "", linesOf(100, 0.1)}}, {0.25, 0.45});
+    QCOMPARE(textOf(table).count('\n'), 1 + 2);
+    SpectrogramTable picture(TableText::Csv, {"force", "", 0, pictureOf(10, 10)}, {3.5, 6.5}, {0.9, 1.6});
+    QCOMPARE(textOf(picture),
+             QByteArray("UTC,time [s],force at 1 Hz,force at 1.5 Hz\r\n"
+                        "1970-01-01T00:00:04.000000Z,4,12,13\r\n"
+                        "1970-01-01T00:00:06.000000Z,6,22,23\r\n"));
+}
+
+void tst_Spectrum::tableOfASpectrogramHasARowForEachPieceOfTime()
+{
+    constexpr std::int64_t begin = 1'700'000'000'500'000'000;  // [ns]
+    SpectrogramTable table(TableText::Tsv, {"force", "N/Hz", begin, pictureOf(2, 2)}, {}, {});
+    QCOMPARE(textOf(table),
+             QByteArray("UTC\ttime [s]\tforce at 0 Hz [N/Hz]\tforce at 0.5 Hz [N/Hz]\n"
+                        "2023-11-14T22:13:22.500000Z\t2\t0\t1\n"
+                        "2023-11-14T22:13:24.500000Z\t4\t2\t3\n"));
+    SpectrogramTable nothing(TableText::Csv, {}, {}, {});
+    QCOMPARE(textOf(nothing), QByteArray("UTC,time [s]\r\n"));
+}
+
+/// The window goes on between them.
+void tst_Spectrum::piecesOfALargeSpectrogramAreSmall()
+{
+    SpectrogramTable table(TableText::Csv, {"force", "", 0, pictureOf(100, 50'000)}, {}, {});
+    QCOMPARE(table.next(2000).count('\n'), 2);
+    QCOMPARE(table.rows(), std::int64_t(2));
 }
 
 QTEST_GUILESS_MAIN(tst_Spectrum)
