@@ -5,6 +5,7 @@
 #include "RecordedRoster.h"
 #include "RecordingMessages.h"
 #include "ReportDrawing.h"
+#include "ReportFormula.h"
 
 #include <QtCore/QDateTime>
 #include <QtCore/QFileInfo>
@@ -22,6 +23,7 @@ constexpr int Intervals = 700;  // of a plot
 constexpr int UsualPlots = 12;  // where nobody has chosen
 constexpr int MostCurves = 6;   // of a plot: elements of an array
 constexpr int MostHappenings = 200;
+constexpr int MostFormulas = 100;
 
 const char style[]
     = ":root{--back:#fff;--text:#1b1f24;--soft:#5c6670;--line:#d8dee4;--tile:#f4f6f8;--bad:#b42318;"
@@ -112,6 +114,13 @@ struct Trace
     std::vector<overview::Bucket> intervals;
 };
 
+/// A formula over the time of a report.
+struct FormulaTrace
+{
+    ReportFormula formula;
+    std::vector<overview::Bucket> intervals;
+};
+
 /// What one walk over all cycles finds.
 class Survey
 {
@@ -121,9 +130,12 @@ public:
         , m_span(double(selection.end - selection.begin + 1))
     {
         const std::vector<int> numbers = traceSignals(recording);
+        addFormulas(recording, selection.panels, numbers);
         const auto cyclesOfAll = (selection.end - selection.begin) / recording.description().period + 1;
         const auto count = std::size_t(std::clamp<RecordedTime>(cyclesOfAll, 1, Intervals));
         for (Trace &trace : traces)
+            trace.intervals.resize(count);
+        for (FormulaTrace &trace : formulas)
             trace.intervals.resize(count);
         m_signalCount = recording.table().size();
         RecordedRows rows(recording, numbers, selection.begin, selection.end);
@@ -136,7 +148,8 @@ public:
         damages = rows.damages();
     }
 
-    std::vector<Trace> traces;  // of all numeric signals
+    std::vector<Trace> traces;           // of all numeric signals
+    std::vector<FormulaTrace> formulas;  // of the layout, each once
     std::uint64_t cycles = 0;
     std::uint64_t skipped = 0;
     std::uint64_t missing = 0;
@@ -165,8 +178,34 @@ private:
         }
         return numbers;
     }
+    /// \param numbers  of signals: the columns of the rows
+    void addFormulas(const Recording &recording, const std::vector<ReportPanel> &panels,
+                     const std::vector<int> &numbers)
+    {
+        std::vector<int> columns(recording.signalList().size(), -1);
+        for (std::size_t column = 0; column < numbers.size(); ++column)
+            columns[std::size_t(numbers[column])] = int(column);
+        QStringList texts;
+        for (const ReportPanel &panel : panels) {
+            for (const ReportPanel::Curve &curve : panel.curves) {
+                if (ReportFormula::isFormula(curve.signal))
+                    texts << curve.signal;
+            }
+        }
+        texts.removeDuplicates();
+        const QStringList calculated = texts.mid(0, MostFormulas);
+        for (const QString &text : calculated)
+            formulas.push_back({ReportFormula(text, recording, columns), {}});
+    }
     void takeValues(const RecordedRows &rows)
     {
+        const auto place = [&](std::size_t intervals) {
+            return std::min(std::size_t(double(rows.time() - m_begin) / m_span * double(intervals)), intervals - 1);
+        };
+        for (FormulaTrace &trace : formulas) {
+            if (trace.formula.problem().isEmpty())
+                trace.intervals[place(trace.intervals.size())].add(trace.formula.next(rows));
+        }
         for (std::size_t i = 0; i < traces.size(); ++i) {
             if (!rows.value(m_columns[i]))
                 continue;
@@ -176,8 +215,7 @@ private:
             if (std::isnan(number))
                 bucket.flags &= quint8(~overview::HasValue);
             trace.all.add(bucket);
-            const auto place = std::size_t(double(rows.time() - m_begin) / m_span * double(trace.intervals.size()));
-            trace.intervals[std::min(place, trace.intervals.size() - 1)].add(bucket);
+            trace.intervals[place(trace.intervals.size())].add(bucket);
         }
     }
     void happened(RecordedTime time, const QString &text)
@@ -353,7 +391,32 @@ private:
                 + picture.bytes.toBase64() + "\"></figure>\n";
         return figures.isEmpty() ? figures : "<h2>Pictures</h2>\n" + figures;
     }
-    /// An element of a signal: "position[2]". Null: a formula, or not in the recording
+    /// What a curve shows.
+    struct Shown
+    {
+        QString unit;
+        QPlcValueNames names;
+        const std::vector<overview::Bucket> *intervals = nullptr;  // null: see problem
+        QString problem;                                           // why it is not drawn, for people
+    };
+    Shown shownOf(const QString &reference) const
+    {
+        if (ReportFormula::isFormula(reference)) {
+            for (const FormulaTrace &trace : m_survey.formulas) {
+                if (trace.formula.text() != reference)
+                    continue;
+                const QString problem = trace.formula.problem();
+                return {trace.formula.unit(), {}, problem.isEmpty() ? &trace.intervals : nullptr, problem};
+            }
+            return {{}, {}, nullptr, QStringLiteral("a report calculates at most %1 formulas").arg(MostFormulas)};
+        }
+        if (const Trace *trace = traceOf(reference)) {
+            const QPlcSignalDefinition &signal = m_recording.signalList()[std::size_t(trace->signal)].definition;
+            return {signal.unit, signal.valueNames, &trace->intervals, {}};
+        }
+        return {{}, {}, nullptr, QStringLiteral("the recording has no number of this name")};
+    }
+    /// An element of a signal: "position[2]". Null: it is not in the recording, or no number
     const Trace *traceOf(const QString &reference) const
     {
         static const QRegularExpression form(QStringLiteral("^(?:.*/)?([^/\\[\\]]+)(?:\\[(\\d+)\\])?$"));
@@ -374,16 +437,16 @@ private:
     QByteArray panelPlots(const ReportPanel &panel) const
     {
         std::vector<Group> groups;
-        QStringList missing;
+        QByteArray missing;
         QByteArray drawings;
         for (const ReportPanel::Curve &curve : panel.curves) {
-            const Trace *trace = traceOf(curve.signal);
-            if (!trace)
-                missing << curve.signal;
+            const Shown shown = shownOf(curve.signal);
+            if (!shown.intervals)
+                missing += "<p>Not drawn: " + escaped(curve.signal) + ": " + escaped(shown.problem) + ".</p>";
             else if (curve.isBands)
-                drawings += bandsOf(panel, curve, *trace);
+                drawings += bandsOf(panel, curve, shown);
             else
-                addCurve(curve, *trace, &groups);
+                addCurve(curve, shown, &groups);
         }
         for (Group &group : groups) {
             QStringList parts;
@@ -397,41 +460,43 @@ private:
             drawings += drawingOf(group.plot);
         }
         if (!missing.isEmpty())
-            drawings += "<figure><figcaption>" + escaped(panel.title)
-                + "</figcaption><p>Not drawn: " + escaped(missing.join(QStringLiteral(", ")))
-                + ". A report has signals of the recording, and no formulas.</p></figure>\n";
+            drawings += "<figure><figcaption>" + escaped(panel.title) + "</figcaption>" + missing + "</figure>\n";
         return drawings;
     }
-    QByteArray bandsOf(const ReportPanel &panel, const ReportPanel::Curve &curve, const Trace &trace) const
+    /// A formula is named without its "=", as in a window.
+    static QString nameOf(const ReportPanel::Curve &curve)
     {
-        const QPlcValueNames &names = m_recording.signalList()[std::size_t(trace.signal)].definition.valueNames;
-        QStringList title{panel.title, curve.name.isEmpty() ? curve.signal : curve.name};
+        if (!curve.name.isEmpty())
+            return curve.name;
+        return ReportFormula::isFormula(curve.signal) ? curve.signal.mid(1).trimmed() : curve.signal;
+    }
+    QByteArray bandsOf(const ReportPanel &panel, const ReportPanel::Curve &curve, const Shown &shown) const
+    {
+        QStringList title{panel.title, nameOf(curve)};
         title.removeAll({});
         ReportStates states;
         states.title = title.join(QStringLiteral(": "));
         states.begin = secondsOf(m_selection.begin);
         states.end = secondsOf(m_selection.end + 1);
-        states.intervals = trace.intervals;
-        states.nameOf = [&names](double state) {
-            const QString name = names.nameOf(qint64(state));
+        states.intervals = *shown.intervals;
+        states.nameOf = [&shown](double state) {
+            const QString name = shown.names.nameOf(qint64(state));
             return name.isEmpty() ? shortNumber(state) : name;
         };
         return drawingOf(states);
     }
-    void addCurve(const ReportPanel::Curve &curve, const Trace &trace, std::vector<Group> *groups) const
+    void addCurve(const ReportPanel::Curve &curve, const Shown &shown, std::vector<Group> *groups) const
     {
-        const QPlcSignalDefinition &signal = m_recording.signalList()[std::size_t(trace.signal)].definition;
-        const QString name = curve.name.isEmpty() ? curve.signal : curve.name;
         auto found
-            = std::find_if(groups->begin(), groups->end(), [&](const Group &each) { return each.unit == signal.unit; });
+            = std::find_if(groups->begin(), groups->end(), [&](const Group &each) { return each.unit == shown.unit; });
         if (found == groups->end()) {
             ReportPlot plot;
             plot.begin = secondsOf(m_selection.begin);
             plot.end = secondsOf(m_selection.end + 1);
-            found = groups->insert(groups->end(), {signal.unit, plot});
+            found = groups->insert(groups->end(), {shown.unit, plot});
         }
-        found->plot.curves.push_back(scaled(trace.intervals, curve.gain, curve.offset));
-        found->plot.names << name;
+        found->plot.curves.push_back(scaled(*shown.intervals, curve.gain, curve.offset));
+        found->plot.names << nameOf(curve);
     }
     static std::vector<overview::Bucket> scaled(std::vector<overview::Bucket> buckets, double gain, double offset)
     {

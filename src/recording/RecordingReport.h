@@ -16,8 +16,7 @@ struct ReportSelection
     /// Sections of others behind the figures: headings `#`, tables `| a | b |`, lists `- a`, and
     /// paragraphs, as in Markdown.
     QStringList sections;
-    /// Plots in place of those of signalNumbers. Formulas are named, and not drawn: only a window
-    /// calculates them.
+    /// Plots in place of those of signalNumbers, with their formulas, which begin with `begin`.
     std::vector<ReportPanel> panels;
     struct Picture
     {

@@ -32,7 +32,9 @@ ARROWS = {
     | {"node", "node/state", "node/security", "node/cycle", "node/statistics", "node/session", "node/api"},
     "hardware": {"signals", "realtime", "node", "node/session", "hardware"},
     "models": {"signals", "realtime", "node", "models"},
-    "recording": BELOW_NODE | {"node", "node/cycle", "recording"},
+    # What people write about signals.
+    "formulas": {"formulas"},
+    "recording": BELOW_NODE | {"node", "node/cycle", "formulas", "recording"},
     # A replay is a master of its own.
     "replay": BELOW_NODE
     | {
@@ -50,6 +52,7 @@ ARROWS = {
     "gui/store": {"signals", "gui/store"},
     "gui/plant": {
         "signals",
+        "formulas",
         "protocol",
         "protocol/messages",
         "node",
@@ -61,14 +64,24 @@ ARROWS = {
         "gui/store",
         "gui/plant",
     },
-    "gui/plot": {"signals", "node", "gui", "gui/store", "gui/plant", "gui/plot"},
-    "gui/models": {"signals", "node", "node/state", "gui", "gui/plant", "gui/models"},
-    "gui/panel": {"signals", "node", "gui", "gui/plant", "gui/plot", "gui/models", "gui/panel"},
+    "gui/plot": {"signals", "node", "formulas", "gui", "gui/store", "gui/plant", "gui/plot"},
+    "gui/models": {"signals", "node", "formulas", "node/state", "gui", "gui/plant", "gui/models"},
+    "gui/panel": {"signals", "node", "formulas", "gui", "gui/plant", "gui/plot", "gui/models", "gui/panel"},
     # Panels do not know each other.
     "gui/charts": {"signals", "node", "gui", "gui/plot", "gui/models", "gui/panel", "gui/charts"},
-    "gui/gauges": {"signals", "node", "gui", "gui/plant", "gui/plot", "gui/models", "gui/panel", "gui/gauges"},
-    "gui/setters": {"signals", "node", "gui", "gui/plant", "gui/models", "gui/panel", "gui/setters"},
-    "gui/tables": {"signals", "node", "gui", "gui/models", "gui/panel", "gui/tables"},
+    "gui/gauges": {
+        "signals",
+        "node",
+        "formulas",
+        "gui",
+        "gui/plant",
+        "gui/plot",
+        "gui/models",
+        "gui/panel",
+        "gui/gauges",
+    },
+    "gui/setters": {"signals", "node", "formulas", "gui", "gui/plant", "gui/models", "gui/panel", "gui/setters"},
+    "gui/tables": {"signals", "node", "formulas", "gui", "gui/models", "gui/panel", "gui/tables"},
     "gui/layout": {"signals", "node", "gui", "gui/panel", "gui/layout"},
     # It makes panels by their names (QPlcWidgetFactory).
     "gui/window": {

@@ -288,6 +288,9 @@ LAYOUT = {
                                 {"signal": "force[1]", "gain": -2, "offset": 1, "name": "drag"},
                                 {"signal": "force[2]"},
                                 {"signal": "= norm(force)"},
+                                {"signal": "= derivative(position.x)", "name": "speed"},
+                                {"signal": "= 2*wind"},
+                                {"signal": "wind"},
                                 {"signal": "on", "visible": False},
                             ],
                         },
@@ -333,12 +336,14 @@ class Reports(unittest.TestCase):
         self.assertEqual(captions[0], "Places: position.x [m]")
         self.assertEqual(
             captions[1],
-            'Places [N] <span class="c0">drag</span> <span class="c1">force[2]</span>',
+            'Places [N] <span class="c0">drag</span> <span class="c1">force[2]</span> '
+            '<span class="c2">norm(force)</span>',
             "one axis for a unit",
         )
-        self.assertEqual(captions[2:], ["Places"])
-        self.assertIn("Not drawn: = norm(force)", plots)
-        self.assertEqual(plots.count('class="curve'), 3)
+        self.assertEqual(captions[2:], ["Places: speed [m/s]", "Places"])
+        self.assertIn("Not drawn: = 2*wind: the recording has no signal wind (at character 5 of", plots)
+        self.assertIn("Not drawn: wind: the recording has no number of this name.", plots)
+        self.assertEqual(plots.count('class="curve'), 5)
 
     def test_gain_and_offset_are_those_of_the_layout(self):
         settings = LAYOUT["tabs"][0]["tree"]["children"][0]["settings"]
@@ -352,6 +357,38 @@ class Reports(unittest.TestCase):
 
         self.assertEqual(labels(plain), [0, 200, 400, 600, 800])
         self.assertEqual(labels(dict(plain, gain=-1, offset=100)), [-600, -400, -200, 0])
+
+    def labels(self, formula, *arguments):
+        """The numbers at the axis of values."""
+        settings = {"curves": [{"signal": formula}]}
+        layout = {"format": "QtPLC layout", "tabs": [{"tree": {"type": "Time plot", "settings": settings}}]}
+        page = self.report("--layout", self.write("formula.json", json.dumps(layout).encode()), *arguments)
+        plots = page[page.index("Signals over time") : page.index("<h2>Events")]
+        return [float(n) for n in re.findall(r'text-anchor="end">(.*?)<', plots)]
+
+    def test_formulas_are_those_of_a_window(self):
+        # position_x counts the cycles, 100 in a second, from 0 to 799.
+        self.assertEqual(self.labels("= 2*position_x - 800"), [-500, 0, 500])
+        self.assertEqual(self.labels("= integral(position_x)/8"), [0, 100, 200, 300, 400])
+        begun = self.labels("= integral(position_x)/8", "--from", "4")
+        self.assertEqual(begun, [0, 100, 200, 300], "from the begin of the report on")
+        product = "= position_x * derivative(position_x) / 100"
+        self.assertEqual(self.labels(product), [0, 200, 400, 600, 800], "its derivative is 100")
+
+    def test_formulas_that_cannot_be_calculated_are_named_with_the_reason(self):
+        for formula, reason in {
+            "= force": "is an array; choose an element, force[0], or take norm(force)",
+            "= force[7]": "the recording has no element force[7]",
+            "= phase": "phase is not a number",
+            "= 1 +": "a value is missing",
+            "= 3": "a formula needs a signal",
+            "= sin(": "this parenthesis is not closed",
+        }.items():
+            settings = {"curves": [{"signal": formula}]}
+            layout = {"format": "QtPLC layout", "tabs": [{"tree": {"type": "Time plot", "settings": settings}}]}
+            page = self.report("--layout", self.write("formula.json", json.dumps(layout).encode()))
+            self.assertIn(f"Not drawn: {formula}: ", page)
+            self.assertIn(reason, page)
 
     def test_states_are_strips(self):
         curves = [{"signal": "position_x", "bands": True, "name": "phase"}, {"signal": "position.x"}]

@@ -2,11 +2,11 @@
 #include "GaugeFeed.h"
 
 #include "QPlcSignalIndexTable.h"
+#include "formulas/Formula.h"
 #include "gui/models/ValueFormat.h"
 #include "gui/panel/DrawNow.h"
 #include "gui/panel/FigureFont.h"
 #include "gui/plant/LimitOf.h"
-#include "gui/plot/Formula.h"
 
 #include <QtGui/QGuiApplication>
 

@@ -4,8 +4,8 @@
 #include "GaugePicture.h"
 #include "QPlcPanelContext.h"
 #include "QPlcSignalList.h"
+#include "formulas/SignalReference.h"
 #include "gui/models/SteadyPrefix.h"
-#include "gui/plant/SignalReference.h"
 
 #include <QtCore/QElapsedTimer>
 #include <QtCore/QPointer>

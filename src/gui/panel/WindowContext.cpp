@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "WindowContext.h"
 
+#include "formulas/Formula.h"
 #include "gui/plant/PlantRecording.h"
-#include "gui/plot/Formula.h"
 
 #include <algorithm>
 

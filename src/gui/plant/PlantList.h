@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Plant.h"
-#include "SignalReference.h"
+#include "formulas/SignalReference.h"
 
 #include <memory>
 #include <vector>

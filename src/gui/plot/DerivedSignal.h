@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "FormulaCalculator.h"
+#include "formulas/FormulaCalculator.h"
 #include "gui/store/SignalStore.h"
 
 namespace qplc {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "QPlcPanelContext.h"
+#include "formulas/SignalReference.h"
 #include "gui/models/SiPrefix.h"
-#include "gui/plant/SignalReference.h"
 
 #include <QtWidgets/QWidget>
 

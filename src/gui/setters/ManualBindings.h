@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "gui/plant/SignalReference.h"
+#include "formulas/SignalReference.h"
 
 #include <QtCore/QJsonObject>
 #include <QtCore/QVector>

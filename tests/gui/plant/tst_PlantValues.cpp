@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "formulas/SignalReference.h"
 #include "gui/plant/PlantStatus.h"
 #include "gui/plant/PlantValues.h"
-#include "gui/plant/SignalReference.h"
 #include "node/Logging.h"
 
 #include <QtCore/QJsonArray>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "gui/plot/FormulaCalculator.h"
+#include "formulas/FormulaCalculator.h"
 
 #include <QtTest/QtTest>
 
