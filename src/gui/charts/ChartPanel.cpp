@@ -3,6 +3,7 @@
 
 #include "QPlcWidget.h"
 #include "gui/panel/DrawNow.h"
+#include "gui/panel/Filming.h"
 #include "gui/panel/PanelAction.h"
 
 #include <QtCore/QCoreApplication>
@@ -41,6 +42,10 @@ public:
         case DrawNow::Kind:
             m_chart->tick();
             m_chart->drawNow();
+            return false;
+        case Filming::Kind:
+            m_chart->m_isFilmed = static_cast<Filming *>(event)->moment() == Filming::Begins;
+            m_chart->schedule();
             return false;
         case QEvent::KeyPress:
             return static_cast<QKeyEvent *>(event)->key() == Qt::Key_Escape && m_chart->m_exporter->dismiss();

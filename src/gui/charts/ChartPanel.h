@@ -51,6 +51,8 @@ protected:
 
     QPlcPanelContext *context() const;
     ChartExport *exporter() const { return m_exporter; }
+    /// Whether pictures are made for a video (Filming).
+    bool isFilmed() const { return m_isFilmed; }
     /// Draws soon: at once, but not before setPause() is over.
     void schedule();
     /// Between the begins of two pictures [ms]
@@ -81,6 +83,7 @@ private:
     QElapsedTimer m_sinceDrawing;
     int m_pause = 20;
     bool m_hasQuietTexts = false;
+    bool m_isFilmed = false;
     QColor m_surface;  // that the panel has
     QFont m_font;
 };

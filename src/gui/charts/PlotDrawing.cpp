@@ -225,7 +225,7 @@ void QPlcTimePlot::Private::showLiveButton()
 {
     const bool isFrozen
         = !time.view()->isLive() && !(settings.hasTrigger() && triggerBar->showsEvent()) && !runs.zero();
-    liveButton->setVisible(isFrozen && !curves.isEmpty());
+    liveButton->setVisible(isFrozen && !curves.isEmpty() && !isFilmed());
     if (!isFrozen)
         return;
     const double behind = std::round(double(time.newest() - time.view()->end()) * 1e-9);

@@ -8,6 +8,7 @@
 #include "gui/layout/PageView.h"
 #include "gui/layout/PanelTitleBar.h"
 #include "gui/panel/DrawNow.h"
+#include "gui/panel/Filming.h"
 #include "gui/plant/PlantRecording.h"
 
 #include <QtCore/QCoreApplication>
@@ -53,7 +54,7 @@ struct QPlcVideoExport::Private : public QObject
     ~Private() override
     {
         if (sink && window)
-            showButtons(true);
+            letPerson(Act);
     }
 
     bool begin(const QString &fileName, const Options &wanted);
@@ -61,7 +62,8 @@ struct QPlcVideoExport::Private : public QObject
     bool checkRange();
     bool resizeTo(const QSize &size);
     bool beginSink(const QString &fileName);
-    void showButtons(bool areShown) const;
+    enum Person { Watch, Act };
+    void letPerson(Person person);
     PageView *page() const;
     qint64 timeOf(int frame) const;
     void showFrame();
@@ -84,7 +86,8 @@ struct QPlcVideoExport::Private : public QObject
     QString error;
     QTimer timer;
     QElapsedTimer sinceProgress;
-    qint64 first = 0;  // [ns] of the recording, on the clock of the window
+    QPointer<QWidget> focused;  // that has given up the keyboard
+    qint64 first = 0;           // [ns] of the recording, on the clock of the window
     qint64 last = 0;
     QSize size;  // [pixel] of a picture
     int count = 0;
@@ -175,12 +178,37 @@ bool QPlcVideoExport::Private::beginSink(const QString &fileName)
     return sink != nullptr;
 }
 
-/// In a picture nobody can press them.
-void QPlcVideoExport::Private::showButtons(bool areShown) const
+/// While pictures are made, the panels get nothing from mouse and keyboard, and show nothing of
+/// them: no buttons, no focus, and not the values at the mouse in place of those of the playhead.
+void QPlcVideoExport::Private::letPerson(Person person)
 {
     const QList<PanelTitleBar *> bars = window->findChildren<PanelTitleBar *>();
     for (PanelTitleBar *bar : bars)
-        bar->setButtonsShown(areShown);
+        bar->setButtonsShown(person == Act);
+    const QList<PageView *> pages = window->findChildren<PageView *>();
+    for (PageView *page : pages)
+        page->setAttribute(Qt::WA_TransparentForMouseEvents, person == Watch);
+    const QList<QPlcWidget *> panels = window->findChildren<QPlcWidget *>();
+    for (QPlcWidget *panel : panels) {
+        Filming event(person == Watch ? Filming::Begins : Filming::Ends);
+        QCoreApplication::sendEvent(panel, &event);
+    }
+    if (person == Act) {
+        if (focused)
+            focused->setFocus();
+        return;
+    }
+    focused = window->focusWidget();
+    if (focused && page()->isAncestorOf(focused))
+        focused->clearFocus();
+    else
+        focused.clear();
+    const QList<QWidget *> parts = page()->findChildren<QWidget *>();
+    for (QWidget *part : parts) {
+        QEvent event(QEvent::Leave);
+        QCoreApplication::sendEvent(part, &event);
+    }
+    window->context()->timeAxis()->setPointer(std::nullopt);
 }
 
 bool QPlcVideoExport::Private::begin(const QString &fileName, const Options &wanted)
@@ -196,9 +224,8 @@ bool QPlcVideoExport::Private::begin(const QString &fileName, const Options &wan
         return fail(tr("the window shows no panels; show it, and a tab with panels, first"));
     if ((!options.size.isEmpty() && !resizeTo(options.size)) || !beginSink(fileName))
         return false;
-    showButtons(false);
+    letPerson(Watch);
     playback->pause();
-    window->context()->timeAxis()->setPointer(std::nullopt);
     // Plots of a single picture show all of the recording.
     window->context()->timeAxis()->show(
         first < last ? first : playback->begin(),
@@ -279,7 +306,8 @@ void QPlcVideoExport::Private::end(const QString &failure)
     timer.stop();
     error = failure;
     sink.reset();
-    showButtons(true);
+    if (window)
+        letPerson(Act);
     Q_EMIT q->finished(failure.isEmpty());
 }
 

@@ -75,7 +75,8 @@ struct VideoWindow : WindowFixture
         gauge = view->widget(view->addPanel(QStringLiteral("Gauge")));
         gauge->applySettings({{QStringLiteral("signal"), QStringLiteral("position_x")},
                               {QStringLiteral("style"), QStringLiteral("number")}});
-        view->addPanel(QStringLiteral("Time plot"));
+        plot = view->widget(view->addPanel(QStringLiteral("Time plot")));
+        plot->addSignals({QStringLiteral("position_x")});
         QVERIFY(waitUntil([this] { return colour->isVisible() && gauge->isVisible(); }, patience));
         options.from = 1.0;
         options.to = 3.0;
@@ -117,6 +118,7 @@ struct VideoWindow : WindowFixture
     QTemporaryDir folder;
     QPlcWidget *colour = nullptr;
     QPlcWidget *gauge = nullptr;
+    QPlcWidget *plot = nullptr;
     QPlcVideoExport::Options options;
     QPlcVideoExport video{&window};
 };
@@ -156,7 +158,9 @@ class tst_Videos : public QObject
 
 private Q_SLOTS:
     void picturesHaveNoButtons();
+    void picturesHaveNoButtonsOverCurves();
     void eachPictureShowsItsTime();
+    void theMouseAndTheFocusAreNotInPictures();
     void gaugesShowTheTimeOfEachPicture();
     void theSpeedAndTheRateDecideWhichTimesAreShown();
     void plotsOfASinglePictureShowTheWholeRecording();
@@ -214,6 +218,55 @@ void tst_Videos::eachPictureShowsItsTime()
         QCOMPARE(ColourPanel::cycleOf(frame.pixel(fixture.place())), 100 + 20 * i);
     }
     QCOMPARE(fixture.written(), QStringList{QStringLiteral("frames")});
+}
+
+/// The plots do not follow the newest values: outside of a video, a button goes back to them.
+void tst_Videos::picturesHaveNoButtonsOverCurves()
+{
+    VideoWindow fixture;
+    fixture.options.span = 0.5;
+    const auto buttons = [&fixture] {
+        const QList<QToolButton *> all = fixture.plot->findChildren<QToolButton *>();
+        return std::count_if(all.begin(), all.end(), [](QToolButton *button) { return button->isVisible(); });
+    };
+    fixture.window.context()->timeAxis()->freeze();
+    QTRY_VERIFY_WITH_TIMEOUT(buttons() > 0, patience);
+    std::ptrdiff_t inPictures = 0;
+    connect(&fixture.video, &QPlcVideoExport::progressed, this, [&] { inPictures += buttons(); });
+    QVERIFY2(fixture.make(fixture.file("frames")), qPrintable(fixture.video.errorString()));
+    QCOMPARE(inPictures, std::ptrdiff_t(0));
+    QTRY_VERIFY_WITH_TIMEOUT(buttons() > 0, patience);
+}
+
+/// A person waits with the mouse over a plot, and moves it now and then.
+void tst_Videos::theMouseAndTheFocusAreNotInPictures()
+{
+    VideoWindow fixture;
+    fixture.options.span = 0.5;  // the curves move below the mouse
+    const auto moveMouse = [&fixture](int x) {
+        const QPoint place(x, fixture.plot->height() / 2);
+        QTest::mouseMove(fixture.window.windowHandle(), fixture.plot->mapTo(&fixture.window, place));
+        QCoreApplication::processEvents();
+    };
+    const QPlcTimeAxis *axis = fixture.window.context()->timeAxis();
+    fixture.window.context()->timeAxis()->freeze();
+    moveMouse(fixture.plot->width() / 2);
+    moveMouse(fixture.plot->width() / 2 + 10);
+    QTRY_VERIFY_WITH_TIMEOUT(axis->pointer().has_value(), patience);
+    fixture.gauge->setFocus();
+    int wrong = 0;
+    connect(&fixture.video, &QPlcVideoExport::progressed, this, [&](int done) {
+        const bool isAtPlayhead = !axis->pointer() && axis->displayTime() == axis->playhead();
+        const QWidget *focus = fixture.window.focusWidget();
+        wrong += isAtPlayhead && !(focus && fixture.page()->isAncestorOf(focus)) ? 0 : 1;
+        moveMouse(fixture.plot->width() / 2 + done);
+    });
+    QVERIFY2(fixture.make(fixture.file("frames")), qPrintable(fixture.video.errorString()));
+    QCOMPARE(wrong, 0);
+    QCOMPARE(fixture.window.focusWidget(), static_cast<QWidget *>(fixture.gauge));
+    moveMouse(fixture.plot->width() / 2);
+    moveMouse(fixture.plot->width() / 2 + 10);
+    QTRY_VERIFY_WITH_TIMEOUT(axis->pointer().has_value(), patience);
 }
 
 void tst_Videos::gaugesShowTheTimeOfEachPicture()
