@@ -23,6 +23,7 @@ struct Case
 #define I2C    "[d]\ndriver = i2c-registers\ndevice = /dev/i2c-1\naddress = 0x40\n"
 #define GPIO   "[d]\ndriver = gpio\ndevice = gpiochip0\n"
 #define CAN    "[d]\ndriver = can\ndevice = fake:d\n"
+#define SERIAL "[d]\ndriver = serial-lines\ndevice = fake:d\n"
 #define FRAME  CAN "frame.F = 0x10, 8 bytes, every 100 ms\n"
 
 const Case cases[] = {
@@ -136,6 +137,10 @@ const Case cases[] = {
     {"chip of two sections", Semantic,
      "[d]\ndriver = mcp3208\ndevice = /dev/spidev0.0\n[e]\ndriver = mcp3208\ndevice = /dev/spidev0.0\n",
      "6:10: chip at /dev/spidev0.0 is used twice, first in line 3", "use it once"},
+    {"sent line without a value", Semantic, SERIAL "send.a = {a} {b}\n[d.write]\na = x\n[d.safe]\na = 0\n",
+     "4:10: the line is never sent, because 'b' gets no value", "remove it from the line"},
+    {"safe value that makes a line too long", Semantic, SERIAL "send.a = {a:.1}\n[d.safe]\na = 1e308\n",
+     "6:5: 1e+308 is not in the range -1e+15 to 1e+15 of 'a'", "write a value of this range"},
     {"two writers of a place", Semantic,
      MODBUS "register.a = holding 1, int32\nregister.b = holding 2\n[d.write]\na = x\nb = y\n",
      "8:5: 'b' and 'a' are the same place of the device", "write one of them"},

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace qplc {
 
@@ -64,6 +65,14 @@ QString LineTemplate::addNumber(const QByteArray &word, Part *part)
     part->width = match.captured(3).toInt();
     part->decimals = match.captured(4).isEmpty() ? -1 : match.captured(4).toInt();
     return {};
+}
+
+double LineTemplate::largest(int name) const
+{
+    constexpr double largestFixed = 1e15;  // beyond it, a double has no digit behind the point
+    const auto isFixed = [name](const Part &part) { return part.name == name && part.decimals >= 0; };
+    const bool isAnyFixed = std::any_of(m_parts.begin(), m_parts.end(), isFixed);
+    return isAnyFixed ? largestFixed : std::numeric_limits<double>::max();
 }
 
 int LineTemplate::shortest() const

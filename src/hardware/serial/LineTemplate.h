@@ -20,6 +20,8 @@ public:
 
     /// Names of the numbers, each once, in their order.
     QStringList names() const { return m_names; }
+    /// The largest amount of a number that fits into a line. \param name  place in names()
+    double largest(int name) const;
     /// The fewest bytes that a line of it has.
     int shortest() const;
     /// \param values  of names() \return empty if a value is not finite, or the line would be too

@@ -162,6 +162,7 @@ private:
         const QStringList names = settings.namesBehind(prefix);
         if (names.isEmpty())
             return;
+        const QStringList used = settings.usedChannels();
         int length = 0;
         for (const QString &name : names) {
             const QString key = prefix + name;
@@ -174,8 +175,18 @@ private:
                 settings.addError(key, error);
                 continue;
             }
-            for (const QString &channel : send.line.names())
-                send.channels.push_back(outputOf(channel));
+            for (int i = 0; i < send.line.names().size(); ++i) {
+                QPlcWriteChannel *output = outputOf(send.line.names().at(i));
+                const double largest = std::min(output->maximum(), send.line.largest(i));
+                output->setRange(-largest, largest);
+                send.channels.push_back(output);
+                if (!used.isEmpty() && !used.contains(output->name()))
+                    settings.addError(
+                        key,
+                        QStringLiteral("the line is never sent, because '%1' gets no value; add it to the "
+                                       "section 'write', or remove it from the line")
+                            .arg(output->name()));
+            }
             length += send.line.shortest();
             m_sends.push_back(send);
         }
@@ -207,7 +218,7 @@ private:
         for (const QPlcWriteChannel *channel : send.channels) {
             if (!channel->hasValue())
                 return {};
-            values.push_back(channel->value());
+            values.push_back(std::clamp(channel->value(), channel->minimum(), channel->maximum()));
         }
         return send.line.text(values);
     }
