@@ -11,9 +11,9 @@
 /// emergency, and later that it is over. A driver makes it in QPlcDriver::describeEvent().
 ///
 /// \code
-/// connect(node, &QPlcHardwareNode::deviceEvent, [](const QPlcDeviceEvent &event) {
-///     qInfo("%s: %s", qPrintable(event.driver), qPrintable(event.text));
-/// });
+/// QPlcHardwareNode node("Winch");
+/// QObject::connect(&node, &QPlcHardwareNode::deviceEvent, &node,
+///                  [](const QPlcDeviceEvent &event) { qInfo("%s", qPrintable(event.text)); });
 /// \endcode
 ///
 /// \ingroup hardware

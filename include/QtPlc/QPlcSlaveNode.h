@@ -323,8 +323,9 @@ public:
     /// begins and ends too often, its newest state is written.
     ///
     /// \code
-    /// beginAlarm("oil", WarningEvent, "the oil of the gear has 81 degC; stop soon");
-    /// endAlarm("oil", "the oil of the gear has 70 degC");
+    /// QPlcCompactSlaveNode gear("Gear");
+    /// gear.beginAlarm("oil", QPlcSlaveNode::WarningEvent, "the oil has 81 degC; stop soon");
+    /// gear.endAlarm("oil", "the oil has 70 degC");
     /// \endcode
     /// \param alarm  name of the condition, unique in this node; at most 64 characters
     void beginAlarm(const QString &alarm, EventSeverity severity, const QString &text);
