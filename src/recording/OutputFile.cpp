@@ -55,8 +55,14 @@ bool OutputFile::open(QString *error)
         *error = existsText(m_name);
         return false;
     }
-    if (QFileInfo(m_name).isDir())
+    struct stat known = {};
+    const bool isThere = ::lstat(QFile::encodeName(m_name).constData(), &known) == 0;
+    if (isThere && S_ISDIR(known.st_mode))
         return fail(QStringLiteral("it is a folder"), error);
+    if (isThere && S_ISLNK(known.st_mode))
+        return fail(QStringLiteral("it is a link; name the file that it leads to"), error);
+    if (isThere && !S_ISREG(known.st_mode))
+        return fail(QStringLiteral("it is not a file; choose another name"), error);
     return m_file.open() || fail(m_file.errorString(), error);
 }
 

@@ -10,6 +10,7 @@ namespace qplc {
 class OutputFile
 {
 public:
+    /// What happens with a file of this name. Links, folders and devices are never replaced.
     enum Existing { Refuse, Replace };
 
     OutputFile(const QString &name, Existing existing);

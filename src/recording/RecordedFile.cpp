@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "RecordedFile.h"
 
+#include <QtCore/QFileInfo>
+
 #include <algorithm>
 
 namespace qplc {
@@ -45,6 +47,14 @@ const mcap::NamedEntry *RecordedFile::attachment(const char *wanted) const
     const auto found = std::find_if(attachments.begin(), attachments.end(),
                                     [wanted](const mcap::NamedEntry &entry) { return entry.name == wanted; });
     return found == attachments.end() ? nullptr : &*found;
+}
+
+QString whyNoRecording(const QString &folder)
+{
+    const QFileInfo info(folder);
+    return info.isReadable() && info.isExecutable()
+        ? QStringLiteral("the folder '%1' has no recording: no file there ends with .mcap").arg(folder)
+        : QStringLiteral("cannot read the folder '%1': permission denied").arg(folder);
 }
 
 }  // namespace qplc

@@ -33,4 +33,7 @@ struct RecordedFile
     const mcap::NamedEntry *attachment(const char *wanted) const;
 };
 
+/// Why no recording is found in a folder, for people.
+QString whyNoRecording(const QString &folder);
+
 }  // namespace qplc

@@ -54,17 +54,22 @@ bool isInFolderOfRecordings(const QString &path)
     });
 }
 
-bool findPhases(const QString &folder, QVector<RecordedPhase> *phases, QString *error)
+bool findPhases(const QString &folder, QVector<RecordedPhase> *phases, QString *error, QStringList *unreadable)
 {
     phases->clear();
     std::vector<RecordedFile> found;
     const QStringList paths = filesIn(folder);
     for (const QString &path : paths) {
-        if (!found.emplace_back().open(path, error))
+        if (found.emplace_back().open(path, error))
+            continue;
+        if (!unreadable)
             return false;
+        *unreadable << *error;
+        found.pop_back();
     }
     if (found.empty()) {
-        *error = QStringLiteral("the folder '%1' has no recording: no file there ends with .mcap").arg(folder);
+        if (paths.isEmpty())
+            *error = whyNoRecording(folder);
         return false;
     }
     std::stable_sort(found.begin(), found.end(),

@@ -23,8 +23,11 @@ struct RecordedPhase
 bool isInFolderOfRecordings(const QString &path);
 
 /// The phases whose recordings are in a folder, in the order of their times.
+/// \param unreadable  gets a sentence for each file that cannot be read, and is left out. Null:
+///     such a file is an error
 /// \return false when there are none, or a file cannot be read
-bool findPhases(const QString &folder, QVector<RecordedPhase> *phases, QString *error);
+bool findPhases(const QString &folder, QVector<RecordedPhase> *phases, QString *error,
+                QStringList *unreadable = nullptr);
 
 /// The phase that \a path stands for: a file alone; a file of a folder with the other files of its
 /// phase; the newest phase of a folder.

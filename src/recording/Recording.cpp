@@ -32,7 +32,7 @@ QStringList filesOf(const QStringList &paths, QString *error)
         const QDir folder(path);
         const QStringList names = folder.entryList({QStringLiteral("*.mcap")}, QDir::Files, QDir::Name);
         if (names.isEmpty())
-            *error = QStringLiteral("the folder '%1' has no recording: no file there ends with .mcap").arg(path);
+            *error = whyNoRecording(path);
         for (const QString &name : names)
             files << folder.filePath(name);
     }
@@ -64,6 +64,7 @@ bool Recording::open(const QStringList &paths, QString *error, Unreadable unread
         if (unreadable == Refuse)
             return false;
         m_notes << *error;
+        ++m_unreadable;
     }
     error->clear();
     if (m_files.empty()) {

@@ -62,6 +62,8 @@ public:
     std::uint64_t bytes() const;
     /// For people: what has been left out.
     QStringList notes() const { return m_notes; }
+    /// Files that are not recordings, or cannot be read, and were left out.
+    int unreadable() const { return m_unreadable; }
 
     /// Extremes of an element of a signal in \a count intervals of equal length, from \a begin to
     /// before \a end. Strings have none.
@@ -88,6 +90,7 @@ private:
     QPlcSignalTable m_table;
     std::vector<std::unique_ptr<overview::File>> m_overviews;  // of each file, once it was needed
     QStringList m_notes;
+    int m_unreadable = 0;
 };
 
 /// The cycles of a recording from \a begin up to and with \a end, one after the other. Only the

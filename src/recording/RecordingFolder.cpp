@@ -141,13 +141,13 @@ int RecordingFolder::finishOthers(const QStringList &own, QString *error) const
             continue;
         RecoveredFile result;
         const bool isBegun = file.size >= quint64(mcap::MagicSize);
-        if (isBegun && !recoverRecording(file.path, &result, error))
+        if (isBegun && !recoverRecording(file.path, &result, error) && !result.hasNothing)
             continue;
         ++count;
         // Its recorder was killed before it wrote anything: the ring still has it.
         if (!isBegun || (result.chunks == 0 && result.damages == 0 && !result.wasFinished))
             QFile::remove(file.path);
-        else
+        else if (!result.hasNothing)
             finished(file.path, false);
     }
     return count;

@@ -419,7 +419,7 @@ private:
     /// An element of a signal: "position[2]". Null: it is not in the recording, or no number
     const Trace *traceOf(const QString &reference) const
     {
-        static const QRegularExpression form(QStringLiteral("^(?:.*/)?([^/\\[\\]]+)(?:\\[(\\d+)\\])?$"));
+        static const QRegularExpression form(QStringLiteral("^(?:.*/)?([^/\\[\\]]+)(?:\\[(\\d{1,4})\\])?$"));
         const QRegularExpressionMatch match = form.match(reference);
         const int signal = match.hasMatch() ? m_recording.indexOf(match.captured(1)) : -1;
         const auto found = std::find_if(m_survey.traces.begin(), m_survey.traces.end(), [&](const Trace &trace) {

@@ -90,6 +90,14 @@ bool recoverRecording(const QString &fileName, RecoveredFile *result, QString *e
     result->chunks = indexer.index.chunks.size();
     result->damages = reader.damages();
     result->lostBytes = reader.size() - reader.goodEnd();
+    result->hasNothing = indexer.index.chunks.empty() && indexer.index.attachments.empty();
+    if (result->hasNothing) {
+        *error
+            = QStringLiteral("'%1' has nothing whole to finish: no description of a plant, and no cycle; it stays as "
+                             "it is")
+                  .arg(fileName);
+        return false;
+    }
     QFile file(fileName);
     const auto failed = [&] {
         *error = QStringLiteral("cannot finish the recording '%1': %2").arg(fileName, file.errorString());

@@ -385,7 +385,8 @@ const QVector<Command> &commands()
          "Good, 1 to 252 Held, 253 Safe, 254 Invalid). The recordings of a folder are one.\n"
          "TIME is in seconds since the begin, or a moment as 2026-11-20T14:03:12 (UTC).\n"
          "Needs no master. The file appears when all of it is written. The exit code is 1\n"
-         "when parts of the recording are damaged: the rest is in the table.",
+         "when parts of the recording are damaged, or files of a folder are not\n"
+         "recordings: the rest is in the table.",
          {output,
           {"format", "FORMAT", "csv, parquet or mat, default as the name of FILE ends."},
           {"signals", "LIST", "Names and patterns, such as 'power,kite.*'; default all."},

@@ -67,14 +67,13 @@ int exportRecording(const CommandCall &call)
         return call.application.exitCode();
     selection.every = std::uint64_t(every);
     selection.hasQualities = !call.application.isSet(QStringLiteral("values-only"));
-    const bool replaces = call.application.isSet(QStringLiteral("force"));
-    qplc::OutputFile file(name, replaces ? qplc::OutputFile::Replace : qplc::OutputFile::Refuse);
-    QString error;
-    if (!file.open(&error))
-        return call.application.usageError(error);
-    const std::unique_ptr<qplc::TableWriter> writer = qplc::TableWriter::create(format, &file);
+    const std::unique_ptr<qplc::OutputFile> file = openOutput(call, recording);
+    if (!file)
+        return call.application.exitCode();
+    const std::unique_ptr<qplc::TableWriter> writer = qplc::TableWriter::create(format, file.get());
     qplc::RecordingTable table(recording, selection);
-    if (!writeTable(&table, writer.get(), &error) || !file.commit(&error)) {
+    QString error;
+    if (!writeTable(&table, writer.get(), &error) || !file->commit(&error)) {
         QPlcCoreApplication::printError(error);
         return QPlcCoreApplication::Failure;
     }
@@ -88,7 +87,7 @@ int exportRecording(const CommandCall &call)
                       .arg(printable(name))
                       .arg(table.rows())
                       .arg(table.columns().size()));
-    return exitCodeOf(table.damages());
+    return exitCodeOf(recording, table.damages());
 }
 
 }  // namespace tools

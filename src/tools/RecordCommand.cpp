@@ -169,10 +169,17 @@ int recordPlant(const CommandCall &call)
 {
     if (call.arguments.size() == 2)
         return controlRecorder(call);
-    if (call.arguments.value(0) == QLatin1String("mark"))
+    const QString target = call.arguments.value(0);
+    if (target == QLatin1String("mark"))
         return markPlants(call);
+    const QStringList verbs{QStringLiteral("start"), QStringLiteral("stop"), QStringLiteral("status"),
+                            QStringLiteral("list")};
+    if (verbs.contains(target))
+        return call.application.usageError(
+            QStringLiteral("'record %1' needs the FOLDER of a recorder; for a file of this name, write ./%1")
+                .arg(target));
     QPlcRecorder recorder;
-    recorder.setTarget(call.arguments.value(0));
+    recorder.setTarget(target);
     if (!readLimits(call, &recorder))
         return QPlcCoreApplication::UsageError;
     tellFiles(&recorder);

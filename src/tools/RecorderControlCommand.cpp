@@ -8,6 +8,7 @@
 
 #include <QtCore/QDateTime>
 #include <QtCore/QDir>
+#include <QtCore/QFileInfo>
 #include <QtCore/QJsonArray>
 
 namespace tools {
@@ -133,6 +134,9 @@ int controlRecorder(const CommandCall &call)
     const QString folder = QDir(call.arguments.value(1)).absolutePath();
     if (!QDir(folder).exists())
         return call.application.usageError(QStringLiteral("there is no folder '%1'").arg(folder));
+    if (!QFileInfo(folder).isReadable() || !QFileInfo(folder).isExecutable())
+        return call.application.usageError(
+            QStringLiteral("cannot read the folder '%1': permission denied").arg(folder));
     if (what == QLatin1String("start") || what == QLatin1String("stop"))
         return setStopped(folder, what == QLatin1String("stop"));
     if (what == QLatin1String("mark"))

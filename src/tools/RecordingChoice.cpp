@@ -4,6 +4,7 @@
 #include "SignalSelection.h"
 
 #include <QtCore/QDateTime>
+#include <QtCore/QFileInfo>
 
 #include <cmath>
 
@@ -45,8 +46,10 @@ bool readTime(const CommandCall &call, const char *option, const qplc::Recording
 
 bool openRecording(const CommandCall &call, qplc::Recording *recording)
 {
+    const QString path = call.arguments.value(0);
+    const bool isFolder = QFileInfo(path).isDir();
     QString error;
-    if (!recording->open({call.arguments.value(0)}, &error)) {
+    if (!recording->open({path}, &error, isFolder ? qplc::Recording::LeaveOut : qplc::Recording::Refuse)) {
         call.application.usageError(error);
         return false;
     }
@@ -79,10 +82,31 @@ bool readSignals(const CommandCall &call, const qplc::Recording &recording, std:
     return true;
 }
 
-int exitCodeOf(int damages)
+std::unique_ptr<qplc::OutputFile> openOutput(const CommandCall &call, const qplc::Recording &recording)
+{
+    const QString name = call.application.value(QStringLiteral("output"));
+    const QString target = QFileInfo(name).canonicalFilePath();  // empty: there is none
+    for (const qplc::RecordedFile &file : recording.files()) {
+        if (target.isEmpty() || QFileInfo(file.name).canonicalFilePath() != target)
+            continue;
+        call.application.usageError(
+            QStringLiteral("'%1' is a file of the recording, which would be lost; choose another name").arg(name));
+        return nullptr;
+    }
+    const bool replaces = call.application.isSet(QStringLiteral("force"));
+    auto file
+        = std::make_unique<qplc::OutputFile>(name, replaces ? qplc::OutputFile::Replace : qplc::OutputFile::Refuse);
+    QString error;
+    if (file->open(&error))
+        return file;
+    call.application.usageError(error);
+    return nullptr;
+}
+
+int exitCodeOf(const qplc::Recording &recording, int damages)
 {
     if (damages == 0)
-        return QPlcCoreApplication::Success;
+        return recording.unreadable() == 0 ? QPlcCoreApplication::Success : QPlcCoreApplication::Failure;
     QPlcCoreApplication::printError(
         QStringLiteral("%1 places of the recording are damaged: their cycles were left out").arg(damages));
     return QPlcCoreApplication::Failure;

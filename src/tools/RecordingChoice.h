@@ -2,12 +2,15 @@
 #pragma once
 
 #include "Commands.h"
+#include "recording/OutputFile.h"
 #include "recording/Recording.h"
+
+#include <memory>
 
 namespace tools {
 
-/// Opens the recording that the first argument names: a file or a folder. Its notes are printed.
-/// \return false, with the message out
+/// Opens the recording that the first argument names: a file, or a folder, of which files that are
+/// not recordings are left out. Its notes are printed. \return false, with the message out
 bool openRecording(const CommandCall &call, qplc::Recording *recording);
 /// The times of --from and --to: seconds since the begin of the recording, or a moment as
 /// 2026-11-20T14:03:12 (UTC). \return false, with the message out
@@ -16,7 +19,11 @@ bool readTimes(const CommandCall &call, const qplc::Recording &recording, qplc::
 /// The signals of --signals, names and patterns with commas between them. \return false, with the
 /// message out
 bool readSignals(const CommandCall &call, const qplc::Recording &recording, std::vector<int> *numbers);
-/// Writes the message for so many damaged chunks, if there are any. \return the exit code
-int exitCodeOf(int damages);
+/// The file of --output, which is open. \return null, with the message out: it cannot be written,
+/// it is there and --force is missing, or it is a file of the recording
+std::unique_ptr<qplc::OutputFile> openOutput(const CommandCall &call, const qplc::Recording &recording);
+/// Writes the message for so many damaged chunks, if there are any. \return the exit code: a
+/// failure also if files were left out
+int exitCodeOf(const qplc::Recording &recording, int damages);
 
 }  // namespace tools

@@ -111,10 +111,11 @@ void print(const qplc::VerifiedPhase &phase)
 int verifyFolder(const CommandCall &call, const QString &folder)
 {
     QVector<qplc::RecordedPhase> phases;
+    QStringList unreadable;
     QString error;
-    if (!qplc::findPhases(folder, &phases, &error))
+    if (!qplc::findPhases(folder, &phases, &error, &unreadable))
         return call.application.usageError(error);
-    bool isComplete = true;
+    bool isComplete = unreadable.isEmpty();
     QJsonArray found;
     for (const qplc::RecordedPhase &phase : qAsConst(phases)) {
         const qplc::VerifiedPhase verified = qplc::verifyPhase(phase);
@@ -125,8 +126,11 @@ int verifyFolder(const CommandCall &call, const QString &folder)
             print(verified);
     }
     if (call.isJson())
-        printJson(
-            QJsonDocument(QJsonObject{{QStringLiteral("complete"), isComplete}, {QStringLiteral("phases"), found}}));
+        printJson(QJsonDocument(QJsonObject{{QStringLiteral("complete"), isComplete},
+                                            {QStringLiteral("phases"), found},
+                                            {QStringLiteral("problems"), QJsonArray::fromStringList(unreadable)}}));
+    else
+        print({}, unreadable);
     return isComplete ? QPlcCoreApplication::Success : QPlcCoreApplication::Failure;
 }
 

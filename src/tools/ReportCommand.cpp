@@ -105,14 +105,13 @@ int writeReport(const CommandCall &call)
     selection.end = std::min(selection.end, recording.end());
     if (call.application.isSet(QStringLiteral("signals")) && !readSignals(call, recording, &selection.signalNumbers))
         return call.application.exitCode();
-    const bool replaces = call.application.isSet(QStringLiteral("force"));
-    qplc::OutputFile file(name, replaces ? qplc::OutputFile::Replace : qplc::OutputFile::Refuse);
-    QString error;
-    if (!file.open(&error))
-        return call.application.usageError(error);
+    const std::unique_ptr<qplc::OutputFile> file = openOutput(call, recording);
+    if (!file)
+        return call.application.exitCode();
     int damages = 0;
     const QByteArray page = qplc::reportOf(recording, selection, &damages);
-    if (!file.write(page, &error) || !file.commit(&error)) {
+    QString error;
+    if (!file->write(page, &error) || !file->commit(&error)) {
         QPlcCoreApplication::printError(error);
         return QPlcCoreApplication::Failure;
     }
@@ -122,7 +121,7 @@ int writeReport(const CommandCall &call)
                                             {QStringLiteral("damages"), damages}}));
     else
         printLine(QStringLiteral("%1: a report of %2 kB").arg(printable(name)).arg((page.size() + 999) / 1000));
-    return exitCodeOf(damages);
+    return exitCodeOf(recording, damages);
 }
 
 }  // namespace tools

@@ -17,7 +17,7 @@ QStringList matching(const QPlcSignalTable &table, const QString &pattern)
     const QRegularExpression expression(QRegularExpression::wildcardToRegularExpression(pattern));
     QStringList names;
     for (const QPlcSignalDefinition &definition : table) {
-        if (expression.match(definition.name).hasMatch())
+        if (expression.isValid() && expression.match(definition.name).hasMatch())
             names << definition.name;
     }
     return names;

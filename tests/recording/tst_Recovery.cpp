@@ -38,6 +38,7 @@ private Q_SLOTS:
     void initTestCase();
     void aFileThatIsCutAnywhereIsFinished();
     void aFinishedFileStaysAsItIs();
+    void aFileWithNothingWholeStaysAsItIs();
     void aFlippedBitLosesOneChunkAndNoMore();
     void aDamagedFileIsNotVerified();
 
@@ -127,6 +128,22 @@ void tst_Recovery::aFinishedFileStaysAsItIs()
     QFile file(name);
     QVERIFY(file.open(QIODevice::ReadOnly));
     QCOMPARE(file.readAll(), m_bytes);
+}
+
+/// Its recorder was killed before the description of the plant was there, or it is of another kind.
+void tst_Recovery::aFileWithNothingWholeStaysAsItIs()
+{
+    for (const int size : {MagicSize, MagicSize + 1, 100}) {
+        const QByteArray begin = m_bytes.left(size);
+        const QString name = write(begin);
+        RecoveredFile recovered;
+        QVERIFY(!recoverRecording(name, &recovered, &m_error));
+        QVERIFY(recovered.hasNothing);
+        QVERIFY2(m_error.contains("stays as it is"), qPrintable(m_error));
+        QFile file(name);
+        QVERIFY(file.open(QIODevice::ReadOnly));
+        QCOMPARE(file.readAll(), begin);
+    }
 }
 
 void tst_Recovery::aFlippedBitLosesOneChunkAndNoMore()

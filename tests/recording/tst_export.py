@@ -419,5 +419,102 @@ class Reports(unittest.TestCase):
         self.assertIn("has no time plot", self.report("--layout", empty, code=2))
 
 
+class PeopleInAHurry(unittest.TestCase):
+    def setUp(self):
+        self.scratch = tempfile.TemporaryDirectory()
+        self.folder = Path(self.scratch.name)
+        self.flight = self.folder / "flight.mcap"
+        subprocess.run([MAKE_RECORDING, str(self.flight)], check=True, stdout=subprocess.DEVNULL)
+        self.bytes = self.flight.read_bytes()
+
+    def tearDown(self):
+        self.scratch.cleanup()
+
+    def qtplc(self, *arguments, code):
+        """What is said."""
+        command = [QTPLC, *map(str, arguments)]
+        done = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, timeout=60)
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        return done.stdout + done.stderr
+
+    def test_a_recording_is_not_replaced_by_its_own_table_or_report(self):
+        flights = self.folder / "flights"
+        flights.mkdir()
+        shutil.copy(self.flight, flights / "a.mcap")
+        for recording, file in (
+            (self.flight, self.flight),
+            (self.flight, flights / "../flight.mcap"),
+            (flights, flights / "a.mcap"),
+        ):
+            for command in (["export", recording, "--format", "csv"], ["report", recording]):
+                said = self.qtplc(*command, "-o", file, "--force", code=2)
+                self.assertIn("is a file of the recording, which would be lost", said)
+                self.assertEqual(file.read_bytes(), self.bytes)
+
+    def test_only_files_are_replaced(self):
+        os.mkfifo(self.folder / "fifo.csv")
+        (self.folder / "link.csv").symlink_to("/dev/stdout")
+        (self.folder / "lost.csv").symlink_to(self.folder / "nowhere")
+        (self.folder / "folder.csv").mkdir()
+        for name, reason in {
+            "fifo.csv": "it is not a file",
+            "link.csv": "it is a link; name the file that it leads to",
+            "lost.csv": "it is a link; name the file that it leads to",
+            "folder.csv": "it is a folder",
+        }.items():
+            self.assertIn(reason, self.qtplc("export", self.flight, "-o", name, "--force", code=2))
+            self.assertIn(reason, self.qtplc("report", self.flight, "-o", name, "--force", code=2))
+        self.assertTrue((self.folder / "fifo.csv").is_fifo() and (self.folder / "link.csv").is_symlink())
+
+    def test_half_a_pattern_matches_nothing(self):
+        said = self.qtplc("export", self.flight, "-o", "x.csv", "--signals", "[", code=2)
+        self.assertEqual(said, "qtplc: no signal matches '['; qtplc list shows all\n")
+
+    def test_a_file_that_is_no_recording_does_not_hide_the_others(self):
+        (self.folder / "odd.mcap").write_bytes(b"hello")
+        said = self.qtplc("verify", self.folder, code=1)
+        self.assertIn("as that of the flight: nothing is missing", said)
+        self.assertIn("odd.mcap' is not a recording", said)
+        facts = json.loads(self.qtplc("verify", self.folder, "--json", code=1))
+        self.assertEqual((facts["complete"], len(facts["phases"]), len(facts["problems"])), (False, 1, 1))
+        for command in (["export", self.folder, "-o", "x.csv"], ["report", self.folder, "-o", "x.html"]):
+            said = self.qtplc(*command, code=1)
+            self.assertIn("odd.mcap' is not a recording", said)
+        with open(self.folder / "x.csv") as table:
+            self.assertEqual(len(table.readlines()), 1 + CYCLES)
+        (self.folder / "odd.mcap").unlink()
+        self.assertEqual(json.loads(self.qtplc("verify", self.folder, "--json", code=0))["problems"], [])
+
+    def test_a_file_with_nothing_whole_is_not_cut(self):
+        begin = self.bytes[:100]
+        (self.folder / "begin.mcap").write_bytes(begin)
+        self.assertIn("nothing whole to finish", self.qtplc("recover", "begin.mcap", code=2))
+        self.assertEqual((self.folder / "begin.mcap").read_bytes(), begin)
+
+    def test_a_verb_without_a_folder_is_not_the_name_of_a_file(self):
+        for verb in ("start", "stop", "status", "list"):
+            self.assertIn("needs the FOLDER of a recorder", self.qtplc("record", verb, code=2))
+            self.assertFalse((self.folder / verb).exists())
+
+    def test_a_folder_that_cannot_be_read_is_not_called_empty(self):
+        locked = self.folder / "locked"
+        locked.mkdir(mode=0o700)
+        other = {"user": 65534} if os.geteuid() == 0 else {}
+        locked.chmod(0o700 if other else 0)
+        self.folder.chmod(0o755)
+        if subprocess.run([QTPLC, "--help"], stdout=subprocess.DEVNULL, **other).returncode != 0:
+            self.skipTest("another user cannot start qtplc here")
+        for command in (["verify"], ["export", "-o", "x.csv"], ["report", "-o", "x.html"], ["record", "list"]):
+            done = subprocess.run([QTPLC, *command, locked], capture_output=True, text=True, cwd="/", **other)
+            self.assertEqual(done.returncode, 2, done.stdout)
+            self.assertIn(f"cannot read the folder '{locked}': permission denied", done.stderr)
+        locked.chmod(0o700)
+
+    def test_nobody_is_told_to_delete_what_is_no_ring(self):
+        said = self.qtplc("record", "new.mcap", "--ring", self.flight, code=2)
+        self.assertIn("is not a ring of this version of QtPLC and of this user", said)
+        self.assertNotIn("delete", said)
+
+
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1], verbosity=2)

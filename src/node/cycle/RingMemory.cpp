@@ -184,8 +184,9 @@ bool RingMemory::openFile(const QByteArray &file, Header *start, QString *error)
         && start->bytesAt == wholePages(sizeof(Header) + start->descriptionSize)
         && std::uint64_t(status.st_size) == start->bytesAt + start->capacity + start->textCapacity)
         return true;
-    *error = QStringLiteral("'%1' is not a ring of this version of QtPLC and of this user; delete it")
-                 .arg(QFile::decodeName(file));
+    *error = QStringLiteral("'%1' is not a ring of this version of QtPLC and of this user; masters keep theirs as "
+                            "'%2/qtplc-ring-...'")
+                 .arg(QFile::decodeName(file), QFile::decodeName(folder()));
     return false;
 }
 
