@@ -16,6 +16,7 @@
 ///                  [](const QPlcDeviceEvent &event) { qInfo("%s", qPrintable(event.text)); });
 /// \endcode
 ///
+/// \threadsafe a value type: each thread may use its own copy
 /// \ingroup hardware
 struct QPlcDeviceEvent
 {
