@@ -22,6 +22,16 @@ using qplc::DriverCatalog;
 using qplc::DriverRunner;
 using qplc::HardwareConfiguration;
 
+namespace {
+
+/// The name of the condition that the device of a driver is lost, or cannot be opened.
+QString alarmOf(const QString &driver)
+{
+    return QStringLiteral("device %1").arg(driver);
+}
+
+}  // namespace
+
 struct QPlcHardwareNode::Private
 {
     /// A channel that stops the plant.
@@ -444,12 +454,11 @@ QStringList QPlcHardwareNode::makeSafe(std::chrono::milliseconds timeout)
 
 void QPlcHardwareNode::deviceChanged(const QString &driver, const QString &error)
 {
-    const QString alarm = QStringLiteral("device %1").arg(driver);
     if (error.isEmpty()) {
         const QString text = QStringLiteral("device '%1' is open").arg(driver);
         m_hardware->failures.remove(driver);
         qCInfo(lcHardware).noquote() << name() + QStringLiteral(": ") + text;
-        endAlarm(alarm, text);
+        endAlarm(alarmOf(driver), text);
         Q_EMIT deviceOpened(driver);
         return;
     }
@@ -457,7 +466,7 @@ void QPlcHardwareNode::deviceChanged(const QString &driver, const QString &error
     m_hardware->failures.insert(driver, error);
     qCWarning(lcHardware).noquote() << name() + QStringLiteral(": ") + text;
     if (m_hardware->isOpen)  // else it was told before the device was closed
-        beginAlarm(alarm, ErrorEvent, text);
+        beginAlarm(alarmOf(driver), ErrorEvent, text);
     Q_EMIT deviceFailed(driver, error);
 }
 
@@ -492,8 +501,7 @@ void QPlcHardwareNode::closeDevices()
     m_hardware->leaveAll();
     for (const std::unique_ptr<DriverRunner> &runner : m_hardware->runners) {
         runner->stop();
-        endAlarm(QStringLiteral("device %1").arg(runner->name()),
-                 QStringLiteral("device '%1' is closed").arg(runner->name()));
+        endAlarm(alarmOf(runner->name()), QStringLiteral("device '%1' is closed").arg(runner->name()));
     }
     m_hardware->isOpen = false;
 }

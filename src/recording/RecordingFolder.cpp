@@ -19,10 +19,16 @@ namespace qplc {
 
 namespace {
 
-/// \return the new path of the file; \a path if the file could not be renamed
-QString renamed(const QString &path, const RecordingName &name)
+/// Gives a file of a recorder another name. \return its new path; \a path if it keeps its name
+template<typename Change>
+QString renamed(const QString &path, Change change)
 {
-    const QString result = QFileInfo(path).dir().filePath(name.toString());
+    const QFileInfo file(path);
+    std::optional<RecordingName> name = RecordingName::parse(file.fileName());
+    if (!name)
+        return path;
+    change(&*name);
+    const QString result = file.dir().filePath(name->toString());
     return QFile::rename(path, result) ? result : path;
 }
 
@@ -94,21 +100,15 @@ PlantRecorder::Position RecordingFolder::position(const RingDescription &phase) 
 
 QString RecordingFolder::finished(const QString &path, bool isMarked) const
 {
-    std::optional<RecordingName> name = RecordingName::parse(QFileInfo(path).fileName());
-    if (!name)
-        return path;
-    name->isUnfinished = false;
-    name->isMarked = name->isMarked || isMarked;
-    return renamed(path, *name);
+    return renamed(path, [isMarked](RecordingName *name) {
+        name->isUnfinished = false;
+        name->isMarked = name->isMarked || isMarked;
+    });
 }
 
 QString RecordingFolder::mark(const QString &path)
 {
-    std::optional<RecordingName> name = RecordingName::parse(QFileInfo(path).fileName());
-    if (!name)
-        return path;
-    name->isMarked = true;
-    return renamed(path, *name);
+    return renamed(path, [](RecordingName *name) { name->isMarked = true; });
 }
 
 QStringList RecordingFolder::clean(const Limits &limits, qint64 now) const

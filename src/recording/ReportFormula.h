@@ -11,8 +11,8 @@ namespace qplc {
 class ReportFormula
 {
 public:
-    /// \param columns  of the rows of next(), for each signal of Recording::signalList(); -1: there
-    /// is none
+    /// \param columns  of the rows of next(), for each signal of Recording::signalList(); -1: it
+    /// has no column
     ReportFormula(const QString &text, const Recording &recording, const std::vector<int> &columns);
     ReportFormula(ReportFormula &&other) noexcept;
     ~ReportFormula();

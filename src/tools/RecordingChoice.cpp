@@ -85,7 +85,7 @@ bool readSignals(const CommandCall &call, const qplc::Recording &recording, std:
 std::unique_ptr<qplc::OutputFile> openOutput(const CommandCall &call, const qplc::Recording &recording)
 {
     const QString name = call.application.value(QStringLiteral("output"));
-    const QString target = QFileInfo(name).canonicalFilePath();  // empty: there is none
+    const QString target = QFileInfo(name).canonicalFilePath();  // empty: no file has this name
     for (const qplc::RecordedFile &file : recording.files()) {
         if (target.isEmpty() || QFileInfo(file.name).canonicalFilePath() != target)
             continue;

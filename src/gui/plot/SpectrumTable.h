@@ -41,7 +41,7 @@ public:
     std::int64_t rows() const override { return m_rows; }
 
 private:
-    /// The frequency of the next row; infinite: there is none.
+    /// The frequency of the next row; infinite at the end.
     double frequency() const;
     bool hasLine(std::size_t column) const;
 

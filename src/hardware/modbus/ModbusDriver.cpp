@@ -409,8 +409,8 @@ private:
         return true;
     }
 
-    /// A value that its unit has not confirmed as it is now; null: there is none. \param number
-    /// of the unit; -1: any
+    /// \param number  of a unit; -1: of all
+    /// \return a value that its unit has not confirmed as it is now; null if all are confirmed
     const Entry *findUnwritten(int number = -1) const
     {
         const auto isUnwritten = [&](const Entry &entry) {
