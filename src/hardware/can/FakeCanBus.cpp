@@ -353,6 +353,7 @@ void FakeCanBus::flush(Peer *peer) noexcept
         peer->first = (peer->first + count) % Backlog;
         peer->count -= count;  // also to one who is gone: there is nobody who could miss them
     }
+    peer->first = 0;  // else frames of one cycle would be two datagrams at the end of the ring
 }
 
 }  // namespace qplc

@@ -196,6 +196,7 @@ private Q_SLOTS:
     void filterPassesOnlySelectedMessages();
     void framesStayInOrder_data() { addBuses(); }
     void framesStayInOrder();
+    void framesThatAreSentAtOnceArriveAtOnce();
     void slowReceiverLosesNothingThatFits();
     void receiverCountsFramesThatDoNotFit();
     void lateParticipantReceivesNoEarlierFrames();
@@ -347,6 +348,27 @@ void tst_CanBus::framesStayInOrder()
     for (const CanFrame &frame : receive(*b, sent - expected))
         QCOMPARE(frame.id, expected++);
     QCOMPARE(expected, sent);
+}
+
+/// Also where the queue of a sender is at its end: the kernel takes ten packets for a receiver who
+/// is busy.
+void tst_CanBus::framesThatAreSentAtOnceArriveAtOnce()
+{
+    const auto receiver = join(testBus);
+    std::vector<std::unique_ptr<CanBus>> senders(6);
+    for (auto &sender : senders)
+        sender = join(testBus);
+    const auto sendAll = [&](int count) {
+        const std::vector<CanFrame> frames(std::size_t(count), frameOf(1));
+        for (const auto &sender : senders)
+            QCOMPARE(sender->send(frames.data(), count), count);
+        for (const auto &sender : senders)
+            receiveAll(*sender);
+        QCOMPARE(receiveAll(*receiver).size(), senders.size() * frames.size());
+    };
+    for (int sent = 0; sent < FakeCanBus::Backlog - 1; sent += 63)
+        sendAll(63);
+    sendAll(2);
 }
 
 void tst_CanBus::slowReceiverLosesNothingThatFits()
