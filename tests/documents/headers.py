@@ -130,6 +130,10 @@ def check(source, work, doxygen):
             errors.append(f"{where} has no thread rule (\\threadsafe)")
         if name not in grouped:
             errors.append(f"{where} belongs to no group of docs/reference.dox (\\ingroup)")
+    page = (source / "docs/reference.dox").read_text()
+    for group in re.findall(r"\\defgroup (\w+)", page):
+        if not re.search(rf"\\ref {group}$", page, re.M):
+            errors.append(f"docs/reference.dox: the list of groups does not name {group} (\\ref {group})")
     print("\n".join(errors + [f"{sum(1 for entry in found if entry[2])} of {len(found)} public names have a comment"]))
     return 1 if errors or not found else 0
 

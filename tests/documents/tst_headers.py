@@ -55,13 +55,13 @@ private:
 
 
 class Headers(unittest.TestCase):
-    def check(self, page):
+    def check(self, page, dropped=""):
         with tempfile.TemporaryDirectory() as folder:
             root = Path(folder)
             (root / "include/QtPlc").mkdir(parents=True)
             (root / "docs").mkdir()
             for name in ("Doxyfile.in", "reference.dox"):
-                (root / "docs" / name).write_text((SOURCE / "docs" / name).read_text())
+                (root / "docs" / name).write_text((SOURCE / "docs" / name).read_text().replace(dropped, ""))
             (root / "include/QtPlc/QPlcValve.h").write_text(page)
             run = subprocess.run(
                 [sys.executable, "-B", HEADERS, "check", root, root / "work", DOXYGEN], capture_output=True, text=True
@@ -102,6 +102,11 @@ class Headers(unittest.TestCase):
 
     def test_a_class_needs_a_group(self):
         self.assert_named("/// \\ingroup nodes\n", "QPlcValve belongs to no group")
+
+    def test_the_first_page_names_each_group(self):
+        code, output = self.check(PAGE, "- \\ref recording\n")
+        self.assertEqual(code, 1, output)
+        self.assertIn("the list of groups does not name recording", output)
 
 
 if __name__ == "__main__":
