@@ -103,7 +103,8 @@ public:
     /// by another device of the node, is an error that names both lines.
     /// \param key  that uses it
     /// \param what  a name of it for people: "line 17 of gpiochip0"
-    void claim(const QString &key, const QString &what);
+    /// \param user  who may claim it again, for example "the master"; empty: nobody
+    void claim(const QString &key, const QString &what, const QString &user = QString());
     /// Adds errors of another file that the configuration names, for example a DBC file.
     void addErrors(const QVector<QPlcParseError> &errors);
 

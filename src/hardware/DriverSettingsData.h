@@ -15,9 +15,9 @@ struct QPlcDriverSettings::Private
     QVector<qplc::ConfigurationEntry> entries;
     QVector<QPlcParseError> *errors = nullptr;
     QVector<QPlcParseError> *warnings = nullptr;
-    QMap<QString, int> *claims = nullptr;  // of all drivers: lines
-    QStringList failedKeys;                // that have an error
-    bool hasErrorsElsewhere = false;       // in another file
+    QMap<QString, qplc::HardwareConfiguration::Claim> *claims = nullptr;  // of all drivers
+    QStringList failedKeys;                                               // that have an error
+    bool hasErrorsElsewhere = false;                                      // in another file
     QSet<QString> used;
     QStringList usedChannels;
     QStringList asked;  // keys that the driver knows

@@ -49,6 +49,13 @@ public:
         ConfigurationEntry entry;
     };
 
+    /// Of what is used once.
+    struct Claim
+    {
+        int line = 0;
+        QString user;  // who may use it again; empty: nobody
+    };
+
     /// Reads \a text. All that is wrong with it is in errors().
     HardwareConfiguration(const QByteArray &text, const QString &fileName);
 
@@ -84,7 +91,7 @@ private:
     QVector<Watched> m_safeStops;
     QVector<Driver> m_drivers;
     QVector<QPlcParseError> m_warnings;
-    QMap<QString, int> m_claims;  // what is used once: lines
+    QMap<QString, Claim> m_claims;
 };
 
 }  // namespace qplc

@@ -185,14 +185,15 @@ void QPlcDriverSettings::addWarning(const QString &key, const QString &message)
     d->warnings->append({d->fileName, place.line, place.column, message});
 }
 
-void QPlcDriverSettings::claim(const QString &key, const QString &what)
+void QPlcDriverSettings::claim(const QString &key, const QString &what, const QString &user)
 {
     const ConfigurationEntry &place = d->placeOf(key);
     const auto former = d->claims->constFind(what);
     if (former == d->claims->constEnd())
-        d->claims->insert(what, place.line);
-    else
-        d->addError(place, QStringLiteral("%1 is used twice, first in line %2; use it once").arg(what).arg(*former));
+        d->claims->insert(what, {place.line, user});
+    else if (user.isEmpty() || former->user != user)
+        d->addError(place,
+                    QStringLiteral("%1 is used twice, first in line %2; use it once").arg(what).arg(former->line));
 }
 
 void QPlcDriverSettings::addErrors(const QVector<QPlcParseError> &errors)

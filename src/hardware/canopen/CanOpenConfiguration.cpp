@@ -50,17 +50,25 @@ int CanOpenConfiguration::readBitRate(const QString &device, QPlcDriverSettings 
     return CanConfiguration::readBitRate(device, QStringLiteral("bitrate"), 10000, 1'000'000, settings);
 }
 
+/// Of a device, or of the master in its heartbeats.
+QString CanOpenConfiguration::placeOf(int id) const
+{
+    return QStringLiteral("node %1 of %2").arg(id).arg(device);
+}
+
 void CanOpenConfiguration::readNode(QPlcDriverSettings &settings)
 {
     node = int(settings.integer(QStringLiteral("node"), 1, 1, CanOpenIds::MaximumNode));
     if (!device.isEmpty())
-        settings.claim(QStringLiteral("node"), QStringLiteral("node %1 of %2").arg(node).arg(device));
+        settings.claim(QStringLiteral("node"), placeOf(node));
     master = int(settings.integer(QStringLiteral("master"), 127, 0, CanOpenIds::MaximumNode));
     if (master == node)
         settings.addError(QStringLiteral("master"),
                           QStringLiteral("the master cannot have the id %1 of the device; take a free one, or 0 for no "
                                          "heartbeat of the master")
                               .arg(master));
+    else if (master > 0 && !device.isEmpty())
+        settings.claim(QStringLiteral("master"), placeOf(master), QStringLiteral("master"));
     heartbeat = std::chrono::duration_cast<std::chrono::milliseconds>(
         settings.duration(QStringLiteral("heartbeat"), 100ms, 10ms, 30s));
     answerTime = settings.duration(QStringLiteral("sdo-timeout"), 200ms, 10ms, 1s);
@@ -428,10 +436,14 @@ void CanOpenConfiguration::checkIds(QPlcDriverSettings &settings)
 {
     QHash<quint32, QString> titleOfId;
     for (const Pdo &pdo : qAsConst(pdos)) {
+        const QString key = (pdo.isTransmit ? QStringLiteral("tpdo%1") : QStringLiteral("rpdo%1")).arg(pdo.number);
+        const QString id = QString::number(pdo.id, 16);
         if (titleOfId.contains(pdo.id))
-            settings.addError((pdo.isTransmit ? QStringLiteral("tpdo%1") : QStringLiteral("rpdo%1")).arg(pdo.number),
+            settings.addError(key,
                               QStringLiteral("%1 has the id 0x%2 of %3; give each its own")
-                                  .arg(pdo.title(), QString::number(pdo.id, 16), titleOfId.value(pdo.id)));
+                                  .arg(pdo.title(), id, titleOfId.value(pdo.id)));
+        else if (!device.isEmpty())
+            settings.claim(key, QStringLiteral("the PDO id 0x%1 of %2").arg(id, device));
         titleOfId.insert(pdo.id, pdo.title());
     }
 }

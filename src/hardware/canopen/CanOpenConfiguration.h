@@ -64,6 +64,7 @@ public:
     bool find(const QString &text, bool isTransmit, int *pdo, int *entry) const;
 
 private:
+    QString placeOf(int id) const;
     void readNode(QPlcDriverSettings &settings);
     void readEds(QPlcDriverSettings &settings);
     void readIdentity(QPlcDriverSettings &settings);

@@ -90,6 +90,7 @@ private Q_SLOTS:
     // Contradictions
     void contradictionsAreRefused_data();
     void contradictionsAreRefused();
+    void idsOfOneBusDiffer();
     void onePlaceHasOneSection();
     void valuesOfASlowPdoAreFreshUntilTheNextOne();
     void valuesOnEventAreFreshWhileTheDeviceLives();
@@ -348,6 +349,27 @@ void tst_CanOpenDriver::contradictionsAreRefused()
     eds.close();
     const QString told = bench.addDriver(keys).errors();
     QVERIFY2(told.contains(error), qPrintable(told));
+}
+
+void tst_CanOpenDriver::idsOfOneBusDiffer()
+{
+    const auto errorsOf = [](const QByteArray &first, const QByteArray &second) {
+        QPlcHardwareNode node;
+        node.configure("[a]\ndriver = canopen\ndevice = fake:x\n" + first + "[b]\ndriver = canopen\ndevice = fake:x\n"
+                           + second,
+                       "a.ini");
+        return QPlcParseError::toString(node.configurationErrors());
+    };
+    const QByteArray five = "node = 5\ntpdo1 = 6064:00\n";
+    QString errors = errorsOf(five, "node = 6\ntpdo2 = id 0x185, 6064:00\n");
+    QVERIFY2(errors.contains("a.ini:10:9: the PDO id 0x185 of fake:x is used twice, first in line 5; use it once"),
+             qPrintable(errors));
+    errors = errorsOf(five, "node = 127\nmaster = 0\ntpdo1 = 6064:00\n");  // the master's in section a, by default
+    QVERIFY2(errors.contains("a.ini:9:8: node 127 of fake:x is used twice, first in line 2"), qPrintable(errors));
+    errors = errorsOf(five, "node = 6\nmaster = 5\ntpdo1 = 6064:00\n");
+    QVERIFY2(errors.contains("a.ini:10:10: node 5 of fake:x is used twice, first in line 4"), qPrintable(errors));
+    errors = errorsOf("master = 1\n" + five, "master = 1\nnode = 127\ntpdo1 = 6064:00\n");
+    QVERIFY2(!errors.contains("twice"), qPrintable(errors));
 }
 
 void tst_CanOpenDriver::onePlaceHasOneSection()
