@@ -561,6 +561,8 @@ def serial_lines():
         "bytes": b"\x00\xff\x80,\x02\n",
         "control characters": b"W\\r\\n\\t\\\\\\x02\\xfF",
         "half of one": b"\\x2",
+        "template": b"SP {setpoint:07.2} {{{ramp}}}\r\n",
+        "long template": b"{a:99}{b:099.9}" + b"x" * 50 + b"{a}",
     }
 
 
