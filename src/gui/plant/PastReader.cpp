@@ -72,7 +72,7 @@ public:
         m_clock.start();
         m_rings = filesOfSession(m_ringFolder, QStringLiteral("qtplc-ring-*-%1-*"), wish.session, phaseOfRing);
         PlantValues::Budget budget = wish.file.isEmpty() ? PlantValues::Budget() : RecordedBudget;
-        if (wish.isOfLostConnection())
+        if (wish.isBetweenRows())
             budget.history = std::min(budget.history, wish.before - wish.after);
         m_past.values.setTable(wish.table, wish.period, budget);
     }
@@ -136,8 +136,8 @@ bool PastReading::isOver()
 
 QString PastReading::whatIsMissing() const
 {
-    return m_wish.isOfLostConnection() ? WindowText::tr("its curves have a gap where the connection was lost")
-                                       : WindowText::tr("its curves begin with this window");
+    return m_wish.isBetweenRows() ? WindowText::tr("its curves have a gap where this window heard nothing")
+                                  : WindowText::tr("its curves begin with this window");
 }
 
 /// The times of all phases that are not timed begin at 0: only the ring tells which of them runs.
@@ -148,7 +148,7 @@ bool PastReading::mayBeShown(const RingDescription &description) const
         && (isTimed || (!m_rings.isEmpty() && phaseOfRing(m_rings.constLast()) == description.phase));
 }
 
-/// Of the phase in which the connection was lost, if it is known which one that was.
+/// Of the phase of the row before the gap, if it is known which one that was.
 bool PastReading::isLost(const Origin &origin) const
 {
     return m_wish.lost && m_wish.lost->cycleZero != 0 && origin.cycleZero == m_wish.lost->cycleZero;
@@ -233,7 +233,7 @@ QStringList PastReading::files(QString *problem) const
 Time PastReading::firstWanted(Time end) const
 {
     const Time length = std::min(RecordedBudget.history, Time(m_past.values.store()->capacity()) * m_wish.period);
-    const bool isShort = m_wish.isOfLostConnection() && m_wish.before - m_wish.after <= RecordedBudget.history;
+    const bool isShort = m_wish.isBetweenRows() && m_wish.before - m_wish.after <= RecordedBudget.history;
     const bool isKnown = isShort && m_wish.lost && m_wish.lost->cycleZero != 0;
     if (!isKnown)
         return end - length;

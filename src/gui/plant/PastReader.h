@@ -33,14 +33,14 @@ struct PastWish
     std::optional<Seam> lost;  // the row at `after`, if it is of a phase of this session that is known
     /// When the phase of the seam has begun, on the clock of the window [ns].
     Time begun() const { return seam ? seam->time - Time(seam->cycle) * period : before; }
-    /// Of the phase of the seam, cycles before it were heard before the connection was lost. All
+    /// Of the phase of the seam, cycles before it were heard before the gap. All
     /// phases that are not timed look the same: a larger number is taken for the same phase.
     quint64 heardCycles() const
     {
         const bool isSame = seam && lost && seam->cycleZero == lost->cycleZero && lost->cycle < seam->cycle;
         return isSame ? lost->cycle : 0;
     }
-    bool isOfLostConnection() const { return after != std::numeric_limits<Time>::min(); }
+    bool isBetweenRows() const { return after != std::numeric_limits<Time>::min(); }
     QString file;  // that the recorder writes, as the master tells it; empty: nobody records
 };
 

@@ -29,7 +29,7 @@ QString folderOf(const QString &file)
 /// Rows that are there already in a gap.
 SignalStore::Row rowsIn(const SignalStore &store, const PastWish &wish)
 {
-    const SignalStore::Row first = wish.isOfLostConnection() ? store.rowAt(wish.after + 1) : store.firstRow();
+    const SignalStore::Row first = wish.isBetweenRows() ? store.rowAt(wish.after + 1) : store.firstRow();
     return store.rowAt(wish.before) - first;
 }
 
@@ -91,6 +91,8 @@ void PlantPast::look()
     }
     if (!m_gaps.empty() && m_gaps.back().isOpen())
         close(&m_gaps.back());
+    if (m_gaps.empty() || !m_gaps.back().isOpen())
+        addHoles();
     if (m_reading)
         return;
     m_reading = nextGap();
@@ -115,9 +117,40 @@ void PlantPast::lose()
     gap.wish.after = store->newestTime();
     gap.wish.lost = PastWish::Seam{values.cycle(), gap.wish.after, values.phase().cycleZero};
     gap.sessionBefore = values.phase().session;
+    append(gap);
+}
+
+void PlantPast::append(const Gap &gap)
+{
     m_gaps.push_back(gap);
     if (m_gaps.size() > MostGaps && m_reading != &m_gaps.front())
         m_gaps.pop_front();
+}
+
+/// Those of the phase that runs.
+void PlantPast::addHoles()
+{
+    const PlantValues &values = m_plant->values();
+    const PlantValues::Phase phase = values.phase();
+    const quint64 session = m_plant->status().master.session;
+    if (session == 0)
+        return;  // the master has not told it yet
+    for (const PlantValues::Hole &hole : m_plant->m_values.takeHoles()) {
+        if (hole.run != values.run())
+            continue;
+        Gap gap;
+        gap.wish.table = values.table();
+        gap.wish.period = values.period();
+        gap.wish.session = session;
+        gap.wish.after = hole.after;
+        gap.wish.before = hole.before;
+        gap.wish.seam = PastWish::Seam{values.cycle(), values.store()->newestTime(), phase.cycleZero};
+        gap.wish.lost = PastWish::Seam{hole.cycle, hole.after, phase.cycleZero};
+        gap.sessionBefore = session;
+        gap.run = hole.run;
+        gap.isClosed = gap.hasEnd = true;
+        append(gap);
+    }
 }
 
 /// Tells what is behind a gap, as soon as the master has told its state, and the first cycle has
@@ -129,7 +162,7 @@ void PlantPast::close(Gap *gap) const
     const messages::State &master = m_plant->status().master;
     const bool isRunning = m_plant->status().isRunning();
     PastWish &wish = gap->wish;
-    const SignalStore::Row behind = wish.isOfLostConnection() ? store->rowAt(wish.after + 1) : store->firstRow();
+    const SignalStore::Row behind = wish.isBetweenRows() ? store->rowAt(wish.after + 1) : store->firstRow();
     const bool hasRows = behind < store->endRow();
     if (master.session == 0 || (isRunning && !hasRows))
         return;
@@ -160,7 +193,7 @@ bool PlantPast::isWanted(const Gap &gap) const
     const QString folder = folderOf(file());
     if (gap.lookedIn && (folder.isEmpty() || folder == *gap.lookedIn))
         return false;
-    return !folder.isEmpty() || wish.isOfLostConnection() || wish.before - wish.begun() >= LeastOfRing;
+    return !folder.isEmpty() || wish.isBetweenRows() || wish.before - wish.begun() >= LeastOfRing;
 }
 
 /// The store has no room for it; or it belongs to a phase that is not timed, and another one may
@@ -169,7 +202,7 @@ bool PlantPast::isOutdated(const Gap &gap) const
 {
     const SignalStore *store = m_plant->store();
     const PastWish &wish = gap.wish;
-    const bool isGone = wish.isOfLostConnection()
+    const bool isGone = wish.isBetweenRows()
         ? store->isEmpty() || store->time(store->firstRow()) > wish.after
         : store->endRow() - store->firstRow() >= SignalStore::Row(store->capacity());
     const bool isTimed = !wish.seam || wish.seam->cycleZero != 0;
@@ -229,11 +262,11 @@ void PlantPast::give(const Gap &gap, Past past)
     const SignalStore::Row rows = found->endRow() - found->firstRow();
     if (rows <= rowsIn(*m_store, gap.wish))
         return;
-    const bool isOfLostConnection = gap.wish.isOfLostConnection();
+    const bool isBetweenRows = gap.wish.isBetweenRows();
     const QString source
         = past.hasFiles ? tr("from the recordings in '%1'").arg(*gap.lookedIn) : tr("from the ring of the master");
-    const QString text = isOfLostConnection
-        ? tr("the curves have what was from %1 to %2, while the connection was lost: %3")
+    const QString text = isBetweenRows
+        ? tr("the curves have what was from %1 to %2, which this window had not heard: %3")
               .arg(clockText(gap.wish.after), clockText(gap.wish.before), source)
         : tr("the curves go back to %1, before this window: %2").arg(clockText(found->time(found->firstRow())), source);
     const auto seam = [](bool continues) { return continues ? SignalStore::Continues : SignalStore::BeginsAnew; };

@@ -15,7 +15,8 @@ namespace qplc {
 class Plant;
 
 /// Shows what a window has not heard of a plant: what was before its first row, so that the last
-/// hour is there after a restart of the window, and what was while its connection was lost.
+/// hour is there after a restart of the window, what was while its connection was lost, and what
+/// was while it was too slow.
 ///
 /// Each such gap is read when the master has told its state and the first cycle behind the gap has
 /// come: out of the recordings of the recorder, and out of the ring of the master, where this
@@ -59,6 +60,8 @@ private:
     void look();
     void lose();
     void close(Gap *gap) const;
+    void addHoles();
+    void append(const Gap &gap);
     Gap *nextGap();
     bool isWanted(const Gap &gap) const;
     bool isOutdated(const Gap &gap) const;

@@ -101,11 +101,20 @@ void PlantValues::storeFrame(const QPlcIOBufferSlaveNode::Frame &frame, Time wal
         beginPhase(frame, wallTime);
     } else if (frame.cycle <= m_lastCycle || m_interval.missed(m_lastCycle, frame.cycle) > 0) {
         ++m_gaps;
+        noteHole(frame.cycle);
         interrupt();
     }
     m_isContinued = true;
     m_lastCycle = frame.cycle;
     storeRow(frame.inputs, m_phaseStart + Time(frame.cycle) * m_period, frame.qualities);
+}
+
+/// \param cycle  behind it
+void PlantValues::noteHole(quint64 cycle)
+{
+    const Time before = m_phaseStart + Time(cycle) * m_period;
+    if (before - m_lastTime >= LeastHole && m_holes.size() < MostHoles)
+        m_holes.push_back({m_phase, m_lastCycle, m_lastTime, before});
 }
 
 void PlantValues::fill(const Gap &gap, PlantValues past, Time history)

@@ -11,6 +11,7 @@
 
 #include <limits>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace qplc {
@@ -112,6 +113,18 @@ public:
     quint64 cycle() const { return m_lastCycle; }
     quint64 rows() const { return m_rows; }  // taken, ever
     quint64 gaps() const { return m_gaps; }  // frames within a phase before which others were lost, ever
+    /// Cycles of one phase that were not heard, between two that were.
+    struct Hole
+    {
+        quint64 run = 0;    // of both
+        quint64 cycle = 0;  // before it
+        Time after = 0;     // of the row of this cycle
+        Time before = 0;    // of the row behind it
+    };
+    /// The holes since the last call that take LeastHole or longer, at most MostHoles of them.
+    std::vector<Hole> takeHoles() { return std::exchange(m_holes, {}); }
+    static constexpr Time LeastHole = SignalStore::Second;
+    static constexpr std::size_t MostHoles = 16;
 
 private:
     struct Doubt
@@ -126,6 +139,7 @@ private:
     void makeStore();
     void beginPhase(const QPlcIOBufferSlaveNode::Frame &frame, Time wallTime);
     bool goesOn(const QPlcIOBufferSlaveNode::Frame &frame) const;
+    void noteHole(quint64 cycle);
 
     Budget m_budget;
     QPlcSignalTable m_table;
@@ -152,6 +166,7 @@ private:
     bool m_isContinued = false;
     quint64 m_rows = 0;
     quint64 m_gaps = 0;
+    std::vector<Hole> m_holes;
 };
 
 }  // namespace qplc

@@ -8,6 +8,9 @@
 
 #include <QtCore/QDir>
 
+#include <chrono>
+#include <thread>
+
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -140,7 +143,7 @@ struct Window
     /// \param source  of its rows; empty: any. Before a recorder is told, it is the ring alone
     bool waitForGap(const QString &source = {})
     {
-        const QString told = QStringLiteral("while the connection was lost");
+        const QString told = QStringLiteral("which this window had not heard");
         return waitUntil([&] { return !events.filter(told).filter(source).isEmpty(); }, patience);
     }
     /// Hears cycles, knows of which phase they are, and loses the connection.
@@ -215,6 +218,7 @@ private Q_SLOTS:
     void ofALostConnectionTheCyclesBetweenAreRead();
     void aLostConnectionLeavesNoGap_data();
     void aLostConnectionLeavesNoGap();
+    void aWindowThatWasTooSlowLeavesNoGap();
     void aPhaseThatBeginsWithoutTheWindowIsThereFromItsBegin();
     void aRecorderThatIsStartedLaterFillsAGap();
     void recordingsThatAreNotHereAreTold();
@@ -470,6 +474,29 @@ void tst_PlantPast::aLostConnectionLeavesNoGap()
     QTRY_VERIFY_WITH_TIMEOUT(window.plant.store()->endRow() > last + 20, patience);
 }
 
+/// The connection goes on, in threads of its own.
+void tst_PlantPast::aWindowThatWasTooSlowLeavesNoGap()
+{
+    RecordedPlant plant;
+    QVERIFY(plant.fly(1));
+    Window window(plant.master);
+    QVERIFY(waitUntil([&] { return window.plant.values().phase().isTimed(); }, patience));
+    const quint64 rows = window.plant.values().rows();
+    QTRY_VERIFY_WITH_TIMEOUT(window.plant.values().rows() > rows + 20, patience);
+    window.lost = window.plant.newestTime();
+    const quint64 cycles = plant.master.statistics().cycles;
+    while (plant.master.statistics().cycles < cycles + 700)  // 256 frames wait for a window
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    QVERIFY2(window.waitForGap(), qPrintable(window.told()));
+    QVERIFY(window.plant.values().gaps() > 0);
+    QVERIFY(window.plant.isConnected());
+    const SignalStore *store = window.plant.store();
+    const SignalStore::Row first = window.rowAt(window.lost);
+    const SignalStore::Row last = store->endRow() - 1;
+    QVERIFY(last - first >= 700);
+    QVERIFY2(window.defect(first, last).isEmpty(), qPrintable(window.defect(first, last)));
+}
+
 void tst_PlantPast::aPhaseThatBeginsWithoutTheWindowIsThereFromItsBegin()
 {
     RecordedPlant plant;
@@ -520,7 +547,7 @@ void tst_PlantPast::aRecorderThatIsStartedLaterFillsAGap()
     QVERIFY2(window.connectAgain(), qPrintable(window.told()));
     const quint64 rows = window.plant.values().rows();
     QTRY_VERIFY_WITH_TIMEOUT(window.plant.values().rows() > rows + 100, patience);
-    const QString told = QStringLiteral("while the connection was lost");
+    const QString told = QStringLiteral("which this window had not heard");
     QVERIFY(window.events.filter(told).isEmpty());
     QVERIFY(plant.recorder.start() && plant.recorder.addRing(ring));
     QVERIFY2(window.waitForGap(), qPrintable(window.told()));
