@@ -83,6 +83,14 @@ Eigen::Vector3d vectorOf(const QPlcValue &value)
     return Eigen::Vector3d(value.toReal(0), value.toReal(1), value.toReal(2));
 }
 
+/// Whether the terminal is that of this program now. In the background of a shell it is not: what a
+/// person types and reads there stays as it is.
+bool isInForeground()
+{
+    const pid_t foreground = ::tcgetpgrp(STDERR_FILENO);
+    return foreground < 0 || foreground == ::getpgrp();
+}
+
 /// Whether the lines of logLine() are wanted.
 bool isForScript(FlightDisplay::Kind kind, double duration)
 {
@@ -148,7 +156,7 @@ void FlightDisplay::end()
     if (!m_timer.isActive())
         return;
     m_timer.stop();
-    if (!hasTerminal())
+    if (!hasTerminal() || (m_kind == Line && !isInForeground()))
         return;
     write(m_kind == Picture ? giveScreenBack : "\r\033[K");
     if (m_kind == Picture)
@@ -173,6 +181,8 @@ FlightMoment FlightDisplay::momentOf(const QPlcSignalList &values, double time) 
 
 void FlightDisplay::drawLine()
 {
+    if (!isInForeground())
+        return;
     QPlcSignalList values;
     for (const char *name : signalNames)
         values.insert(QString::fromLatin1(name), m_master.signalValue(QString::fromLatin1(name)));

@@ -9,8 +9,9 @@
 namespace awe {
 
 /// Shows a flight of a master on the terminal behind the standard error: one line, or a picture.
-/// Where there is no terminal it shows nothing, unless a script asks for it by QTPLC_PROGRESS=lines
-/// in the environment: then a line "progress: 210 of 1800" each second.
+/// In the background of a shell there is no line, until the program comes to the foreground. Where
+/// there is no terminal it shows nothing, unless a script asks for it by QTPLC_PROGRESS=lines in
+/// the environment: then a line "progress: 210 of 1800" each second.
 class FlightDisplay : public QObject
 {
     Q_OBJECT
