@@ -129,7 +129,8 @@ public:
     /// Takes over what \a other has opened, as the constructor does.
     QPlcRecording &operator=(QPlcRecording &&other) noexcept;
 
-    /// Opens a file, or all recordings of a folder.
+    /// Opens a file, or all recordings of a folder. What is no recording in a folder is left out:
+    /// notes() tells it.
     /// \param path  of the file or folder
     /// \return false when it is no recording, or flights in it have the same times, as simulations
     ///     do, which begin at 0; errorString() says what to do
@@ -141,8 +142,8 @@ public:
     /// Returns why the last open(), messages(), columns(), events(), commands() or leases() has
     /// failed, as a sentence.
     QString errorString() const;
-    /// Returns sentences about what was left out: files without a cycle, signals that have another
-    /// type in other files.
+    /// Returns sentences about what was left out: files of a folder that cannot be read, files
+    /// without a cycle, signals that have another type in other files.
     QStringList notes() const;
 
     /// Returns the name of the plant, as its newest file says it.

@@ -2,6 +2,7 @@
 #include "OutputFile.h"
 
 #include <QtCore/QFileInfo>
+#include <QtCore/QTemporaryFile>
 
 #include <cerrno>
 #include <cstdio>
@@ -39,18 +40,26 @@ QString writeError(const QFile &file)
 OutputFile::OutputFile(const QString &name, Existing existing)
     : m_name(name)
     , m_existing(existing)
-    , m_file(QFileInfo(name).absolutePath() + QStringLiteral("/.qtplc-XXXXXX"))
 {
+    if (isStandardOutput())
+        m_file = std::make_unique<QFile>();
+    else
+        m_file = std::make_unique<QTemporaryFile>(QFileInfo(name).absolutePath() + QStringLiteral("/.qtplc-XXXXXX"));
 }
 
 bool OutputFile::fail(const QString &reason, QString *error) const
 {
-    *error = QStringLiteral("cannot write '%1': %2").arg(m_name, reason);
+    const QString name = isStandardOutput() ? QStringLiteral("to the standard output")
+                                            : QLatin1Char('\'') + m_name + QLatin1Char('\'');
+    *error = QStringLiteral("cannot write %1: %2").arg(name, reason);
     return false;
 }
 
 bool OutputFile::open(QString *error)
 {
+    if (isStandardOutput())
+        return m_file->open(STDOUT_FILENO, QIODevice::WriteOnly | QIODevice::Unbuffered)
+            || fail(m_file->errorString(), error);
     if (m_existing == Refuse && QFileInfo::exists(m_name)) {
         *error = existsText(m_name);
         return false;
@@ -63,29 +72,27 @@ bool OutputFile::open(QString *error)
         return fail(QStringLiteral("it is a link; name the file that it leads to"), error);
     if (isThere && !S_ISREG(known.st_mode))
         return fail(QStringLiteral("it is not a file; choose another name"), error);
-    return m_file.open() || fail(m_file.errorString(), error);
+    return m_file->open(QIODevice::ReadWrite) || fail(m_file->errorString(), error);
 }
 
 bool OutputFile::write(const QByteArray &bytes, QString *error)
 {
-    return m_file.write(bytes) == bytes.size() || fail(writeError(m_file), error);
+    m_size += bytes.size();
+    return m_file->write(bytes) == bytes.size() || fail(writeError(*m_file), error);
 }
 
 bool OutputFile::commit(QString *error)
 {
-    if (!m_file.flush())
-        return fail(writeError(m_file), error);
-    if (::fdatasync(m_file.handle()) != 0 || ::fchmod(m_file.handle(), usualMode()) != 0)
+    if (!m_file->flush())
+        return fail(writeError(*m_file), error);
+    if (isStandardOutput())
+        return true;
+    if (::fdatasync(m_file->handle()) != 0 || ::fchmod(m_file->handle(), usualMode()) != 0)
         return fail(qt_error_string(errno), error);
-    const QByteArray from = QFile::encodeName(m_file.fileName());
+    const QByteArray from = QFile::encodeName(m_file->fileName());
     const QByteArray to = QFile::encodeName(m_name);
-    if (m_existing == Replace) {
-        m_file.setAutoRemove(false);
-        if (::rename(from.constData(), to.constData()) == 0)
-            return true;
-        m_file.setAutoRemove(true);
-        return fail(qt_error_string(errno), error);
-    }
+    if (m_existing == Replace)
+        return ::rename(from.constData(), to.constData()) == 0 || fail(qt_error_string(errno), error);
     if (::link(from.constData(), to.constData()) == 0)
         return true;
     if (errno != EEXIST)

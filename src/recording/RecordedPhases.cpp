@@ -54,7 +54,7 @@ bool isInFolderOfRecordings(const QString &path)
     });
 }
 
-bool findPhases(const QString &folder, QVector<RecordedPhase> *phases, QString *error, QStringList *unreadable)
+bool findPhases(const QString &folder, QVector<RecordedPhase> *phases, QStringList *unreadable, QString *error)
 {
     phases->clear();
     std::vector<RecordedFile> found;
@@ -62,8 +62,6 @@ bool findPhases(const QString &folder, QVector<RecordedPhase> *phases, QString *
     for (const QString &path : paths) {
         if (found.emplace_back().open(path, error))
             continue;
-        if (!unreadable)
-            return false;
         *unreadable << *error;
         found.pop_back();
     }
@@ -86,7 +84,7 @@ bool findPhases(const QString &folder, QVector<RecordedPhase> *phases, QString *
     return true;
 }
 
-bool findPhase(const QString &path, RecordedPhase *phase, QString *error)
+bool findPhase(const QString &path, RecordedPhase *phase, QStringList *unreadable, QString *error)
 {
     if (!isInFolderOfRecordings(path)) {
         RecordedFile file;
@@ -96,7 +94,7 @@ bool findPhase(const QString &path, RecordedPhase *phase, QString *error)
     }
     const bool isFolder = QFileInfo(path).isDir();
     QVector<RecordedPhase> phases;
-    if (!findPhases(isFolder ? path : QFileInfo(path).path(), &phases, error))
+    if (!findPhases(isFolder ? path : QFileInfo(path).path(), &phases, unreadable, error))
         return false;
     for (const RecordedPhase &each : qAsConst(phases)) {
         const bool hasIt = std::any_of(each.files.begin(), each.files.end(), [&](const QString &name) {

@@ -23,15 +23,14 @@ struct RecordedPhase
 bool isInFolderOfRecordings(const QString &path);
 
 /// The phases whose recordings are in a folder, in the order of their times.
-/// \param unreadable  gets a sentence for each file that cannot be read, and is left out. Null:
-///     such a file is an error
-/// \return false when there are none, or a file cannot be read
-bool findPhases(const QString &folder, QVector<RecordedPhase> *phases, QString *error,
-                QStringList *unreadable = nullptr);
+/// \param unreadable  gets a sentence for each file that cannot be read, and is left out
+/// \return false when there are none
+bool findPhases(const QString &folder, QVector<RecordedPhase> *phases, QStringList *unreadable, QString *error);
 
 /// The phase that \a path stands for: a file alone; a file of a folder with the other files of its
 /// phase; the newest phase of a folder.
-/// \return false when the folder has no recording, or a file cannot be read
-bool findPhase(const QString &path, RecordedPhase *phase, QString *error);
+/// \param unreadable  as that of findPhases(), of the folder
+/// \return false when the folder has no recording, or the file cannot be read
+bool findPhase(const QString &path, RecordedPhase *phase, QStringList *unreadable, QString *error);
 
 }  // namespace qplc

@@ -20,22 +20,14 @@ QPlcSignalTable tableOf(const QByteArray &ini)
     return errors.isEmpty() ? table : QPlcSignalTable();
 }
 
-/// Files and the recordings in folders.
-QStringList filesOf(const QStringList &paths, QString *error)
+/// The recordings in a folder.
+QStringList filesIn(const QString &path)
 {
+    const QDir folder(path);
     QStringList files;
-    for (const QString &path : paths) {
-        if (!QFileInfo(path).isDir()) {
-            files << path;
-            continue;
-        }
-        const QDir folder(path);
-        const QStringList names = folder.entryList({QStringLiteral("*.mcap")}, QDir::Files, QDir::Name);
-        if (names.isEmpty())
-            *error = whyNoRecording(path);
-        for (const QString &name : names)
-            files << folder.filePath(name);
-    }
+    const QStringList names = folder.entryList({QStringLiteral("*.mcap")}, QDir::Files, QDir::Name);
+    for (const QString &name : names)
+        files << folder.filePath(name);
     return files;
 }
 
@@ -54,17 +46,21 @@ RecordedLayout::RecordedLayout(const RingDescription &description)
 bool Recording::open(const QStringList &paths, QString *error, Unreadable unreadable)
 {
     *this = {};
-    error->clear();
-    const QStringList files = filesOf(paths, error);
-    if (!error->isEmpty())
-        return false;
-    for (const QString &file : files) {
-        if (openFile(file, error))
-            continue;
-        if (unreadable == Refuse)
+    for (const QString &path : paths) {
+        const bool isFolder = QFileInfo(path).isDir();
+        const QStringList files = isFolder ? filesIn(path) : QStringList{path};
+        if (files.isEmpty()) {
+            *error = whyNoRecording(path);
             return false;
-        m_notes << *error;
-        ++m_unreadable;
+        }
+        for (const QString &file : files) {
+            if (openFile(file, error))
+                continue;
+            if (unreadable == Refuse && !isFolder)
+                return false;
+            m_notes << *error;
+            ++m_unreadable;
+        }
     }
     error->clear();
     if (m_files.empty()) {

@@ -41,9 +41,11 @@ class Recording
 public:
     enum Unreadable { Refuse, LeaveOut };
 
-    /// \param paths  files, and folders with files *.mcap
-    /// \param unreadable  what happens with files that are not recordings, or not there
-    /// \return false when one of them is not a recording, all are left out, or the times of two
+    /// \param paths  files, and folders with files *.mcap. What is no recording in a folder is left
+    ///     out
+    /// \param unreadable  what happens with files of these names that are not recordings, or not
+    ///     there
+    /// \return false when a named file is not a recording, all are left out, or the times of two
     ///     phases overlap, as those of simulations do
     bool open(const QStringList &paths, QString *error, Unreadable unreadable = Refuse);
 

@@ -115,7 +115,7 @@ public:
     ReplayResult run()
     {
         QString error;
-        if (!findPhase(m_request.file, &m_phase, &error))
+        if (!findPhase(m_request.file, &m_phase, &m_result.notes, &error))
             return refuse(error);
         m_table = QPlcSignalTable::fromIni(m_phase.description.table);
         if (m_phase.files.size() > 1)

@@ -15,7 +15,7 @@ constexpr int any = std::numeric_limits<int>::max();
 const Option verbose{"verbose", "", "Every column and counter."};
 const Option count{"count", "N", "Ends after N lines."};
 const Option every{"every", "CYCLES", "Hears one cycle of CYCLES only, for slow links."};
-const Option output{"output", "FILE", "Where it is written to; or -o FILE.", "o"};
+const Option output{"output", "FILE", "Written file, - for standard output; or -o FILE.", "o"};
 const Option force{"force", "", "Replaces a file that is there."};
 const Option from{"from", "TIME", "Leaves out the cycles before."};
 const Option upTo{"to", "TIME", "Leaves out the cycles behind."};
@@ -397,7 +397,8 @@ const QVector<Command> &commands()
           force},
          {QStringLiteral("qtplc export flight.mcap -o flight.csv"),
           QStringLiteral("qtplc export flight.mcap -o power.mat --signals 'power,tether*' --to 60"),
-          QStringLiteral("qtplc export recordings/ -o day.parquet --from 2026-11-20T08:00:00 --every 10")},
+          QStringLiteral("qtplc export recordings/ -o day.parquet --from 2026-11-20T08:00:00 --every 10"),
+          QStringLiteral("qtplc export flight.mcap -o - --format csv | gzip > flight.csv.gz")},
          Command::NoArguments,
          1,
          1,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // events: what has happened in the master, and what happens.
-#include "Commands.h"
+#include "RecordingChoice.h"
 #include "TerminalText.h"
 #include "node/statistics/EventFile.h"
 #include "protocol/messages/StoredEvent.h"
@@ -181,9 +181,8 @@ void printHappening(const qplc::Recording &recording, const qplc::Happening &hap
 int showRecorded(const CommandCall &call, const QString &path, const QString &signal)
 {
     qplc::Recording recording;
-    QString error;
-    if (!recording.open({path}, &error))
-        return call.application.usageError(error);
+    if (!openRecording(call, path, &recording))
+        return QPlcCoreApplication::UsageError;
     if (!signal.isEmpty() && recording.indexOf(signal) < 0)
         return call.application.usageError(recording.table().unknownSignalText(signal));
     const int topics
@@ -197,11 +196,7 @@ int showRecorded(const CommandCall &call, const QString &path, const QString &si
         else
             printHappening(recording, happening);
     }
-    const int damages = reader.damages();
-    if (damages > 0)
-        QPlcCoreApplication::printError(
-            QStringLiteral("%1: %2 parts are damaged and were left out").arg(path).arg(damages));
-    return damages == 0 ? QPlcCoreApplication::Success : QPlcCoreApplication::Failure;
+    return exitCodeOf(recording, reader.damages());
 }
 
 }  // namespace

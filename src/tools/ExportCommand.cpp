@@ -13,12 +13,19 @@ namespace tools {
 
 namespace {
 
+constexpr QLatin1String mat("mat", 3);
+
 /// \return empty, with the message out, when there is no such format
 QString formatOf(const CommandCall &call, const QString &output)
 {
     const QString option = QStringLiteral("format");
     const QString format = call.application.isSet(option) ? call.application.value(option) : QFileInfo(output).suffix();
     const QStringList formats = qplc::TableWriter::formats();
+    if (formats.contains(format) && format == mat && output == QLatin1String(qplc::OutputFile::StandardOutput)) {
+        call.application.usageError(
+            QStringLiteral("mat is not written in one go, so it needs a file; use --output FILE"));
+        return {};
+    }
     if (formats.contains(format))
         return format;
     const QStringList pictures{QStringLiteral("video"), QStringLiteral("frames"), QStringLiteral("mp4"),
@@ -31,7 +38,7 @@ QString formatOf(const CommandCall &call, const QString &output)
                 .arg(call.arguments.value(0), output));
         return {};
     }
-    const bool isMat = format == QLatin1String("mat");
+    const bool isMat = format == mat;
     call.application.usageError(isMat ? QStringLiteral("this qtplc was built without HDF5, so it writes no mat")
                                       : QStringLiteral("'%1' is not a format; use --format %2")
                                             .arg(format, formats.join(QStringLiteral(" or --format "))));
@@ -62,7 +69,8 @@ int exportRecording(const CommandCall &call)
     qplc::Recording recording;
     qplc::TableSelection selection;
     if (format.isEmpty() || !call.readInteger("every", 1, std::numeric_limits<qint32>::max(), &every)
-        || !openRecording(call, &recording) || !readTimes(call, recording, &selection.begin, &selection.end)
+        || !openRecording(call, call.arguments.value(0), &recording)
+        || !readTimes(call, recording, &selection.begin, &selection.end)
         || !readSignals(call, recording, &selection.signalNumbers))
         return call.application.exitCode();
     selection.every = std::uint64_t(every);
@@ -77,16 +85,12 @@ int exportRecording(const CommandCall &call)
         QPlcCoreApplication::printError(error);
         return QPlcCoreApplication::Failure;
     }
-    if (call.isJson())
-        printJson(QJsonDocument(QJsonObject{{QStringLiteral("file"), name},
-                                            {QStringLiteral("rows"), double(table.rows())},
-                                            {QStringLiteral("columns"), int(table.columns().size())},
-                                            {QStringLiteral("damages"), table.damages()}}));
-    else
-        printLine(QStringLiteral("%1: %2 rows, %3 columns")
-                      .arg(printable(name))
-                      .arg(table.rows())
-                      .arg(table.columns().size()));
+    printWritten(call,
+                 {{QStringLiteral("file"), name},
+                  {QStringLiteral("rows"), double(table.rows())},
+                  {QStringLiteral("columns"), int(table.columns().size())},
+                  {QStringLiteral("damages"), table.damages()}},
+                 QStringLiteral("%1 rows, %2 columns").arg(table.rows()).arg(table.columns().size()));
     return exitCodeOf(recording, table.damages());
 }
 

@@ -2,6 +2,7 @@
 #include "RecordingChoice.h"
 
 #include "SignalSelection.h"
+#include "TerminalText.h"
 
 #include <QtCore/QDateTime>
 #include <QtCore/QFileInfo>
@@ -44,12 +45,10 @@ bool readTime(const CommandCall &call, const char *option, const qplc::Recording
 
 }  // namespace
 
-bool openRecording(const CommandCall &call, qplc::Recording *recording)
+bool openRecording(const CommandCall &call, const QString &path, qplc::Recording *recording)
 {
-    const QString path = call.arguments.value(0);
-    const bool isFolder = QFileInfo(path).isDir();
     QString error;
-    if (!recording->open({path}, &error, isFolder ? qplc::Recording::LeaveOut : qplc::Recording::Refuse)) {
+    if (!recording->open({path}, &error)) {
         call.application.usageError(error);
         return false;
     }
@@ -103,12 +102,23 @@ std::unique_ptr<qplc::OutputFile> openOutput(const CommandCall &call, const qplc
     return nullptr;
 }
 
+void printWritten(const CommandCall &call, const QJsonObject &facts, const QString &text)
+{
+    const QString name = call.application.value(QStringLiteral("output"));
+    if (name == QLatin1String(qplc::OutputFile::StandardOutput))
+        return;
+    if (call.isJson())
+        printJson(QJsonDocument(facts));
+    else
+        printLine(QStringLiteral("%1: %2").arg(printable(name), text));
+}
+
 int exitCodeOf(const qplc::Recording &recording, int damages)
 {
     if (damages == 0)
         return recording.unreadable() == 0 ? QPlcCoreApplication::Success : QPlcCoreApplication::Failure;
     QPlcCoreApplication::printError(
-        QStringLiteral("%1 places of the recording are damaged: their cycles were left out").arg(damages));
+        QStringLiteral("%1 places of the recording are damaged: what they had was left out").arg(damages));
     return QPlcCoreApplication::Failure;
 }
 

@@ -113,7 +113,7 @@ int verifyFolder(const CommandCall &call, const QString &folder)
     QVector<qplc::RecordedPhase> phases;
     QStringList unreadable;
     QString error;
-    if (!qplc::findPhases(folder, &phases, &error, &unreadable))
+    if (!qplc::findPhases(folder, &phases, &unreadable, &error))
         return call.application.usageError(error);
     bool isComplete = unreadable.isEmpty();
     QJsonArray found;

@@ -97,9 +97,9 @@ int writeReport(const CommandCall &call)
         return call.application.usageError(QStringLiteral("no file to write to; use --output FILE"));
     qplc::Recording recording;
     qplc::ReportSelection selection;
-    if (!openRecording(call, &recording) || !readTimes(call, recording, &selection.begin, &selection.end)
-        || !readSections(call, &selection.sections) || !readPictures(call, &selection.pictures)
-        || !readLayout(call, &selection.panels))
+    if (!openRecording(call, call.arguments.value(0), &recording)
+        || !readTimes(call, recording, &selection.begin, &selection.end) || !readSections(call, &selection.sections)
+        || !readPictures(call, &selection.pictures) || !readLayout(call, &selection.panels))
         return call.application.exitCode();
     selection.begin = std::max(selection.begin, recording.begin());
     selection.end = std::min(selection.end, recording.end());
@@ -115,12 +115,10 @@ int writeReport(const CommandCall &call)
         QPlcCoreApplication::printError(error);
         return QPlcCoreApplication::Failure;
     }
-    if (call.isJson())
-        printJson(QJsonDocument(QJsonObject{{QStringLiteral("file"), name},
-                                            {QStringLiteral("bytes"), page.size()},
-                                            {QStringLiteral("damages"), damages}}));
-    else
-        printLine(QStringLiteral("%1: a report of %2 kB").arg(printable(name)).arg((page.size() + 999) / 1000));
+    printWritten(
+        call,
+        {{QStringLiteral("file"), name}, {QStringLiteral("bytes"), page.size()}, {QStringLiteral("damages"), damages}},
+        QStringLiteral("a report of %1 kB").arg((page.size() + 999) / 1000));
     return exitCodeOf(recording, damages);
 }
 

@@ -735,7 +735,8 @@ static VerifiedPhase verifiedFolder(const QString &folder)
 {
     QVector<RecordedPhase> phases;
     QString error;
-    if (!findPhases(folder, &phases, &error) || phases.size() != 1)
+    QStringList unreadable;
+    if (!findPhases(folder, &phases, &unreadable, &error) || phases.size() != 1)
         qFatal("%lld phases: %s", qlonglong(phases.size()), qPrintable(error));
     return verifyPhase(phases.first());
 }
@@ -822,21 +823,30 @@ void tst_RecorderLoop::aFileStandsForItsPhase()
     const QString folder = flyInFiveFiles(&flight);
     const QStringList files = flight.files();
     RecordedPhase phase;
+    QStringList unreadable;
     QString error;
-    QVERIFY2(findPhase(files[3], &phase, &error), qPrintable(error));
+    QVERIFY2(findPhase(files[3], &phase, &unreadable, &error), qPrintable(error));
     QCOMPARE(phase.files, files);
     QVERIFY(QFile::copy(files[3], flight.folder.filePath("alone.mcap")));
-    QVERIFY(findPhase(flight.folder.filePath("alone.mcap"), &phase, &error));
+    QVERIFY(findPhase(flight.folder.filePath("alone.mcap"), &phase, &unreadable, &error));
     QCOMPARE(phase.files, QStringList(flight.folder.filePath("alone.mcap")));
     QCOMPARE(phase.name(), phase.files.first());
 
-    QVERIFY(findPhase(folder, &phase, &error));
+    QVERIFY(findPhase(folder, &phase, &unreadable, &error));
     QCOMPARE(phase.files, files);
     QVERIFY2(phase.name().endsWith("phase 1 of session abcdef, 5 files"), qPrintable(phase.name()));
-    QVERIFY(!findPhase(flight.folder.filePath("nowhere.mcap"), &phase, &error));
+    QVERIFY(!findPhase(flight.folder.filePath("nowhere.mcap"), &phase, &unreadable, &error));
     QVERIFY2(error.contains("nowhere.mcap"), qPrintable(error));
+    QVERIFY(unreadable.isEmpty());
+    QFile odd(folder + "/odd.mcap");
+    QVERIFY(odd.open(QIODevice::WriteOnly) && odd.write("odd") == 3);
+    odd.close();
+    QVERIFY2(findPhase(folder, &phase, &unreadable, &error), qPrintable(error));
+    QCOMPARE(phase.files, files);
+    QCOMPARE(unreadable.size(), 1);
+    QVERIFY2(unreadable[0].contains("odd.mcap"), qPrintable(unreadable[0]));
     const QTemporaryDir empty;
-    QVERIFY(!findPhase(empty.path(), &phase, &error));
+    QVERIFY(!findPhase(empty.path(), &phase, &unreadable, &error));
     QVERIFY2(error.contains("has no recording"), qPrintable(error));
 }
 

@@ -72,6 +72,7 @@ private Q_SLOTS:
     void aPieceOfAnotherFileHidesNothing();
     void twoSimulationsAreRefused();
     void whatIsNoRecordingIsRefused();
+    void anOddFileOfAFolderIsLeftOut();
     void timesOfAPhaseInRealTimeAreThoseOfTheClock();
     void aDamagedChunkIsLeftOutAndCounted();
     void theOverviewHasTheExtremesOfTheRows();
@@ -231,6 +232,23 @@ void tst_Recording::whatIsNoRecordingIsRefused()
     write(folder.filePath("text.mcap"), "not a recording");
     QVERIFY(!recording.open({folder.path()}, &error));
     QVERIFY2(error.contains("not a recording"), qPrintable(error));
+}
+
+void tst_Recording::anOddFileOfAFolderIsLeftOut()
+{
+    RecordedFlight flight;
+    flight.record(10);
+    const QString odd = flight.folder.filePath("odd.mcap");
+    write(odd, "not a recording");
+    Recording recording = opened({flight.folder.path()});
+    QCOMPARE(recording.files().size(), std::size_t(1));
+    QCOMPARE(recording.unreadable(), 1);
+    QCOMPARE(recording.notes().size(), 1);
+    QVERIFY2(recording.notes()[0].contains("odd.mcap' is not a recording"), qPrintable(recording.notes()[0]));
+    QString error;
+    QVERIFY(!recording.open({flight.file, odd}, &error));  // it was named
+    QVERIFY2(error.contains("odd.mcap' is not a recording"), qPrintable(error));
+    QVERIFY2(recording.open({flight.file, odd}, &error, Recording::LeaveOut), qPrintable(error));
 }
 
 /// The recorder is there before the phase begins.

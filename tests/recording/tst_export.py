@@ -451,6 +451,28 @@ class PeopleInAHurry(unittest.TestCase):
                 self.assertIn("is a file of the recording, which would be lost", said)
                 self.assertEqual(file.read_bytes(), self.bytes)
 
+    def test_the_standard_output_gets_what_a_file_gets_and_nothing_else(self):
+        for arguments in (["export", "--format", "csv"], ["export", "--format", "parquet"], ["report"]):
+            command = [QTPLC, arguments[0], self.flight, *arguments[1:], "-o"]
+            there = subprocess.run([*command, "-"], cwd=self.folder, capture_output=True, timeout=60)
+            self.assertEqual((there.returncode, there.stderr), (0, b""))
+            subprocess.run([*command, "file"], cwd=self.folder, check=True, stdout=subprocess.DEVNULL)
+            self.assertEqual(there.stdout, (self.folder / "file").read_bytes())
+            (self.folder / "file").unlink()
+        self.assertFalse((self.folder / "-").exists())
+        said = self.qtplc("export", self.flight, "-o", "-", "--format", "mat", code=2)
+        self.assertIn("mat is not written in one go, so it needs a file", said)
+        with open("/dev/full", "w") as full:
+            lost = subprocess.run(
+                [QTPLC, "export", self.flight, "-o", "-", "--format", "csv"],
+                stdout=full,
+                stderr=subprocess.PIPE,
+                text=True,
+                timeout=60,
+            )
+        self.assertEqual(lost.returncode, 1)
+        self.assertIn("cannot write to the standard output: No space left on device", lost.stderr)
+
     def test_only_files_are_replaced(self):
         os.mkfifo(self.folder / "fifo.csv")
         (self.folder / "link.csv").symlink_to("/dev/stdout")
@@ -482,6 +504,7 @@ class PeopleInAHurry(unittest.TestCase):
             self.assertIn("odd.mcap' is not a recording", said)
         with open(self.folder / "x.csv") as table:
             self.assertEqual(len(table.readlines()), 1 + CYCLES)
+        self.assertIn("odd.mcap' is not a recording", self.qtplc("events", "--file", self.folder, code=1))
         (self.folder / "odd.mcap").unlink()
         self.assertEqual(json.loads(self.qtplc("verify", self.folder, "--json", code=0))["problems"], [])
 

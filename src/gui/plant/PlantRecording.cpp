@@ -124,6 +124,8 @@ QString PlantRecording::text() const
                       WindowText::tr("%1 Hz").arg(1e9 / double(m_period), 0, 'g', 4), lengthText(m_end - m_begin)};
     if (m_damages > 0)
         parts << WindowText::tr("damaged at %1 places").arg(m_damages);
+    if (!m_recording->notes().isEmpty())
+        parts << WindowText::tr("not all files: event log (F8)");
     return parts.join(QStringLiteral(" · "));
 }
 
@@ -261,6 +263,7 @@ void PlantRecording::finish()
     Q_EMIT m_plant->updated();
     Q_EMIT read();
     if (isFirst) {
+        tellWhatIsLeftOut();
         m_happenings
             = std::make_unique<HappeningReader>(*m_recording, Happening::Event | Happening::Command | Happening::Lease);
         m_happeningTimer.start();
@@ -268,6 +271,19 @@ void PlantRecording::finish()
 }
 
 // ---- what has happened ----
+
+void PlantRecording::tellWhatIsLeftOut()
+{
+    const QStringList notes = m_recording->notes().mid(0, MostHappenings);
+    for (const QString &note : notes) {
+        PlantEvent event;
+        event.time = QDateTime::fromMSecsSinceEpoch(m_begin / 1'000'000);
+        event.severity = PlantEvent::Warning;
+        event.source = m_plant->sourceOf({});
+        event.text = WindowText::tr("left out of the recording: %1").arg(note);
+        m_plant->tell(event);
+    }
+}
 
 void PlantRecording::tellSome()
 {

@@ -20,7 +20,7 @@ class Plant;
 /// people do.
 ///
 /// The plant then tells what has happened in the recording: its events, commands and leases, the
-/// first MostHappenings of them.
+/// first MostHappenings of them. Before, it warns of what is left out: files that cannot be read.
 ///
 /// Times are those of the recording. A simulation, whose times begin at 0, begins at 00:00 of the
 /// clock of this computer.
@@ -81,6 +81,7 @@ private:
     void storeRow(const RecordedRows &rows);
     void storeOverview();
     void finish();
+    void tellWhatIsLeftOut();
     void tellSome();
     void tell(const Happening &happening);
 

@@ -103,6 +103,7 @@ private Q_SLOTS:
     void closingTheRecordingHidesTheBar();
     void aRecordingOfOneCycleIsShown();
     void aRecordingThatDoesNotFitIsAnOverviewUntilAPersonLooksCloser();
+    void whatIsLeftOutOfAFolderIsTold();
     void recordingsShareTheMemoryOfOne();
     void aRecordingWithLessMemoryBecomesAnOverviewAndComesBack();
 
@@ -410,6 +411,28 @@ void tst_Recordings::aRecordingThatDoesNotFitIsAnOverviewUntilAPersonLooksCloser
     read->see(read->begin(), read->end());
     QVERIFY(waitUntil([&] { return !read->isReading(); }, patience));
     QCOMPARE(extremes().maximum, 19'999.0F);
+}
+
+void tst_Recordings::whatIsLeftOutOfAFolderIsTold()
+{
+    const FlightFile flight(20);
+    QFile odd(flight.folder.filePath("odd.mcap"));
+    QVERIFY(odd.open(QIODevice::WriteOnly) && odd.write("odd") == 3);
+    odd.close();
+    WindowFixture fixture;
+    QString error;
+    QVERIFY2(!fixture.window.openRecording({flight.folder.path()}, &error).isEmpty(), qPrintable(error));
+    QVERIFY(waitUntil([&] { return !fixture.plant()->recording()->isReading(); }, patience));
+    QVERIFY2(fixture.plant()->stateText().contains("not all files"), qPrintable(fixture.plant()->stateText()));
+    const EventLogModel *events = fixture.window.context()->events();
+    const auto isTold = [&] {
+        for (int row = 0; row < events->rowCount(); ++row) {
+            if (events->at(row).text.contains("odd.mcap' is not a recording"))
+                return events->at(row).severity == PlantEvent::Warning;
+        }
+        return false;
+    };
+    QVERIFY(isTold());
 }
 
 void tst_Recordings::recordingsShareTheMemoryOfOne()
