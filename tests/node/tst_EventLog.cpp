@@ -4,6 +4,9 @@
 
 #include <QtTest/QtTest>
 
+#include <algorithm>
+#include <ctime>
+
 using namespace qplc;
 
 // The ring of events, and what keeps it from being flooded, by a clock of the test.
@@ -23,6 +26,8 @@ private Q_SLOTS:
     void lastReportIsIssuedWithoutAFurtherReport();
     void inactiveTopicsAreRemoved();
     void pendingReportCanBeFetchedEarly();
+    void dueReportsComeInTheOrderOfTheirPauses();
+    void aReportCostsNoMoreAmongManyTopics();
 };
 
 namespace {
@@ -33,6 +38,23 @@ JournalEvent anEvent(const QString &text)
 }
 
 constexpr std::int64_t ms = 1'000'000;
+
+/// [s] of the processor for a report and the look for the next one, among so many topics; the least
+/// of three.
+double costOfAReport(int topics)
+{
+    double least = 1e9;
+    for (int run = 0; run < 3; ++run) {
+        ReportLimiter limiter;
+        const std::clock_t begin = std::clock();
+        for (int i = 0; i < topics; ++i) {
+            limiter.report(QString::number(i), "", anEvent("x"), i);
+            (void)limiter.nextDue();
+        }
+        least = std::min(least, double(std::clock() - begin) / CLOCKS_PER_SEC / topics);
+    }
+    return least;
+}
 
 }  // namespace
 
@@ -168,6 +190,28 @@ void tst_EventLog::pendingReportCanBeFetchedEarly()
     QCOMPARE(limiter.take("state")->text, QString("b"));
     QVERIFY(!limiter.take("state"));
     QVERIFY(limiter.takeDue(1000 * ms).empty());
+}
+
+void tst_EventLog::dueReportsComeInTheOrderOfTheirPauses()
+{
+    ReportLimiter limiter;
+    limiter.report("b", "b", anEvent("1"), 0);
+    limiter.report("a", "a", anEvent("1"), 1 * ms);
+    limiter.report("a", "a", anEvent("2"), 2 * ms);
+    limiter.report("b", "b", anEvent("2"), 3 * ms);
+    const std::vector<JournalEvent> due = limiter.takeDue(2000 * ms);
+    QCOMPARE(int(due.size()), 2);
+    QCOMPARE(due[0].text, QString("b2"));
+    QCOMPARE(due[1].text, QString("a2"));
+    QCOMPARE(*limiter.nextDue(), 3000 * ms);
+}
+
+/// One message may set all signals of a large table.
+void tst_EventLog::aReportCostsNoMoreAmongManyTopics()
+{
+    const double few = costOfAReport(1000);
+    const double many = costOfAReport(30'000);
+    QVERIFY2(many < 6 * few, qPrintable(QStringLiteral("%1 and %2 s").arg(few).arg(many)));
 }
 
 QTEST_APPLESS_MAIN(tst_EventLog)

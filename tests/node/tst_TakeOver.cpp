@@ -343,10 +343,17 @@ void tst_TakeOver::invalidRequestsCreateNoLease_data()
         fields.insert(field, value);
         return fields;
     };
+    const auto manyTimes = [](const char *name, int count) {
+        QJsonArray names;
+        for (int i = 0; i < count; ++i)
+            names << name;
+        return names;
+    };
     QTest::newRow("no signals") << QJsonObject() << "MalformedMessage";
     QTest::newRow("an empty list") << with("signals", QJsonArray()) << "MalformedMessage";
     QTest::newRow("a text") << with("signals", "setpoint") << "MalformedMessage";
     QTest::newRow("numbers") << with("signals", QJsonArray{1, 2}) << "MalformedMessage";
+    QTest::newRow("more names than signals") << with("signals", manyTimes("free", 100)) << "MalformedMessage";
     QTest::newRow("an unknown one") << with("signals", QJsonArray{"free", "setpiont"}) << "UnknownSignal";
     QTest::newRow("beyond its maximum") << with("values", QJsonObject{{"setpoint", "10.5"}}) << "InvalidValue";
     QTest::newRow("below its minimum") << with("values", QJsonObject{{"setpoint", "-11"}}) << "InvalidValue";

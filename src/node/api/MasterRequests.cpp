@@ -18,13 +18,13 @@ constexpr int longestReason = 1000;      // [characters] of what becomes the rea
 
 QString wordOf(const QString &given)
 {
-    return qplc::printable(given).left(longestText);
+    return qplc::printable(given.left(longestText));
 }
 
 /// Each State has it, so a long one would make each of them long.
 QString reasonOf(const QString &given)
 {
-    return qplc::printable(given).left(longestReason);
+    return qplc::printable(given.left(longestReason));
 }
 
 }  // namespace

@@ -7,15 +7,16 @@ namespace qplc {
 
 namespace {
 
-constexpr int longestNameTold = 48;  // [characters] of a signal in a line; eight of them fit into an event
+constexpr int mostNamesTold = 8;     // of signals, in a line
+constexpr int longestNameTold = 48;  // [characters] of each: they fit into an event
 
 /// " of setpoint, free"; empty for a command that is about no signals.
 QString signalsText(const QPlcMessage &command)
 {
     QStringList names = signalsWrittenBy(command);
-    for (QString &name : names)
-        name = printable(name.left(longestNameTold));
-    return names.isEmpty() ? QString() : QStringLiteral(" of ") + firstOf(names);
+    for (int i = 0; i < qMin(names.size(), mostNamesTold); ++i)
+        names[i] = printable(names[i].left(longestNameTold));
+    return names.isEmpty() ? QString() : QStringLiteral(" of ") + firstOf(names, mostNamesTold);
 }
 
 }  // namespace

@@ -96,24 +96,36 @@ bool MasterLeases::readSignals(const QStringList &names, Leases::Signals *indice
 {
     if (names.isEmpty())
         *refusal = malformed(QStringLiteral("'signals' is a list of one or more names of signals"));
+    else if (names.size() > m_table.size())
+        *refusal
+            = malformed(QStringLiteral("'signals' has %1 names, and the table has %2 signals; name each signal once")
+                            .arg(names.size())
+                            .arg(m_table.size()));
+    if (!refusal->error.isEmpty())
+        return false;
+    std::vector<bool> isNamed(std::size_t(m_table.size()));
     for (const QString &name : names) {
         const QPlcSignalIndex index = m_table.indexOf(name);
         if (index == QPlcInvalidSignalIndex) {
             *refusal = {messages::errorWord::unknownSignal, m_table.unknownSignalText(printable(name))};
             return false;
         }
-        if (std::find(indices->begin(), indices->end(), index) == indices->end())
+        if (!isNamed[index])
             indices->push_back(index);
+        isNamed[index] = true;
     }
-    return refusal->error.isEmpty();
+    return true;
 }
 
 bool MasterLeases::readValues(const QMap<QString, QString> &texts, Wish *wish, Refusal *refusal) const
 {
+    std::vector<bool> isTaken(std::size_t(m_table.size()));
+    for (const QPlcSignalIndex index : wish->indices)
+        isTaken[index] = true;
     for (auto it = texts.begin(); it != texts.end() && refusal->error.isEmpty(); ++it) {
         const QPlcSignalIndex index = m_table.indexOf(it.key());
         SignalSetting setting;
-        if (std::find(wish->indices.begin(), wish->indices.end(), index) == wish->indices.end())
+        if (index == QPlcInvalidSignalIndex || !isTaken[index])
             *refusal = malformed(QStringLiteral("'values' contains '%1', which is not in 'signals'; add it there")
                                      .arg(printable(it.key())));
         else if (m_settings.readValue(index, it.value(), &setting, refusal))

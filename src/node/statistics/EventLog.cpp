@@ -75,8 +75,8 @@ void EventLog::append(JournalEvent event, std::int64_t time, std::int64_t monoto
 
 std::vector<JournalEvent> EventLog::after(quint64 sequence, std::size_t most) const
 {
-    const auto isNewer = [sequence](const JournalEvent &event) { return event.sequence > sequence; };
-    const auto first = std::find_if(m_events.begin(), m_events.end(), isNewer);
+    const quint64 before = m_newest - m_events.size();  // numbers have no gaps
+    const auto first = m_events.begin() + std::ptrdiff_t(std::clamp(sequence, before, m_newest) - before);
     const auto count = std::min<std::ptrdiff_t>(std::ptrdiff_t(most), m_events.end() - first);
     return {first, first + count};
 }

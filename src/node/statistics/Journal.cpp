@@ -196,9 +196,9 @@ bool Journal::note(const QString &who, const QString &address, const QString &te
 
 void Journal::nodeTold(const QString &node, const messages::NodeEvent &event, bool isTooMuch)
 {
-    const QString text = QStringLiteral("node %1: %2").arg(node, printable(event.text).left(EventLog::LongestText));
+    const QString text = QStringLiteral("node %1: %2").arg(node, printable(event.text.left(EventLog::LongestText)));
     const auto severity = JournalEvent::Severity(event.severity);
-    const QString alarm = printable(event.alarm).left(messages::NodeEvent::longestAlarm);
+    const QString alarm = printable(event.alarm.left(messages::NodeEvent::longestAlarm));
     const QString name = QStringLiteral("%1: %2").arg(node, alarm);
     if (!alarm.isEmpty() && !event.active.value_or(true))
         clear(name, text);  // of what was raised only: never more than that

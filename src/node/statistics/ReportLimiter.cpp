@@ -6,30 +6,30 @@ namespace qplc {
 std::optional<JournalEvent> ReportLimiter::report(const QString &thing, const QString &begin, const JournalEvent &event,
                                                   std::int64_t now)
 {
-    Thing &known = m_things[thing];
+    const auto [place, isNew] = m_things.try_emplace(thing);
+    Thing &known = place->second;
     if (known.untold++ == 0)
         known.begin = begin;
     known.event = event;
-    if (now < known.quietUntil)
+    if (!isNew && now < known.quietUntil)
         return std::nullopt;
-    known.quietUntil = now + Pause;
+    if (!isNew)
+        m_ends.erase({known.quietUntil, thing});
+    beQuiet(*place, now);
     return tell(&known);
 }
 
 std::vector<JournalEvent> ReportLimiter::takeDue(std::int64_t now)
 {
     std::vector<JournalEvent> due;
-    for (auto thing = m_things.begin(); thing != m_things.end();) {
-        Thing &known = thing->second;
-        const bool isQuiet = known.untold == 0;
-        if (now < known.quietUntil) {
-            ++thing;
-        } else if (isQuiet) {
-            thing = m_things.erase(thing);
+    while (!m_ends.empty() && m_ends.begin()->first <= now) {
+        const auto thing = m_things.find(m_ends.begin()->second);
+        m_ends.erase(m_ends.begin());
+        if (thing->second.untold == 0) {
+            m_things.erase(thing);
         } else {
-            known.quietUntil = now + Pause;
-            due.push_back(tell(&known));
-            ++thing;
+            beQuiet(*thing, now);
+            due.push_back(tell(&thing->second));
         }
     }
     return due;
@@ -45,12 +45,13 @@ std::optional<JournalEvent> ReportLimiter::take(const QString &thing)
 
 std::optional<std::int64_t> ReportLimiter::nextDue() const
 {
-    std::optional<std::int64_t> next;
-    for (const auto &[name, thing] : m_things) {
-        if (!next || thing.quietUntil < *next)
-            next = thing.quietUntil;
-    }
-    return next;
+    return m_ends.empty() ? std::nullopt : std::make_optional(m_ends.begin()->first);
+}
+
+void ReportLimiter::beQuiet(Things::reference thing, std::int64_t now)
+{
+    thing.second.quietUntil = now + Pause;
+    m_ends.emplace(thing.second.quietUntil, thing.first);
 }
 
 JournalEvent ReportLimiter::tell(Thing *thing)

@@ -5,6 +5,8 @@
 
 #include <map>
 #include <optional>
+#include <set>
+#include <utility>
 
 namespace qplc {
 
@@ -37,9 +39,13 @@ private:
         QString begin;       // of the first one that was not told
         JournalEvent event;  // the last one, its text without the begin
     };
+    using Things = std::map<QString, Thing>;
+
+    void beQuiet(Things::reference thing, std::int64_t now);
     static JournalEvent tell(Thing *thing);
 
-    std::map<QString, Thing> m_things;  // told within the last second, or not told yet
+    Things m_things;                                    // told within the last second, or not told yet
+    std::set<std::pair<std::int64_t, QString>> m_ends;  // of all pauses: one message may set thousands of signals
 };
 
 }  // namespace qplc
