@@ -38,6 +38,8 @@ private Q_SLOTS:
     void stopOfAToolThatReadsNothingIsCarriedOut();
     void answersInPortionsAreComplete();
     void answerThatIsTooLongIsRefused();
+    void scheduleInPortionsIsComplete();
+    void scheduleThatIsTooLongIsRefused();
 
 private:
     static void ask(ScriptedTool &tool, QPlcMessage::Kind kind, int times = Questions)
@@ -51,6 +53,16 @@ private:
     {
         auto tool = std::make_unique<ScriptedTool>(name);
         return tool->greetAt(m_master->serverPort()) ? std::move(tool) : nullptr;
+    }
+    static std::unique_ptr<ScriptedNode> listenerToAll(const TestMaster &master, int number)
+    {
+        auto node = std::make_unique<ScriptedNode>(QStringLiteral("Listener%1").arg(number));
+        node->table = master.signalTable();
+        node->onlyListen();
+        node->inputs.clear();
+        for (const QPlcSignalDefinition &signal : node->table)
+            node->inputs << signal.name;
+        return node->registerAt(master.serverPort()) ? std::move(node) : nullptr;
     }
     int answers() const
     {
@@ -231,6 +243,40 @@ void tst_ControlFlood::answerThatIsTooLongIsRefused()
     const QPlcMessage refusal = tool.next(20000);
     QCOMPARE(refusal.text("error"), QString("TooLong"));
     QCOMPARE(tool.ask(QPlcMessage::GetState).kind(), QPlcMessage::State);
+}
+
+void tst_ControlFlood::scheduleInPortionsIsComplete()
+{
+    m_master->stop();
+    const auto listener = listenerToAll(*m_master, 0);
+    QVERIFY(listener);
+    const QJsonObject schedule = m_tools.front()->ask(QPlcMessage::GetSchedule).fields();
+    QCOMPARE(schedule.keys(), (QStringList{"links", "stages"}));
+    const QJsonArray links = schedule.value("links").toArray();
+    QCOMPARE(links.size(), Signals);
+    QCOMPARE(links.size(), m_master->schedule().links.size());
+    const QJsonObject last{
+        {"age", 0}, {"from", ""}, {"sameCycle", false}, {"signal", "signal_299"}, {"to", "Listener0"}};
+    QCOMPARE(links.last().toObject(), last);
+    QCOMPARE(schedule.value("stages").toArray().first().toArray().last().toObject().value("node").toString(),
+             QString("Listener0"));
+}
+
+/// Each listener reads each signal again. An Observer may be one, and ask.
+void tst_ControlFlood::scheduleThatIsTooLongIsRefused()
+{
+    m_master->stop();
+    std::vector<std::unique_ptr<ScriptedNode>> listeners;
+    for (const int number : {50, 70}) {  // too long when it is made, and so long that it is not made
+        while (int(listeners.size()) < number) {
+            listeners.push_back(listenerToAll(*m_master, int(listeners.size())));
+            QVERIFY(listeners.back());
+        }
+        const QPlcMessage refusal = m_tools.front()->ask(QPlcMessage::GetSchedule);
+        QCOMPARE(refusal.text("error"), QString("TooLong"));
+        QVERIFY2(refusal.text("text").contains(QString::number(number * Signals)), qPrintable(refusal.text("text")));
+    }
+    QCOMPARE(m_tools.front()->ask(QPlcMessage::GetState).kind(), QPlcMessage::State);
 }
 
 QTEST_GUILESS_MAIN(tst_ControlFlood)

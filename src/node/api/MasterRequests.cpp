@@ -185,7 +185,13 @@ public:
                 = messages::StopEntry{stop.whoever, stop.how, quint64(stop.time), stop.asker == m_connection->socket};
         m_connection->send(reply);
     }
-    void operator()(const messages::GetSchedule &) const { m_connection->send(messages::Schedule{d.q->schedule()}); }
+    void operator()(const messages::GetSchedule &) const
+    {
+        qplc::Refusal refusal;
+        m_connection->listAnswer = qplc::scheduleReply(d.parts->registry, d.table, &refusal);
+        if (!m_connection->listAnswer)
+            m_connection->fail(refusal.error, refusal.text);
+    }
     void operator()(const messages::GetSignals &question) const
     {
         qplc::Refusal refusal;

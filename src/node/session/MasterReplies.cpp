@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "MasterReplies.h"
 
+#include "node/cycle/Roster.h"
 #include "node/state/MasterStates.h"
 #include "node/state/SlaveStates.h"
+#include "protocol/ControlFrame.h"
 #include "protocol/messages/Vocabulary.h"
 
 #include <QtCore/QMetaEnum>
 
+#include <utility>
+
 namespace qplc {
 
 namespace {
+
+constexpr std::size_t shortestLink = 58;  // [byte] {"age":0,"from":"","sameCycle":true,"signal":"a","to":"b"}
 
 /// All of \a names are looked at before an answer is made: a short question that names one signal
 /// again and again would have an endless one.
@@ -157,6 +163,27 @@ std::unique_ptr<messages::ListAnswer> signalReply(const MasterCycle &cycle, cons
     };
     return messages::makeListAnswer(messages::Signals(), &messages::Signals::signals, count, entry,
                                     QStringLiteral("too many signals for one answer; ask for some of them by name"));
+}
+
+/// Listeners may read each signal of a large table again: what cannot fit is not even made.
+std::unique_ptr<messages::ListAnswer> scheduleReply(const NodeRegistry &registry, const QPlcSignalTable &table,
+                                                    Refusal *refusal)
+{
+    std::size_t links = 0;
+    for (const std::shared_ptr<NodeSlot> &slot : registry.nodes())
+        links += slot->isThere() ? slot->inputLayout.fields().size() : 0;
+    const QString tooLong = QStringLiteral("the schedule has %1 links, too many for one answer; the program of the "
+                                           "master has it: QPlcMasterNode::schedule()")
+                                .arg(links);
+    if (links > UsualControlFrame / shortestLink) {
+        *refusal = {messages::errorWord::tooLong, tooLong};
+        return nullptr;
+    }
+    messages::Schedule schedule{describeSchedule(registry, table)};
+    const QVector<QPlcSchedule::Link> made = std::exchange(schedule.links, {});
+    return messages::makeListAnswer(
+        schedule, &messages::Schedule::links, std::size_t(made.size()), [made](std::size_t i) { return made[int(i)]; },
+        tooLong);
 }
 
 }  // namespace qplc

@@ -26,6 +26,9 @@ messages::State stateReply(const QPlcMasterNode &master, const ChosenProfile &pr
 /// \return null with the first name that is unknown, or comes twice, in \a refusal
 std::unique_ptr<messages::ListAnswer> signalReply(const MasterCycle &cycle, const NodeRegistry &registry,
                                                   const Leases &leases, const QStringList &names, Refusal *refusal);
+/// \return null, with \a refusal, if it has too many links for one answer
+std::unique_ptr<messages::ListAnswer> scheduleReply(const NodeRegistry &registry, const QPlcSignalTable &table,
+                                                    Refusal *refusal);
 messages::Events eventReply(const std::vector<JournalEvent> &events);
 
 }  // namespace qplc

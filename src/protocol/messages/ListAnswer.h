@@ -42,13 +42,13 @@ private:
 };
 
 /// An answer with the fields of \a head and \a count entries of \a list, which \a entry makes.
-template<typename Message, typename Element, typename MakeElement>
-std::unique_ptr<ListAnswer> makeListAnswer(const Message &head, std::vector<Element> Message::*list, std::size_t count,
+template<typename Message, typename Owner, typename Elements, typename MakeElement>
+std::unique_ptr<ListAnswer> makeListAnswer(const Message &head, Elements Owner::*list, std::size_t count,
                                            MakeElement entry, const QString &tooLong)
 {
     const char *name = nullptr;
     const auto look = [&](const auto &field) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(field.member)>, std::vector<Element> Message::*>)
+        if constexpr (std::is_same_v<std::decay_t<decltype(field.member)>, Elements Owner::*>)
             name = field.member == list ? field.name : name;
     };
     Message::fields.forEach(look);
