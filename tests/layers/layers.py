@@ -339,6 +339,9 @@ OF_MACHINE = (
     ("makes keys, which nobody can guess", "a random number", "tools/KeysCommand.cpp"),
 )
 EXCUSED = {(file, what) for _, kinds, names in OF_MACHINE for file in names.split() for what in kinds.split(", ")}
+# Classes that may only wire others, and how many functions they may have.
+MOST_FUNCTIONS = {"node/api/QPlcMasterNodePrivate.h": 25}
+FUNCTION = r"^ {4}[^\s/=(][^/=(\n]*\("
 # A table of data may be longer: rows of a test, or one constant that is returned.
 TABLE = r"_data\(\)$|^\s*static const\b"
 SOURCES = ("include", "src", "examples", "tests", "benchmarks", "docs")
@@ -513,6 +516,13 @@ class Check:
                 if (name, what) in EXCUSED and what not in asked:
                     self.error(path, 1, f"asks the machine for {what} no more: take it out of OF_MACHINE")
 
+    def wiring(self):
+        for name, most in MOST_FUNCTIONS.items():
+            path = self.source / name
+            count = len(re.findall(FUNCTION, self.text(path), flags=re.M))
+            if count > most:
+                self.error(path, 1, f"has {count} functions, more than {most}: it only wires others")
+
     def public_headers(self):
         for path in sorted(self.public.rglob("*")):
             if path.parent != self.public:
@@ -568,6 +578,7 @@ def errors_of(root):
     check.fields()
     check.panels()
     check.kernel()
+    check.wiring()
     check.public_headers()
     check.lengths_and_licences()
     return check.errors

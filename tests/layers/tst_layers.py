@@ -307,6 +307,12 @@ class Faults(unittest.TestCase):
             "node/state may not include node/session/Leases.h, which belongs to node/session",
         )
 
+    def test_the_private_class_of_the_master_only_wires(self):
+        header = "src/node/api/QPlcMasterNodePrivate.h"
+        more = "class Requests;\n\n    bool isNew() const;\n    void doMore(int times = 1);\n"
+        self.replace(header, (self.root / header).read_text().replace("class Requests;\n", more))
+        self.assert_named(f"{header}:1: has 27 functions, more than 25")
+
     def test_a_file_begins_with_its_licence(self):
         self.plant("src/node/News.h", "#pragma once\n")
         self.assert_named("src/node/News.h:1:", "SPDX-License-Identifier")

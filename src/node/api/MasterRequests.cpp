@@ -101,7 +101,7 @@ public:
     }
     void operator()(const messages::Reset &reset) const
     {
-        if (d.isLatched() && reset.latch != d.latch)
+        if (qplc::isLatched(d.state()) && reset.latch != d.latch)
             m_connection->fail(qplc::messages::errorWord::wrongState,
                                QStringLiteral("there was another safe stop or fault (number %1: %2) than the one that "
                                               "you reset (number %3); read the state, then reset again")

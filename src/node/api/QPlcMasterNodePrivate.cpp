@@ -139,6 +139,16 @@ std::optional<qplc::EventFile::Place> usualEventFile(const QPlcMasterNodePrivate
     return qplc::EventFile::usualPlace(name.isEmpty() ? NodeRegistry::masterName() : name);
 }
 
+/// A program that turns the clock may have no application of Qt. Timers and sockets need one, and a
+/// dispatcher of events in this thread, which a loop makes.
+void makeApplication(std::optional<qplc::OwnApplication> *application)
+{
+    if (*application)
+        return;
+    application->emplace();
+    const QEventLoop loop;
+}
+
 }  // namespace
 
 QPlcMasterNodePrivate::QPlcMasterNodePrivate(QPlcMasterNode *master)
@@ -223,20 +233,10 @@ void QPlcMasterNodePrivate::connectParts()
 
 // ---- set-up ----
 
-/// A program that turns the clock may have no application of Qt. Timers and sockets need one, and a
-/// dispatcher of events in this thread, which a loop makes.
-void QPlcMasterNodePrivate::prepareProgram()
-{
-    if (application)
-        return;
-    application.emplace();
-    const QEventLoop loop;
-}
-
 bool QPlcMasterNodePrivate::prepare()
 {
     if (phaseSettings.clock.isExternal())
-        prepareProgram();
+        makeApplication(&application);
     if (parts)
         return true;
     if (table.isEmpty())
@@ -504,11 +504,6 @@ bool QPlcMasterNodePrivate::apply(Event event, const QString &reason)
     return true;
 }
 
-bool QPlcMasterNodePrivate::isLatched() const
-{
-    return qplc::messages::isLatched(qplc::messageStateOf(m_state));
-}
-
 void QPlcMasterNodePrivate::enter(QPlcMasterNode::State newState, const QString &reason)
 {
     if (m_state == newState)
@@ -517,13 +512,14 @@ void QPlcMasterNodePrivate::enter(QPlcMasterNode::State newState, const QString 
     const bool isTransient = newState == State::WaitingForLateSlaves
         || (m_state == State::WaitingForLateSlaves && newState == State::RealTime);
     m_state = newState;
-    stateReason = isLatched() ? reason : QString();
-    latch += isLatched() ? 1 : 0;
+    const bool isLatched = qplc::isLatched(m_state);
+    stateReason = isLatched ? reason : QString();
+    latch += isLatched ? 1 : 0;
     if (m_state == State::RealTime && !isTransient)
         askedStop = {};
     arming.disarm();
     const QString words = qplc::stateText(QLatin1String(qplc::nameOf(m_state)));
-    if (isLatched() && parts)
+    if (isLatched && parts)
         parts->phase.keepCycles(words.toLower());
     if (!isTransient || parts->reports.isWaitTold())
         journal.stateChanged(reason.isEmpty() ? words : QStringLiteral("%1: %2").arg(words, reason), isTransient);

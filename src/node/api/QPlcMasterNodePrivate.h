@@ -34,7 +34,6 @@ public:
     /// Fixes the signal table and makes everything that depends on it. \return false when there is
     /// no table
     bool prepare();
-    void prepareProgram();
     bool startServer(const QPlcUnderlyingProtocol &protocol);
     bool addLocalNode(QPlcSlaveNode *node);
     void removeLocalNode(QPlcSlaveNode *node);
@@ -55,8 +54,6 @@ public:
 
     bool apply(qplc::MasterEvent event, const QString &reason = QString()) override;
     QPlcMasterNode::State state() const override { return m_state; }
-    /// Whether only a reset leads on.
-    bool isLatched() const;
 
     /// All that depends on the signal table, each part after those that it needs.
     struct Parts

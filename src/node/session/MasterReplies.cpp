@@ -81,6 +81,11 @@ messages::MasterState messageStateOf(QPlcMasterNode::State state)
     return messages::valueNamed<messages::MasterState>(name).value_or(messages::MasterState::Unknown);
 }
 
+bool isLatched(QPlcMasterNode::State state)
+{
+    return messages::isLatched(messageStateOf(state));
+}
+
 messages::ClockKind clockKindOf(QPlcClock clock)
 {
     switch (clock.kind()) {

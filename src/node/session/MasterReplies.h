@@ -19,6 +19,8 @@ namespace qplc {
 
 QPlcNodeInfo infoOf(const NodeSession &node);
 messages::MasterState messageStateOf(QPlcMasterNode::State state);
+/// Whether only a reset leads on.
+bool isLatched(QPlcMasterNode::State state);
 messages::ClockKind clockKindOf(QPlcClock clock);
 messages::State stateReply(const QPlcMasterNode &master, const ChosenProfile &profile, quint64 session);
 /// For \a names or, when empty, all signals; the values are those of one cycle. All other arguments
