@@ -300,6 +300,9 @@ def main():
     parser.add_argument("--jobs", type=int, default=6 * (os.cpu_count() or 1))
     parser.add_argument("step", choices=("make", "record", "hunt", "table"))
     arguments = parser.parse_args()
+    for room in arguments.tests.split(","):
+        if not (arguments.root / "tests" / room).is_dir():
+            sys.exit(f"mutate: there is no folder tests/{room}; name others with --tests")
     folder = (arguments.build or arguments.root / "build" / "mutate").resolve()
     folder.mkdir(parents=True, exist_ok=True)
     plant = Plant(
@@ -308,6 +311,11 @@ def main():
         arguments.tests.split(","),
         lambda sites: drawn([s for s in sites if s.file.startswith(arguments.only)], arguments.seed, arguments.count),
     )
+    if not plant.chosen():
+        sys.exit(
+            f"mutate: no place to change in '{arguments.only}'; --only is the begin of names like "
+            "src/protocol/Crc32c.cpp, and --count 1 or more"
+        )
     if arguments.step == "make":
         plant.make()
     elif arguments.step == "record":

@@ -164,6 +164,25 @@ done
 """
 
 
+class Options(unittest.TestCase):
+    def refusal(self, *options):
+        with tempfile.TemporaryDirectory() as folder:
+            run = subprocess.run(
+                [sys.executable, "-B", SCRIPTS / "lib" / "mutate.py", "--root", SCRIPTS.parent]
+                + ["--build", folder, *options, "make"],
+                capture_output=True,
+                text=True,
+            )
+        self.assertEqual(run.returncode, 1)
+        return run.stderr
+
+    def test_a_folder_of_tests_that_is_not_there_is_named(self):
+        self.assertIn("there is no folder tests/protcol", self.refusal("--tests", "node,protcol"))
+
+    def test_files_without_a_place_to_change_are_named(self):
+        self.assertIn("no place to change in 'src/gui'", self.refusal("--only", "src/gui"))
+
+
 class Tests(unittest.TestCase):
     def setUp(self):
         temporary = tempfile.TemporaryDirectory()
@@ -238,7 +257,8 @@ class Tests(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    sys.path.insert(0, str(Path(sys.argv.pop(1)) / "lib"))
+    SCRIPTS = Path(sys.argv.pop(1)).resolve()
+    sys.path.insert(0, str(SCRIPTS / "lib"))
     import mutate
     import mutation_tests as tests
 
