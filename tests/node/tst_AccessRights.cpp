@@ -413,7 +413,7 @@ void tst_AccessRights::commandsNameTheirSignals()
     QJsonArray many;
     for (int i = 0; i < 1000; ++i)
         many << QString(100, 'x') + QString::number(i) + "\n";
-    QCOMPARE(anna.ask(QPlcMessage::ReleaseLease, {{"signals", many}}).text("error"), QString("UnknownSignal"));
+    QCOMPARE(anna.ask(QPlcMessage::ReleaseLease, {{"signals", many}}).text("error"), QString("MalformedMessage"));
     const QStringList lines = log.matching("identity 'anna' commands ReleaseLease of xxx");
     QCOMPARE(lines.size(), 1);
     QVERIFY2(lines.at(0).contains(" and 992 more from") && lines.at(0).size() < 520, qPrintable(lines.at(0)));
