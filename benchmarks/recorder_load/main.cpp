@@ -153,8 +153,9 @@ double residentMemory(qint64 process)
 bool isWhole(const QString &folder, std::uint64_t cycles, double *bytesOfCycle)
 {
     RecordedPhase phase;
+    QStringList unreadable;
     QString error;
-    if (!findPhase(folder, &phase, &error)) {
+    if (!findPhase(folder, &phase, &unreadable, &error)) {
         std::fprintf(stderr, "%s\n", qPrintable(error));
         return false;
     }
@@ -251,8 +252,9 @@ private:
 bool isExact(const QString &folder, const Master &master)
 {
     RecordedPhase phase;
+    QStringList unreadable;
     QString error;
-    if (!findPhase(folder, &phase, &error)) {
+    if (!findPhase(folder, &phase, &unreadable, &error)) {
         std::fprintf(stderr, "%s\n", qPrintable(error));
         return false;
     }
