@@ -36,6 +36,10 @@ MAST_PLANTS = {
 DURATION = 1860  # [s]: a minute that does not count, and half an hour
 THESIS_WIND = (5.0, 3.0, 0.0)  # [m/s]
 SEEDS = range(10, 18)
+TURBULENCE = {
+    "first-order": "[kite]\nturbulenceModel = first-order\n",
+    "kaimal": "[kite]\nturbulenceModel = kaimal\nlengthScale = 35\n",
+}
 SPEEDS = (5, 6, 7, 8, 9, 10, 12, 14)  # [m/s]
 FIGURES = (
     "mean_power_W",
@@ -128,6 +132,14 @@ def wind(speed):
     return "--wind=" + ",".join(repr(scale * component) for component in THESIS_WIND)
 
 
+def fly_turbulence(hangar):
+    """The plant of the thesis in both kinds of turbulence."""
+    return {
+        model: {str(seed): hangar.fly(plant, "--turbulence=0.15", f"--seed={seed}") for seed in SEEDS}
+        for model, plant in TURBULENCE.items()
+    }
+
+
 def fly_all(programs):
     hangar = Hangar(programs)
     flights = {
@@ -137,6 +149,7 @@ def fly_all(programs):
             for plant in ("thesis", "realistic", "drag")
         },
         "turbulent": {str(seed): hangar.fly("realistic", "--turbulence=0.15", f"--seed={seed}") for seed in SEEDS},
+        "turbulence": fly_turbulence(hangar),
         "cycle": hangar.curves(
             "realistic", "power,electricalPower,tetherLength,winchTension,wingTension", 300, 400, 20
         ),
@@ -190,6 +203,31 @@ def draw_profile():
     ]
     return plots.curves(
         "Wind over the height, as part of the wind at 50 m", ("w / w(50 m)", 0, 1.4), ("height [m]", 0, 200), lines
+    )
+
+
+def draw_spectrum():
+    """f S / sigma^2 of both kinds of turbulence, along the wind of the thesis."""
+    speed = math.hypot(*THESIS_WIND)
+    decades = [-4 + step / 20 for step in range(101)]
+
+    def first_order(frequency):
+        time = 60 / speed  # [s]
+        return 4 * time * frequency / (1 + (2 * math.pi * time * frequency) ** 2)
+
+    def kaimal(frequency):
+        reduced = frequency * 8.1 * 35 / speed
+        return 4 * reduced / (1 + 6 * reduced) ** (5 / 3)
+
+    lines = [
+        (name, [(decade, spectrum(10**decade)) for decade in decades], "")
+        for name, spectrum in (("first-order, 60 m", first_order), ("kaimal, 35 m", kaimal))
+    ]
+    return plots.curves(
+        "Turbulence along the wind of 5.83 m/s: f S(f) / variance",
+        ("logarithm of the frequency in Hz", -4, 1),
+        ("f S / variance", 0, 0.4),
+        lines,
     )
 
 
@@ -376,6 +414,13 @@ def mast_table(mast):
     )
 
 
+def turbulence_row(model, flown):
+    powers = [flight["mean_power_W"] for flight in flown]
+    crashes = sum(flight["crashed"] for flight in flown)
+    mean = sum(powers) / len(powers)
+    return f"| {model} | {min(powers):.0f} W to {max(powers):.0f} W | {mean:.0f} W | {crashes} |"
+
+
 def table(flights):
     thesis = flights["options"]["the plant of the thesis"]["mean_power_W"]
     lines = [
@@ -401,6 +446,10 @@ def table(flights):
         f"In turbulence of 15 % (seeds {SEEDS[0]} to {SEEDS[-1]}) the realistic plant has {min(powers):.0f} W to "
         f"{max(powers):.0f} W,",
         f"of which {min(electrical):.0f} W to {max(electrical):.0f} W are electrical, and {crashes} crashes.",
+        "",
+        "| turbulence of 15 %, plant of the thesis, same seeds | mean power | mean of the seeds | crashes |",
+        "|---|---|---|---|",
+        *(turbulence_row(model, list(flown.values())) for model, flown in flights["turbulence"].items()),
         "",
         "| wind at 50 m | thesis | realistic | electrical | of the mechanical | turbines on board |",
         "|---|---|---|---|---|---|",
@@ -431,6 +480,7 @@ def made():
         "dockings.svg": draw_dockings(mast),
         "day.svg": draw_day(mast),
         "profile.svg": draw_profile(),
+        "spectrum.svg": draw_spectrum(),
         "cycle.svg": draw_cycle(flights),
         "steering.svg": draw_steering(flights),
         "nodes.svg": draw_nodes(flights),
