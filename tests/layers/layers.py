@@ -69,18 +69,8 @@ ARROWS = {
     "gui/panel": {"signals", "node", "formulas", "gui", "gui/plant", "gui/plot", "gui/models", "gui/panel"},
     # Panels do not know each other.
     "gui/charts": {"signals", "node", "gui", "gui/plot", "gui/models", "gui/panel", "gui/charts"},
-    "gui/gauges": {
-        "signals",
-        "node",
-        "formulas",
-        "gui",
-        "gui/plant",
-        "gui/plot",
-        "gui/models",
-        "gui/panel",
-        "gui/gauges",
-    },
-    "gui/setters": {"signals", "node", "formulas", "gui", "gui/plant", "gui/models", "gui/panel", "gui/setters"},
+    "gui/gauges": {"signals", "node", "formulas", "gui", "gui/plot", "gui/models", "gui/panel", "gui/gauges"},
+    "gui/setters": {"signals", "node", "formulas", "gui", "gui/models", "gui/panel", "gui/setters"},
     "gui/tables": {"signals", "node", "formulas", "gui", "gui/models", "gui/panel", "gui/tables"},
     "gui/layout": {"signals", "node", "gui", "gui/panel", "gui/layout"},
     # It makes panels by their names (QPlcWidgetFactory).

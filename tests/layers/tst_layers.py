@@ -248,6 +248,10 @@ class Faults(unittest.TestCase):
         self.plant("src/gui3d/View3DEditor.cpp", '#include "gui/panel/WindowContext.h"\n')
         self.assert_named("src/gui3d/View3DEditor.cpp:", "a panel knows the window by QPlcPanelContext alone")
 
+    def test_a_panel_knows_no_plant_of_the_window(self):
+        self.plant("src/gui/gauges/GaugeFeed.cpp", '#include "gui/plant/Plant.h"\n')
+        self.assert_named("src/gui/gauges/GaugeFeed.cpp:", "which belongs to gui/plant")
+
     def test_an_example_knows_public_headers_alone(self):
         self.plant("examples/airborne_wind_energy/plant/Wind.h", '#include "gui/plant/Plant.h"\n')
         self.assert_named("examples/airborne_wind_energy/plant/Wind.h:", "an example knows the public headers alone")

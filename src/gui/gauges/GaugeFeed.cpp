@@ -3,10 +3,10 @@
 
 #include "QPlcSignalIndexTable.h"
 #include "formulas/Formula.h"
+#include "gui/LimitOf.h"
 #include "gui/models/ValueFormat.h"
 #include "gui/panel/DrawNow.h"
 #include "gui/panel/FigureFont.h"
-#include "gui/plant/LimitOf.h"
 
 #include <QtGui/QGuiApplication>
 

@@ -4,8 +4,8 @@
 #include "QPlcPanelContext.h"
 #include "ValueStream.h"
 #include "WindowContext.h"
+#include "gui/LimitOf.h"
 #include "gui/models/SiPrefix.h"
-#include "gui/plant/LimitOf.h"
 
 #include <QtCore/QPointer>
 

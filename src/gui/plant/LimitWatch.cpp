@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LimitWatch.h"
 
-#include "LimitOf.h"
+#include "gui/LimitOf.h"
 
 #include <algorithm>
 #include <limits>

@@ -2,7 +2,7 @@
 #include "CurveSources.h"
 
 #include "DerivedSignals.h"
-#include "gui/plant/LimitOf.h"
+#include "gui/LimitOf.h"
 
 namespace qplc {
 

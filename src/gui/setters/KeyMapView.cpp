@@ -2,8 +2,8 @@
 #include "KeyMapView.h"
 
 #include "ManualControl.h"
+#include "gui/LimitOf.h"
 #include "gui/models/ValueFormat.h"
-#include "gui/plant/LimitOf.h"
 
 #include <QtGui/QPainter>
 

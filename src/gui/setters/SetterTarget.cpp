@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SetterTarget.h"
 
+#include "gui/LimitOf.h"
 #include "gui/models/ValueFormat.h"
-#include "gui/plant/LimitOf.h"
 
 #include <algorithm>
 #include <cmath>
