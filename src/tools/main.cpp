@@ -50,8 +50,9 @@ bool hasItsArguments(QPlcCoreApplication &application, const Command &command)
         return true;
     const QString name = QString::fromLatin1(command.name);
     const QString usage = QStringLiteral("qtplc %1 %2").arg(name, QString::fromLatin1(command.usage)).trimmed();
-    application.usageError(QStringLiteral("%1 of arguments for %2; use %3")
-                               .arg(given > 0 ? QStringLiteral("wrong number") : QStringLiteral("lack"), name, usage));
+    const QString text = given > 0 ? QStringLiteral("wrong number of arguments for %1; use %2")
+                                   : QStringLiteral("%1 needs arguments; use %2");
+    application.usageError(text.arg(name, usage));
     return false;
 }
 

@@ -110,7 +110,7 @@ void tst_qtplc::badUseIsRefusedWithOneSentence_data()
     };
     row("", "no command; use one of list, get, set, echo, watch, hz, state,");
     row("init all", "wrong number of arguments for init");
-    row("get", "lack of arguments for get");
+    row("get", "get needs arguments; use qtplc get");
     row("echo power --rate 0", "--rate 0");
     row("start --cycles 0", "--cycles 0");
     row("set a 1 --for 0", "--for 0");
@@ -119,8 +119,8 @@ void tst_qtplc::badUseIsRefusedWithOneSentence_data()
     row("hz --for never", "--for never");
     row("help fly", "unknown command 'fly'");
     row("state now", "state");
-    row("echo", "lack of arguments for echo; use qtplc echo SIGNAL|PATTERN...");
-    row("set", "lack of arguments for set");
+    row("echo", "echo needs arguments; use qtplc echo SIGNAL|PATTERN...");
+    row("set", "set needs arguments");
     row("set tetherSpeed", "wrong number of arguments for set; use qtplc set SIGNAL VALUE ...");
     row("strat", "unknown command 'strat'; did you mean 'start' or 'state'?");
     row("list --nonsense", "unknown option '--nonsense' (see --help)\n");
