@@ -3,8 +3,8 @@
 
 #include "History.h"
 #include "Intruder.h"
-#include "Plant.h"
 #include "ReferenceClock.h"
+#include "TestedPlant.h"
 
 #include <QtCore/QProcess>
 
@@ -30,7 +30,7 @@ protected:
 };
 
 /// A plant of processes.
-class PlantProcesses final : public Plant
+class PlantProcesses final : public TestedPlant
 {
 public:
     /// \param folder  empty; all processes of the plant write there

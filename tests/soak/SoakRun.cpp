@@ -27,7 +27,7 @@ int consequencesOf(FaultKind kind)
 
 }  // namespace
 
-SoakRun::SoakRun(const Profile &profile, int seconds, const std::vector<Fault> &plan, Plant &plant,
+SoakRun::SoakRun(const Profile &profile, int seconds, const std::vector<Fault> &plan, TestedPlant &plant,
                  HistoryWriter &history)
     : m_profile(profile)
     , m_seconds(seconds)
@@ -194,7 +194,7 @@ int SoakRun::inject(const Fault &fault)
     case FaultKind::EvictNode:
         return keepOut(fault);
     case FaultKind::StopMaster:
-        stopFor(Plant::TheMaster, fault.amount);
+        stopFor(TestedPlant::TheMaster, fault.amount);
         return fault.amount;
     default:
         if (fault.kind == FaultKind::PowerNode)

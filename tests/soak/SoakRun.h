@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Operator.h"
-#include "Plant.h"
+#include "TestedPlant.h"
 
 namespace soak {
 
@@ -11,7 +11,8 @@ class SoakRun
 {
 public:
     /// \param seconds  of a run without faults
-    SoakRun(const Profile &profile, int seconds, const std::vector<Fault> &plan, Plant &plant, HistoryWriter &history);
+    SoakRun(const Profile &profile, int seconds, const std::vector<Fault> &plan, TestedPlant &plant,
+            HistoryWriter &history);
     ~SoakRun();
 
     /// \return false when the plant did not come to motion, again or at all: errorString() says why
@@ -33,7 +34,7 @@ private:
     const Profile &m_profile;
     const int m_seconds;
     const std::vector<Fault> &m_plan;
-    Plant &m_plant;
+    TestedPlant &m_plant;
     HistoryWriter &m_history;
     Operator m_operator;
     QString m_errorString;

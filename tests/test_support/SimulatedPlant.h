@@ -2,10 +2,10 @@
 #pragma once
 
 #include "Evidence.h"
-#include "Plant.h"
 #include "SoakMaster.h"
 #include "SoakNode.h"
 #include "Strangers.h"
+#include "TestedPlant.h"
 #include "test_support/SimulatedHost.h"
 
 QT_BEGIN_NAMESPACE
@@ -33,7 +33,7 @@ private:
 };
 
 /// The soak's plant in a simulator, each of its programs on a host with clocks of its own.
-class SimulatedPlant final : public Plant
+class SimulatedPlant final : public TestedPlant
 {
 public:
     SimulatedPlant(qplc::Simulator &simulator, const Profile &profile);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "Plant.h"
+#include "TestedPlant.h"
 
 namespace soak {
 
-Plant::~Plant() = default;
+TestedPlant::~TestedPlant() = default;
 
 }  // namespace soak

@@ -11,15 +11,15 @@ inline constexpr int Patience = 20'000;  // [ms] with what is to come at once: f
 
 /// The master and the nodes of a profile, each in its newest life, and all that may happen to them:
 /// as processes (PlantProcesses), or simulated (SimulatedPlant).
-class Plant
+class TestedPlant
 {
 public:
     static constexpr int TheMaster = -1;  // instead of the number of a node
 
-    Plant() = default;
-    virtual ~Plant();
-    Plant(const Plant &) = delete;
-    Plant &operator=(const Plant &) = delete;
+    TestedPlant() = default;
+    virtual ~TestedPlant();
+    TestedPlant(const TestedPlant &) = delete;
+    TestedPlant &operator=(const TestedPlant &) = delete;
 
     /// Before the first master.
     virtual bool prepare(QString *error) = 0;
