@@ -121,6 +121,7 @@ private Q_SLOTS:
     void hangingTetherCarriesWhatIsBelow();
     void hangingTetherStaysAtRest();
     void hangingTetherSwingsInItsFirstMode();
+    void bestTurbinesAreThosePublished();
     void dragModeIsInBalanceAtTheOptimumOfTheThesis();
     void machineAtTheOptimumIsThatOfItsEquations_data();
     void machineAtTheOptimumIsThatOfItsEquations();
@@ -326,6 +327,14 @@ void tst_ExtendedPlant::hangingTetherSwingsInItsFirstMode()
                                                                            * root.asDiagonal());
     const double frequency = std::sqrt(modes.eigenvalues()[0]);
     COMPARE_NEAR(frequency, 34.0183, 5e-5);
+    // A rod with the wing at its end: b tan(b) = mass of the rod / of the wing, b = w length / c.
+    const double massRatio = 6.0 * node / parameters.kite.mass;
+    double low = 0.0, high = 1.0;
+    for (int i = 0; i < 60; ++i) {
+        const double middle = 0.5 * (low + high);
+        (middle * std::tan(middle) < massRatio ? low : high) = middle;
+    }
+    COMPARE_NEAR(low * std::sqrt(spring / 6.0 / (6.0 * node)), 34.0314, 5e-5);
 
     ExtendedPlant plant = parameters.plant();
     hang(&plant);
@@ -347,6 +356,32 @@ void tst_ExtendedPlant::hangingTetherSwingsInItsFirstMode()
     QVERIFY(passes.size() > 15);
     const double period = (passes.back() - passes.front()) / double(passes.size() - 1);
     COMPARE_NEAR(6.28318530717958648 / period, frequency, 2e-3 * frequency);
+}
+
+/// Power of turbines on a wing that flies across the wind of the thesis [W] (thesis, equations
+/// 2.11, 2.14, 2.16). \param share  c_dt / c_d
+static double turbinePower(double angleOfAttack, double share)
+{
+    const Aerodynamics::Coefficients wing = Aerodynamics().coefficients(angleOfAttack);
+    const double turbines = share * wing.drag, drag = wing.drag + turbines;
+    const double airspeed = std::sqrt(34.0) * std::hypot(wing.lift, drag) / drag;
+    const PlantParameters kite;
+    return 0.5 * kite.airDensity * kite.area * turbines * airspeed * airspeed * airspeed;
+}
+
+void tst_ExtendedPlant::bestTurbinesAreThosePublished()
+{
+    // Half of c_d, the rule of the thesis, at its angle and at the best one.
+    COMPARE_NEAR(turbinePower(21.977, 0.5), 3410.80, 0.01);
+    COMPARE_NEAR(turbinePower(22.570, 0.5), 3413.69, 0.01);
+    // Without the approximation that c_l is much larger than c_d.
+    COMPARE_NEAR(turbinePower(22.764, 0.6265), 3458.55, 0.01);
+    // Both are maxima.
+    for (const double turn : {-0.02, 0.02}) {
+        QVERIFY(turbinePower(22.570 + turn, 0.5) < turbinePower(22.570, 0.5));
+        QVERIFY(turbinePower(22.764 + turn, 0.6265) < turbinePower(22.764, 0.6265));
+        QVERIFY(turbinePower(22.764, 0.6265 + turn) < turbinePower(22.764, 0.6265));
+    }
 }
 
 void tst_ExtendedPlant::dragModeIsInBalanceAtTheOptimumOfTheThesis()
