@@ -117,7 +117,7 @@ std::string readPlant(const Options &options, ClosedLoopParameters *parameters)
     parameters->wind = plant.kite.wind;
     parameters->options = plant.options;
     parameters->deadTime = static_cast<int>(options.deadTime);
-    return {};
+    return parameters->validate();
 }
 
 void printScores(const char *name, const AutopilotGains &gains, ClosedLoopParameters parameters)

@@ -154,7 +154,8 @@ bool readModelOptions(QPlcCoreApplication &application, const PlantConfiguration
     settings->options = plant.optionsIn(settings->wind);
     settings->plant = kite.plantIn(settings->wind);
     settings->substeps = kite.substeps;
-    return accept(application, settings->wind.validate()) && accept(application, settings->plant.validate());
+    return accept(application, settings->wind.validate()) && accept(application, settings->plant.validate())
+        && accept(application, settings->options.validateFor(settings->plant));
 }
 
 void addPlantOptions(QPlcCoreApplication &application)

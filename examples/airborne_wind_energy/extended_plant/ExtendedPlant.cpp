@@ -15,8 +15,9 @@ constexpr double dampingRamp = 1e-4;           // strain up to which the damping
 constexpr double longestSubstepLength = 75.0;  // of a segment in a step of a whole cycle [m]
 constexpr int machineSubsteps = 5;
 constexpr int driveStepsInCycle = 10;
-constexpr double dockingDistance = 0.3;  // the wing docks up to this far beyond the mast's top [m]
-constexpr double mastClearance = 1.0;    // further in it hit the mast [m]
+constexpr double dockingDistance = 0.3;      // the wing docks up to this far beyond the mast's top [m]
+constexpr double mastClearance = 1.0;        // further in it hit the mast [m]
+constexpr double fastestTouchdown = 1000.0;  // [m/s]
 
 }  // namespace
 
@@ -245,7 +246,7 @@ ExtendedPlant::State ExtendedPlant::rates(const State &state, const Sample &air,
 int ExtendedPlant::substeps() const
 {
     if (m_options.tether.kind == TetherKind::Segments) {
-        const double length = single(m_state, TetherLength) / m_points;
+        const double length = std::max(single(m_state, TetherLength) / m_points, TetherParameters::shortestSegment);
         return std::max(machineSubsteps, int(std::ceil(longestSubstepLength / length)));
     }
     return m_options.hasMachine ? machineSubsteps : 1;
@@ -306,9 +307,11 @@ void ExtendedPlant::step(const PlantInputs &inputs)
 
 void ExtendedPlant::noticeGround()
 {
-    if (m_isThesis || m_crashed || pointIn(m_state, m_points).z() > 0.0)
+    if (m_isThesis || m_crashed || !(pointIn(m_state, m_points).z() <= 0.0))
         return;
-    crash();
+    // Faster or not a number: the computation diverges, which standing on the ground would hide.
+    if (velocityIn(m_state, m_points).norm() < fastestTouchdown)
+        crash();
 }
 
 void ExtendedPlant::crash()

@@ -84,6 +84,8 @@ public:
     /// Wing, tether and energy of the tether.
     PlantState state() const;
 
+    /// l_t [m]
+    double tetherLength() const { return m_isThesis ? m_thesis.state().tetherLength : single(m_state, TetherLength); }
     /// Of the winch, since reset() [J], > 0 when it has generated.
     double electricalEnergy() const { return m_machine.energies().electrical; }
     /// Of the turbines, since reset() [J].

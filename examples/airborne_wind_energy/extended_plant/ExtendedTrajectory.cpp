@@ -8,6 +8,7 @@
 #include <QtCore/QJsonObject>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 
 namespace awe {
@@ -71,8 +72,8 @@ std::string setParameter(const QString &key, const QJsonValue &value, PlantOptio
     if (key == QLatin1String("c2"))
         return taken(value, &options->steering.weightFactor);
     if (key == QLatin1String("segments")) {
-        options->tether.segments = value.toInt();
-        return {};
+        options->tether.segments = value.toInt(-1);  // also of a number that is not whole
+        return options->tether.segments < 0 ? "use a whole number" : std::string();
     }
     return "it is not known; use tether, segments, profile, hRef, p, z0, density, steering, c1 or c2";
 }
@@ -173,8 +174,9 @@ std::string ExtendedTrajectory::read(std::istream &stream, const std::string &na
         if (!hasNames && line.rfind('#', 0) == 0) {
             m_comments.push_back(line);
             if (line.rfind(headerStart, 0) == 0) {
+                wrong = hasHeader ? "a second header; leave one of them out"
+                                  : readHeader(line.substr(sizeof headerStart - 1));
                 hasHeader = true;
-                wrong = readHeader(line.substr(sizeof headerStart - 1));
             }
         } else if (!hasNames) {
             hasNames = true;
@@ -184,8 +186,8 @@ std::string ExtendedTrajectory::read(std::istream &stream, const std::string &na
             m_rows.emplace_back();
             wrong = readCsvRow(line, columnNames().data(), m_rows.back().data(), columnCount);
         }
-        if (wrong.empty() && m_rows.size() == 1)
-            wrong = checkStart();
+        if (wrong.empty() && !m_rows.empty())
+            wrong = m_rows.size() == 1 ? checkStart() : checkTime();
         if (!wrong.empty())
             return name + ':' + std::to_string(number) + ": " + wrong;
     }
@@ -195,22 +197,54 @@ std::string ExtendedTrajectory::read(std::istream &stream, const std::string &na
 std::string ExtendedTrajectory::readHeader(const std::string &json)
 {
     QJsonParseError error;
-    const QJsonObject header = QJsonDocument::fromJson(QByteArray::fromStdString(json), &error).object();
+    const QJsonDocument document = QJsonDocument::fromJson(QByteArray::fromStdString(json), &error);
     if (error.error != QJsonParseError::NoError)
         return "the header is not JSON: " + error.errorString().toStdString() + "; correct it";
-    const QJsonObject parameters = header.value(QLatin1String("parameters")).toObject();
+    const QJsonObject header = document.object();
+    for (auto it = header.begin(); it != header.end(); ++it) {
+        const std::string remedy = setHeader(it.key(), it.value());
+        if (!remedy.empty())
+            return "'" + it.key().toStdString() + "' of the header: " + remedy;
+    }
+    for (const char *key : {"plant2", "wind_m_s", "winch"}) {
+        if (!header.contains(QLatin1String(key)))
+            return std::string("the header has no '") + key + "'; add it";
+    }
+    return {};
+}
+
+/// Takes one element of the header. \return empty, or the remedy
+std::string ExtendedTrajectory::setHeader(const QString &key, const QJsonValue &value)
+{
+    if (key == QLatin1String("plant2"))
+        return value == QJsonValue(1) ? std::string() : "use 1: this program knows no other version";
+    if (key == QLatin1String("wind_m_s"))
+        return setWind(value.toArray());
+    if (key == QLatin1String("winch"))
+        return chosen(value, {"ideal", "machine"}, &m_options.hasMachine);
+    if (key != QLatin1String("parameters"))
+        return "it is not known; use plant2, parameters, wind_m_s and winch";
+    if (!value.isObject())
+        return "use an object such as {\"tether\": \"segments\"}";
+    const QJsonObject parameters = value.toObject();
     for (auto it = parameters.begin(); it != parameters.end(); ++it) {
         const std::string remedy = setParameter(it.key(), it.value(), &m_options);
         if (!remedy.empty())
-            return "parameter '" + it.key().toStdString() + "' of the header: " + remedy;
+            return "'" + it.key().toStdString() + "': " + remedy;
     }
-    const QJsonArray wind = header.value(QLatin1String("wind_m_s")).toArray();
-    if (wind.size() != 3)
-        return "the header has no wind; write \"wind_m_s\": [x, y, z]";
-    m_wind = {wind[0].toDouble(), wind[1].toDouble(), wind[2].toDouble()};
-    const std::string remedy
-        = chosen(header.value(QLatin1String("winch")), {"ideal", "machine"}, &m_options.hasMachine);
-    return remedy.empty() ? remedy : "winch of the header: " + remedy;
+    return {};
+}
+
+/// \return empty, or the remedy
+std::string ExtendedTrajectory::setWind(const QJsonArray &components)
+{
+    constexpr double strongest = 100.0;  // [m/s]
+    bool isWind = components.size() == 3;
+    for (int i = 0; i < 3 && isWind; ++i) {
+        m_wind[i] = components[i].toDouble(2.0 * strongest);  // also of what is no number
+        isWind = std::abs(m_wind[i]) <= strongest;
+    }
+    return isWind ? std::string() : "use three numbers [x, y, z] from -100 to 100 m/s";
 }
 
 /// The first row is the start.
@@ -226,8 +260,19 @@ std::string ExtendedTrajectory::checkStart()
     if (m_options.tether.kind == TetherKind::Segments && m_options.tether.segments != nodesInFile + 1)
         return "the tether has " + std::to_string(m_options.tether.segments) + " segments; the table has room for "
             + std::to_string(nodesInFile + 1);
-    const std::string wrong = m_options.validate();
-    return wrong.empty() ? m_parameters.validate() : wrong;
+    const std::string wrong = m_parameters.validate();
+    return !wrong.empty() ? wrong : m_options.validateFor(m_parameters);
+}
+
+/// Each row is ten cycles after the one before.
+std::string ExtendedTrajectory::checkTime() const
+{
+    const double period = cyclesPerRow * m_parameters.step, time = m_rows.back()[Time];
+    const double passed = time - m_rows[m_rows.size() - 2][Time];
+    if (std::abs(passed - period) < 1e-3 * period)
+        return {};
+    return "time " + std::to_string(time) + " s; it must be " + std::to_string(period)
+        + " s after that of the row before";
 }
 
 std::string ExtendedTrajectory::save(const std::string &path) const

@@ -8,6 +8,10 @@
 #include <string>
 #include <vector>
 
+class QJsonArray;
+class QJsonValue;
+class QString;
+
 namespace awe {
 
 /// A flight of an ExtendedPlant as a table: a row for each ten cycles, whose inputs act until the
@@ -56,7 +60,10 @@ public:
 private:
     std::string read(std::istream &stream, const std::string &name);
     std::string readHeader(const std::string &json);
+    std::string setHeader(const QString &key, const QJsonValue &value);
+    std::string setWind(const QJsonArray &components);
     std::string checkStart();
+    std::string checkTime() const;
 
     std::vector<std::string> m_comments;
     PlantParameters m_parameters;

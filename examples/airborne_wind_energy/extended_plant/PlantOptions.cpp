@@ -11,6 +11,8 @@ std::string TetherParameters::validate() const
     RangeCheck check;
     check.constants(*this);
     check.within("segments", segments, 1, mostSegments, "");
+    if (kind == TetherKind::Segments && segments > 1)  // a node without mass would have an infinite acceleration
+        check.within("density of the tether", density, leastNodeDensity, 2e4, "kg/m³");
     return check.message();
 }
 
@@ -64,6 +66,17 @@ std::string PlantOptions::validate() const
             return complaint;
     }
     return {};
+}
+
+std::string PlantOptions::validateFor(const PlantParameters &kite) const
+{
+    const std::string complaint = validate();
+    if (!complaint.empty() || tether.kind != TetherKind::Segments)
+        return complaint;
+    RangeCheck check;
+    check.within("tether length at the start", mast.isPresent ? mast.distance : kite.initialState.tetherLength,
+                 TetherParameters::shortestSegment * tether.segments, 1e6, "m");
+    return check.message();
 }
 
 }  // namespace awe

@@ -11,6 +11,8 @@
 
 namespace awe {
 
+struct PlantParameters;
+
 /// What a plant has beyond that of the thesis. The values here are the latter: no option is on.
 struct PlantOptions
 {
@@ -34,6 +36,8 @@ struct PlantOptions
     /// \return empty when all is well, otherwise one sentence with the parameter, its value and the
     ///         remedy
     std::string validate() const;
+    /// The same, also for what only options and \a kite together show.
+    std::string validateFor(const PlantParameters &kite) const;
 };
 
 }  // namespace awe

@@ -20,6 +20,8 @@ enum class TetherKind {
 struct TetherParameters
 {
     static constexpr int mostSegments = 20;
+    static constexpr double shortestSegment = 0.05;  // the steps get shorter with the segments [m]
+    static constexpr double leastNodeDensity = 1.0;  // of a tether with nodes [kg/m^3]
 
     TetherKind kind = TetherKind::Spring;
     int segments = 6;

@@ -5,6 +5,8 @@
 #include "ExtendedTrajectory.h"
 #include "Trajectory.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <string>
 #include <vector>
@@ -52,12 +54,39 @@ std::string parse(const std::vector<std::string> &arguments, Options &options)
     return {};
 }
 
+const awe::ExtendedTrajectory::Row &columnsOf(const awe::ExtendedTrajectory::Row &row)
+{
+    return row;
+}
+
+awe::Trajectory::Columns columnsOf(const awe::Trajectory::Row &row)
+{
+    return awe::Trajectory::toColumns(row);
+}
+
+/// \return empty, or from where on \a flight has values that are not finite, and the remedy
+template<typename Flight>
+std::string divergence(const Flight &flight)
+{
+    for (const auto &row : flight.rows()) {
+        const auto &columns = columnsOf(row);
+        if (!std::all_of(columns.begin(), columns.end(), [](double value) { return std::isfinite(value); }))
+            return "the flight diverges before " + std::to_string(columns[0])
+                + " s; look for values in its start and inputs that no kite survives";
+    }
+    return {};
+}
+
 template<typename Flight>
 std::string replay(const Options &options)
 {
     Flight recorded;
-    const std::string complaint = recorded.load(options.input);
-    return complaint.empty() ? recorded.replayed().save(options.output) : complaint;
+    std::string complaint = recorded.load(options.input);
+    if (!complaint.empty())
+        return complaint;
+    const Flight flown = recorded.replayed();
+    complaint = divergence(flown);
+    return complaint.empty() ? flown.save(options.output) : options.input + ": " + complaint;
 }
 
 }  // namespace

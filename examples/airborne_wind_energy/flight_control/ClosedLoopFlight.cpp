@@ -66,7 +66,8 @@ PlantParameters ClosedLoopParameters::groundedPlant()
 
 std::string ClosedLoopParameters::validate() const
 {
-    for (const std::string &complaint : {plant.validate(), options.validate(), wind.validate(), gains.validate()}) {
+    for (const std::string &complaint :
+         {plant.validate(), options.validateFor(plant), wind.validate(), gains.validate()}) {
         if (!complaint.empty())
             return complaint;
     }

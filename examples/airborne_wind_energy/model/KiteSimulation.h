@@ -101,11 +101,21 @@ private:
         for (int i = 0; i < m_substeps; ++i)
             m_plant.step(m_inputs);
         m_wind.step();
+        if (isReeledIn())
+            throw std::runtime_error("the tether is reeled in: its segments are shorter than 5 cm; stop the winch "
+                                     "before, or use fewer 'segments' in [tether] of --plant");
         if (!(m_plant.velocity(m_plant.segmentCount()).squaredNorm()
               < fastest * fastest))  // also when it is not a number
             throw std::runtime_error(
                 "the simulation has diverged: the kite is faster than 1000 m/s; its mass is too small or its tether "
                 "too stiff for the step, so use more 'substeps' in [kite] of --plant");
+    }
+
+    bool isReeledIn() const
+    {
+        const TetherParameters &tether = options().tether;
+        return tether.kind == TetherKind::Segments
+            && m_plant.tetherLength() < TetherParameters::shortestSegment * tether.segments;
     }
 
     static constexpr double fastest = 1000.0;  // [m/s]

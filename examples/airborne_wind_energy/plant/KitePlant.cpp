@@ -98,7 +98,7 @@ void KitePlant::step(const PlantInputs &inputs)
 
 void KitePlant::noticeGround()
 {
-    if (m_state.position.z() > 0.0 || m_crashed)
+    if (m_crashed || !(m_state.position.z() <= 0.0))  // a position that is not a number is no ground contact
         return;
     m_crashed = true;
     if (m_parameters.groundContact == GroundContact::Hold)

@@ -5,6 +5,7 @@
 #include "Near.h"
 
 #include <Eigen/Eigenvalues>
+#include <QtCore/QElapsedTimer>
 
 #include <algorithm>
 #include <cmath>
@@ -131,6 +132,9 @@ private Q_SLOTS:
     void energiesOfTheWinchBalance();
     void resetBeginsTheSameFlight();
     void groundHoldsTheWing();
+    void divergingPlantIsNotCalledACrash();
+    void shortSegmentsAreRefused();
+    void reeledInTetherTakesNoLongerThanAShortOne();
     void invalidParametersAreRefused_data();
     void invalidParametersAreRefused();
 };
@@ -544,6 +548,47 @@ void tst_ExtendedPlant::groundHoldsTheWing()
     QCOMPARE(y.velocity.norm() + y.tetherForce.norm() + y.power, 0.0);
 }
 
+/// A crash holds the wing, with a speed of 0: the divergence would be hidden.
+void tst_ExtendedPlant::divergingPlantIsNotCalledACrash()
+{
+    Example parameters;
+    parameters.kite.groundContact = GroundContact::Hold;
+    parameters.options.tether.kind = TetherKind::Segments;
+    parameters.options.tether.axialStiffness = 1e9;
+    ExtendedPlant plant = parameters.plant();
+    const PlantInputs inputs = windAlone({5.0, 3.0, 0.0});
+    for (int cycle = 0; cycle < 100; ++cycle)
+        plant.step(inputs);
+    QVERIFY(!std::isfinite(plant.velocity(6).norm()));
+    QVERIFY(!plant.hasCrashed());
+}
+
+void tst_ExtendedPlant::shortSegmentsAreRefused()
+{
+    Example parameters;
+    parameters.options.tether.kind = TetherKind::Segments;
+    parameters.kite.initialState.tetherLength = 0.2;
+    QCOMPARE(parameters.options.validateFor(parameters.kite),
+             std::string("tether length at the start is 0.2 m; choose a value from 0.3 to 1e+06 m"));
+    parameters.options.mast.isPresent = true;  // the flight begins there
+    QCOMPARE(parameters.options.validateFor(parameters.kite), std::string());
+    parameters.options.tether.segments = 0;
+    QCOMPARE(parameters.options.validateFor(parameters.kite), parameters.options.validate());
+}
+
+/// The number of substeps has an end.
+void tst_ExtendedPlant::reeledInTetherTakesNoLongerThanAShortOne()
+{
+    Example parameters;
+    parameters.options.tether.kind = TetherKind::Segments;
+    parameters.kite.initialState.tetherLength = 1e-9;
+    ExtendedPlant plant = parameters.plant();
+    QElapsedTimer timer;
+    timer.start();
+    plant.step(windAlone({5.0, 3.0, 0.0}));
+    QVERIFY2(timer.elapsed() < 5000, qPrintable(QString::number(timer.elapsed())));
+}
+
 void tst_ExtendedPlant::invalidParametersAreRefused_data()
 {
     QTest::addColumn<PlantOptions>("parameters");
@@ -554,6 +599,11 @@ void tst_ExtendedPlant::invalidParametersAreRefused_data()
     parameters = PlantOptions();
     parameters.tether.diameter = 1.0;
     QTest::newRow("tether") << parameters << "diameter is 1 m; choose a value from 0.0001 to 0.1 m";
+    parameters = PlantOptions();
+    parameters.tether.kind = TetherKind::Segments;
+    parameters.tether.density = 0.0;
+    QTest::newRow("nodes without mass") << parameters
+                                        << "density of the tether is 0 kg/m³; choose a value from 1 to 20000 kg/m³";
     parameters = PlantOptions();
     parameters.air.roughness = 0.0;
     QTest::newRow("air") << parameters << "roughness is 0 m; choose a value from 1e-06 to 1 m";

@@ -101,22 +101,44 @@ void tst_awe_plant::programRefusesInvalidHeadersOfOptions_data()
     QTest::newRow("not JSON") << QByteArray("{\"plant2\"") << QByteArray("{plant2") << ":2: the header is not JSON: ";
     QTest::newRow("unknown parameter") << QByteArray("\"parameters\": {}")
                                        << QByteArray("\"parameters\": {\"mast\": 1}")
-                                       << ":2: parameter 'mast' of the header: it is not known; use tether, ";
+                                       << ":2: 'parameters' of the header: 'mast': it is not known; use tether, ";
     QTest::newRow("unknown word") << QByteArray("\"parameters\": {}")
                                   << QByteArray("\"parameters\": {\"tether\": \"rope\"}")
-                                  << ":2: parameter 'tether' of the header: use one of spring, straight, segments";
+                                  << ":2: 'parameters' of the header: 'tether': use one of spring, straight, segments";
     QTest::newRow("not a number") << QByteArray("\"parameters\": {}")
                                   << QByteArray("\"parameters\": {\"hRef\": \"high\"}")
-                                  << ":2: parameter 'hRef' of the header: use a number";
+                                  << ":2: 'parameters' of the header: 'hRef': use a number";
     QTest::newRow("out of range") << QByteArray("\"parameters\": {}") << QByteArray("\"parameters\": {\"z0\": 7}")
                                   << ":6: roughness is 7 m; choose a value from ";
     QTest::newRow("too many segments") << QByteArray("\"parameters\": {}")
                                        << QByteArray("\"parameters\": {\"tether\": \"segments\", \"segments\": 7}")
                                        << ":6: the tether has 7 segments; the table has room for 6";
     QTest::newRow("wind") << QByteArray("[5.0, 3.0, 0.0]") << QByteArray("[5.0, 3.0]")
-                          << ":2: the header has no wind; write ";
+                          << ":2: 'wind_m_s' of the header: use three numbers [x, y, z] from -100 to 100 m/s";
     QTest::newRow("winch") << QByteArray("\"ideal\"") << QByteArray("\"steam\"")
-                           << ":2: winch of the header: use one of ideal, machine";
+                           << ":2: 'winch' of the header: use one of ideal, machine";
+    QTest::newRow("winds in words") << QByteArray("[5.0, 3.0, 0.0]") << QByteArray("[\"strong\", 3.0, 0.0]")
+                                    << ":2: 'wind_m_s' of the header: use three numbers";
+    QTest::newRow("storm") << QByteArray("[5.0, 3.0, 0.0]") << QByteArray("[1e300, 3.0, 0.0]")
+                           << ":2: 'wind_m_s' of the header: use three numbers";
+    QTest::newRow("no winch") << QByteArray(", \"winch\": \"ideal\"") << QByteArray()
+                              << ":2: the header has no 'winch'; add it";
+    QTest::newRow("version") << QByteArray("\"plant2\": 1") << QByteArray("\"plant2\": 2")
+                             << ":2: 'plant2' of the header: use 1: this program knows no other version";
+    QTest::newRow("typing error") << QByteArray("\"parameters\"") << QByteArray("\"paramters\"")
+                                  << ":2: 'paramters' of the header: it is not known; use plant2, parameters, ";
+    QTest::newRow("parameters in a list") << QByteArray("\"parameters\": {}") << QByteArray("\"parameters\": [1]")
+                                          << ":2: 'parameters' of the header: use an object such as ";
+    QTest::newRow("half a segment") << QByteArray("\"parameters\": {}")
+                                    << QByteArray("\"parameters\": {\"segments\": 6.5}")
+                                    << ":2: 'parameters' of the header: 'segments': use a whole number";
+    QTest::newRow("second header") << QByteArray("\n# start:") << QByteArray("\n# plant2 = {}\n# start:")
+                                   << ":3: a second header; leave one of them out";
+    QTest::newRow("time") << QByteArray("\n0.20000000000000001,") << QByteArray("\n0.25,")
+                          << ":8: time 0.250000 s; it must be 0.100000 s after that of the row before";
+    QTest::newRow("nodes in one place") << QByteArray("\"parameters\": {}")
+                                        << QByteArray("\"parameters\": {\"tether\": \"segments\"}")
+                                        << "changed.csv: the flight diverges before 0";
     QTest::newRow("column") << QByteArray(",turbinePower,") << QByteArray(",propeller,")
                             << ":5: column 31 is 'propeller'; it must be 'turbinePower'";
 }
