@@ -25,6 +25,9 @@ namespace {
 
 const QString winchSection = QStringLiteral("winch");
 const QString kiteSection = QStringLiteral("kite");
+const QString windSection = QStringLiteral("wind");
+const QString tetherSection = QStringLiteral("tether");
+const QString steeringSection = QStringLiteral("steering");
 const QString turbineSection = QStringLiteral("turbines");
 const QString mastSection = QStringLiteral("mast");
 const QString kindKey = QStringLiteral("kind");
@@ -72,7 +75,7 @@ QString setWinch(PlantConfiguration *configuration, const QString &folder, const
 
 QString setWind(AirParameters *air, const QString &key, const QString &value)
 {
-    SectionKeys keys(QStringLiteral("wind"));
+    SectionKeys keys(windSection);
     keys.addChoice<WindProfile>(
         "profile", &air->profile,
         {{"uniform", WindProfile::Uniform}, {"power", WindProfile::Power}, {"log", WindProfile::Log}});
@@ -83,7 +86,7 @@ QString setWind(AirParameters *air, const QString &key, const QString &value)
 
 QString setTether(TetherParameters *tether, const QString &key, const QString &value)
 {
-    SectionKeys keys(QStringLiteral("tether"));
+    SectionKeys keys(tetherSection);
     keys.addChoice<TetherKind>(
         "kind", &tether->kind,
         {{"spring", TetherKind::Spring}, {"straight", TetherKind::Straight}, {"segments", TetherKind::Segments}});
@@ -94,7 +97,7 @@ QString setTether(TetherParameters *tether, const QString &key, const QString &v
 
 QString setSteering(SteeringParameters *steering, const QString &key, const QString &value)
 {
-    SectionKeys keys(QStringLiteral("steering"));
+    SectionKeys keys(steeringSection);
     keys.addChoice<SteeringKind>("kind", &steering->kind,
                                  {{"kinematic", SteeringKind::Kinematic}, {"turn-rate", SteeringKind::TurnRate}});
     keys.addConstants(steering);
@@ -133,15 +136,15 @@ public:
                [=](const QString &key, const QString &value) { return setWinch(configuration, folder, key, value); }},
               {kiteSection,
                [=](const QString &key, const QString &value) { return configuration->kite.set(key, value); }},
-              {QStringLiteral("wind"),
+              {windSection,
                [=](const QString &key, const QString &value) {
                    return setWind(&configuration->options.air, key, value);
                }},
-              {QStringLiteral("tether"),
+              {tetherSection,
                [=](const QString &key, const QString &value) {
                    return setTether(&configuration->options.tether, key, value);
                }},
-              {QStringLiteral("steering"),
+              {steeringSection,
                [=](const QString &key, const QString &value) {
                    return setSteering(&configuration->options.steering, key, value);
                }},
@@ -282,6 +285,54 @@ QStringList startKeysOf(const PlantReader &reader)
     return given;
 }
 
+/// Keys of a section that say something only if an option is on.
+struct OptionKeys
+{
+    bool isOn;
+    QString section;
+    QStringList keys;
+    QString reason;  // why they say nothing otherwise, and the remedy
+};
+
+/// Those of wind, tether and steering that \a reader has found.
+QVector<OptionKeys> optionKeys(const PlantReader &reader, const PlantOptions &options)
+{
+    const AirParameters &air = options.air;
+    const TetherKind tether = options.tether.kind;
+    const auto given = [&reader](const QString &section, const char *names) {
+        QStringList keys;
+        for (const QString &key : QString::fromLatin1(names).split(QLatin1Char(' '))) {
+            if (reader.lineOf(section, key) > 0)
+                keys << key;
+        }
+        return keys;
+    };
+    const auto allBesideKind = [&reader](const QString &section) {
+        QStringList keys = reader.keysOf(section);
+        keys.removeAll(kindKey);
+        return keys;
+    };
+    return {{air.profile != WindProfile::Uniform, windSection, given(windSection, "exponent referenceHeight roughness"),
+             QStringLiteral("in a uniform wind; write profile = power or profile = log in [wind], or leave it out")},
+            {air.profile == WindProfile::Power, windSection, given(windSection, "exponent"),
+             QStringLiteral("in a log profile; write profile = power in [wind], or leave it out")},
+            {air.profile == WindProfile::Log, windSection, given(windSection, "roughness"),
+             QStringLiteral("in a power profile; write profile = log in [wind], or leave it out")},
+            {air.isThinner, windSection, given(windSection, "scaleHeight"),
+             QStringLiteral("in a constant density; write density = falling in [wind], or leave it out")},
+            {tether != TetherKind::Spring, tetherSection, allBesideKind(tetherSection),
+             QStringLiteral("for a spring without drag and mass; write kind = straight or kind = segments in "
+                            "[tether], or leave it out")},
+            {tether == TetherKind::Segments, tetherSection,
+             given(tetherSection, "axialStiffness segmentDamping segments"),
+             QStringLiteral("for a straight tether; write kind = segments in [tether], or leave it out")},
+            {tether != TetherKind::Segments, kiteSection, given(kiteSection, "tetherDamping tetherStiffness"),
+             QStringLiteral("with a tether in segments; use axialStiffness and segmentDamping in [tether]")},
+            {options.steering.kind == SteeringKind::TurnRate, steeringSection, allBesideKind(steeringSection),
+             QStringLiteral("while the yaw speed is the command; write kind = turn-rate in [steering], or leave it "
+                            "out")}};
+}
+
 /// What the file and the command line say together. \return empty, or what excludes each other and
 /// the remedy
 QString contradiction(const PlantReader &reader, const QString &fileName, const PlantWords &words,
@@ -293,7 +344,7 @@ QString contradiction(const PlantReader &reader, const QString &fileName, const 
                     ? QStringLiteral("%1:%2: kind = machine").arg(fileName).arg(reader.lineOf(winchSection, kindKey))
                     : QStringLiteral("--winch machine"))
             + QStringLiteral(" and mode drag exclude each other, because the winch then only holds the tether; use "
-                             "kind = ideal in [winch], or mode = pumping in [kite]");
+                             "--winch ideal or kind = ideal in [winch], or --mode pumping or mode = pumping in [kite]");
     const auto isNeedless = [&](const QString &section, const QStringList &keys, const QString &reason) {
         return needless(reader, fileName, section, keys, reason);
     };
@@ -306,10 +357,14 @@ QString contradiction(const PlantReader &reader, const QString &fileName, const 
         error = isNeedless(winchSection, machineKeys,
                            QStringLiteral("without an electrical machine; write kind = machine in [winch], or leave it "
                                           "out"));
-    if (!isDrag && error.isEmpty())
+    if (!isDrag && words.mode.isEmpty() && error.isEmpty())
         error = isNeedless(turbineSection, reader.keysOf(turbineSection),
                            QStringLiteral("without turbines on board; write mode = drag in [kite], or leave out "
                                           "[turbines]"));
+    for (const OptionKeys &option : optionKeys(reader, configuration.options)) {
+        if (!option.isOn && error.isEmpty())
+            error = isNeedless(option.section, option.keys, option.reason);
+    }
     if (!error.isEmpty())
         return error;
     if (configuration.options.mast.isPresent)
@@ -390,12 +445,13 @@ bool PlantConfiguration::read(const QString &plant, PlantConfiguration *configur
             = QStringLiteral("the plant %1 has more than %2 bytes; choose another file").arg(fileName).arg(largestFile);
         return false;
     }
+    const QString &shownName = isName ? plant : fileName;
     PlantReader reader(QFileInfo(fileName).path(), configuration);
-    *error = take(&reader, fileName, content);
+    *error = take(&reader, shownName, content);
     if (error->isEmpty())
         *error = takeWords(words, configuration);
     if (error->isEmpty())
-        *error = contradiction(reader, fileName, words, *configuration);
+        *error = contradiction(reader, shownName, words, *configuration);
     configuration->options.hasMachine = configuration->winch == WinchKind::Machine;
     configuration->options.hasTurbines = configuration->kite.mode == FlightMode::Drag;
     return error->isEmpty();

@@ -24,6 +24,7 @@ private Q_SLOTS:
     void everyKeyAcceptsExactlyItsDocumentedRange();
     void kiteStartsInTheConfiguredState();
     void optionsOfThePlantAreRead();
+    void builtInFileDescribesTheOptions();
     void builtInFileDescribesTheMachine();
     void builtInFileDescribesTheMast();
     void mastStandsDownwindUnlessTheFileSaysWhere();
@@ -102,16 +103,28 @@ struct ShownKey
 {
     QString section, name, value, text;
 
-    bool isOfTurbines() const { return section == QLatin1String("turbines"); }
     bool isOfMachine() const { return section == QLatin1String("winch"); }
     bool isOfMast() const { return section == QLatin1String("mast") && name != QLatin1String("kind"); }
+    bool isOfOption() const { return !needed().isEmpty(); }
+    /// What the section has to say so that the key says something.
+    QString needed() const
+    {
+        static const QHash<QString, QString> ofWind{{"referenceHeight", "profile = log\n"},
+                                                    {"exponent", "profile = power\n"},
+                                                    {"roughness", "profile = log\n"},
+                                                    {"scaleHeight", "density = falling\n"}};
+        static const QHash<QString, QString> ofSection{{"winch", "kind = machine\n"},
+                                                       {"tether", "kind = segments\n"},
+                                                       {"steering", "kind = turn-rate\n"},
+                                                       {"mast", "kind = fixed\n"},
+                                                       {"turbines", "[kite]\nmode = drag\n"}};
+        if (section == QLatin1String("wind"))
+            return ofWind.value(name);
+        return name == QLatin1String("kind") ? QString() : ofSection.value(section);
+    }
     QString line(const QString &wanted) const
     {
-        const QString needed = isOfTurbines() ? QStringLiteral("[kite]\nmode = drag\n")
-            : isOfMachine()                   ? QStringLiteral("kind = machine\n")
-            : isOfMast()                      ? QStringLiteral("kind = fixed\n")
-                                              : QString();
-        return QStringLiteral("[%1]\n%2 = %3\n").arg(section, name, wanted) + needed;
+        return QStringLiteral("[%1]\n%2 = %3\n").arg(section, name, wanted) + needed();
     }
 };
 
@@ -140,8 +153,7 @@ void tst_PlantConfiguration::builtInFileDescribesTheKiteOfTheThesis()
     const QVector<ShownKey> keys = shownKeys();
     QCOMPARE(keys.size(), 74);
     for (const ShownKey &key : keys) {
-        if (key.name != QLatin1String("azimuth") && !key.isOfTurbines() && !key.isOfMachine()
-            && !key.isOfMast())  // without it: downwind
+        if (key.name != QLatin1String("azimuth") && !key.isOfOption())  // without it: downwind
             text += key.line(key.value).toUtf8();
     }
     PlantConfiguration shown, silent;
@@ -149,8 +161,6 @@ void tst_PlantConfiguration::builtInFileDescribesTheKiteOfTheThesis()
     QVERIFY2(PlantConfiguration::read(write(text), &shown, &error), qPrintable(error));
     QVERIFY2(PlantConfiguration::read(PlantConfiguration::builtInFile(), &silent, &error), qPrintable(error));
     const WindParameters wind;
-    const TetherParameters tether;
-    const SteeringParameters steering;
     PlantParameters expected;
     expected.groundContact = GroundContact::Hold;
     for (const PlantConfiguration &configuration : {shown, silent}) {
@@ -163,17 +173,8 @@ void tst_PlantConfiguration::builtInFileDescribesTheKiteOfTheThesis()
         PlantParameters::visitConstants(expected, collect(&wanted));
         WindParameters::visitConstants(configuration.kite.wind, collect(&values));
         WindParameters::visitConstants(wind, collect(&wanted));
-        TetherParameters::visitConstants(configuration.options.tether, collect(&values));
-        TetherParameters::visitConstants(tether, collect(&wanted));
-        SteeringParameters::visitConstants(configuration.options.steering, collect(&values));
-        SteeringParameters::visitConstants(steering, collect(&wanted));
         QCOMPARE(values, wanted);
         QVERIFY(configuration.options.isThesis());
-        const AirParameters &air = configuration.options.air;
-        QCOMPARE(air.referenceHeight, AirParameters().referenceHeight);
-        QVERIFY(std::abs(air.exponent - AirParameters().exponent) < 1e-6);
-        QCOMPARE(air.roughness, AirParameters().roughness);
-        QCOMPARE(air.scaleHeight, AirParameters().scaleHeight);
         QVERIFY(configuration.kite.wind.meanVelocity == WindParameters().meanVelocity);
         QCOMPARE(configuration.kite.wind.seed, WindParameters().seed);
         QCOMPARE(configuration.kite.wind.turbulenceModel, TurbulenceModel::FirstOrder);
@@ -252,6 +253,36 @@ void tst_PlantConfiguration::optionsOfThePlantAreRead()
     QCOMPARE(plant.options.tether.kind, TetherKind::Segments);
     QCOMPARE(plant.options.tether.segments, 4);
     QCOMPARE(plant.options.tether.diameter, 0.005);
+}
+
+/// Each key that an option needs, with this option, has the value that holds without the key.
+void tst_PlantConfiguration::builtInFileDescribesTheOptions()
+{
+    int keys = 0;
+    for (const ShownKey &key : shownKeys()) {
+        if (key.section != QLatin1String("wind") && key.section != QLatin1String("tether")
+            && key.section != QLatin1String("steering"))
+            continue;
+        ++keys;
+        PlantConfiguration plant;
+        QString error;
+        QVERIFY2(PlantConfiguration::read(write(key.line(key.value).toUtf8()), &plant, &error), qPrintable(error));
+        QVector<double> values, wanted;
+        const auto collect = [](QVector<double> *into) {
+            return [into](const char *, double value, double, double, const char *) { into->append(value); };
+        };
+        const PlantOptions options = plant.options, expected;
+        AirParameters::visitConstants(options.air, collect(&values));
+        AirParameters::visitConstants(expected.air, collect(&wanted));
+        TetherParameters::visitConstants(options.tether, collect(&values));
+        TetherParameters::visitConstants(expected.tether, collect(&wanted));
+        SteeringParameters::visitConstants(options.steering, collect(&values));
+        SteeringParameters::visitConstants(expected.steering, collect(&wanted));
+        for (int i = 0; i < wanted.size(); ++i)
+            QVERIFY2(std::abs(values[i] - wanted[i]) <= 1e-6 * std::abs(wanted[i]) + 1e-9, qPrintable(key.name));
+        QCOMPARE(options.tether.segments, expected.tether.segments);
+    }
+    QCOMPARE(keys, 19);
 }
 
 void tst_PlantConfiguration::builtInFileDescribesTheMachine()
@@ -387,6 +418,12 @@ void tst_PlantConfiguration::wordsOfTheCommandLineAreStronger()
     };
     QVERIFY2(read(QStringLiteral("ideal"), QStringLiteral("drag")), qPrintable(error));
     QVERIFY(plant.options.hasTurbines && !plant.options.hasMachine);
+    QVERIFY2(PlantConfiguration::read(QStringLiteral("drag"), &plant, &error, {{}, QStringLiteral("pumping")}),
+             qPrintable(error));
+    QVERIFY(!plant.options.hasTurbines);
+    QVERIFY(!read({}, QStringLiteral("drag")));
+    QVERIFY2(error.startsWith(QLatin1String("realistic:4: kind = machine and mode drag exclude each other")),
+             qPrintable(error));
     QVERIFY(!read(QStringLiteral("steam"), {}));
     QCOMPARE(error, QStringLiteral("--winch steam: use ideal, machine, drive or canopen"));
     QVERIFY(!read({}, QStringLiteral("fast")));
@@ -400,7 +437,8 @@ void tst_PlantConfiguration::contradictionIsRefused_data()
     QTest::addColumn<QString>("mode");
     QTest::addColumn<QString>("expected");
     const QString machine = QStringLiteral(" and mode drag exclude each other, because the winch then only holds the "
-                                           "tether; use kind = ideal in [winch], or mode = pumping in [kite]");
+                                           "tether; use --winch ideal or kind = ideal in [winch], or --mode "
+                                           "pumping or mode = pumping in [kite]");
     QTest::newRow("machine, mode in the file") << QByteArray("[kite]\nmode = drag\n[winch]\nkind = machine\n")
                                                << QString() << QString() << "plant.ini:4: kind = machine" + machine;
     QTest::newRow("machine, mode given") << QByteArray("[winch]\nkind = machine\n") << QString()
@@ -419,6 +457,32 @@ void tst_PlantConfiguration::contradictionIsRefused_data()
         << QByteArray("[mast]\nreach = 2\nkind = none\n") << QString() << QString()
         << QStringLiteral("plant.ini:2: 'reach' has no meaning without a mast; write kind = fixed in [mast], or leave "
                           "it out");
+    const auto add = [](const char *text, const char *expected) {
+        QTest::newRow(QByteArray(text).replace('\n', ' '))
+            << QByteArray(text) << QString() << QString() << QString::fromLatin1(expected);
+    };
+    add("[wind]\nroughness = 0.1\n",
+        "plant.ini:2: 'roughness' has no meaning in a uniform wind; write profile = power or profile = log in [wind], "
+        "or leave it out");
+    add("[wind]\nprofile = log\nexponent = 0.2\n",
+        "plant.ini:3: 'exponent' has no meaning in a log profile; write profile = power in [wind], or leave it out");
+    add("[wind]\nprofile = power\nroughness = 0.1\n",
+        "plant.ini:3: 'roughness' has no meaning in a power profile; write profile = log in [wind], or leave it out");
+    add("[wind]\nscaleHeight = 8000\n",
+        "plant.ini:2: 'scaleHeight' has no meaning in a constant density; write density = falling in [wind], or leave "
+        "it out");
+    add("[tether]\nsegments = 10\n",
+        "plant.ini:2: 'segments' has no meaning for a spring without drag and mass; write kind = straight or kind = "
+        "segments in [tether], or leave it out");
+    add("[tether]\nkind = straight\nsegments = 10\n",
+        "plant.ini:3: 'segments' has no meaning for a straight tether; write kind = segments in [tether], or leave it "
+        "out");
+    add("[kite]\ntetherStiffness = 5000\n[tether]\nkind = segments\n",
+        "plant.ini:2: 'tetherStiffness' has no meaning with a tether in segments; use axialStiffness and "
+        "segmentDamping in [tether]");
+    add("[steering]\nturnRateFactor = 0.2\n",
+        "plant.ini:2: 'turnRateFactor' has no meaning while the yaw speed is the command; write kind = turn-rate in "
+        "[steering], or leave it out");
     QTest::newRow("turbines without their mode")
         << QByteArray("[turbines]\ncoefficient = 0.2\n") << QString() << QString()
         << QStringLiteral("plant.ini:2: 'coefficient' has no meaning without turbines on board; write mode = drag in "
