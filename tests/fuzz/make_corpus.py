@@ -566,7 +566,7 @@ def serial_lines():
     }
 
 
-# ---- files of sysfs: bits of a count, and the text -----------------------------------------------
+# ---- files of sysfs: bits of a count, and the text, or a scan of IIO -----------------------------
 
 
 def sysfs():
@@ -587,6 +587,15 @@ def sysfs():
         "held low": line.replace(good, b"00 " * 8 + b"00").replace(b"26187", b"0"),
         "cut off": line[:50],
         "too hot": line.replace(b"26187", b"125063"),
+        "a type": b"7 le:s12/16>>4\n\n\x00\x80",
+        "a scan": b"0 le:s16/16>>0\n1 be:u24/32>>8\n2 le:s16/16X2>>0\n9 le:s64/64>>0\n\n" + bytes(range(24)),
+        "a scan of floats": b"0 le:f32/32>>0\n1 be:f64/64>>0\n\n" + b"\xff" * 16,
+        "an index twice": b"1 le:u8/8>>0\n1 le:u8/8>>0\n\n\x01\x02",
+        "a size of six": b"1 le:u16/16X3>>0\n\n123456",
+        "too long a scan": b"\n".join(b"%d le:u64/64X64>>0" % index for index in range(9)) + b"\n\n",
+        "more bits than bytes": b"0 le:u17/16>>0\n\n\x01\x02",
+        "too large a shift": b"0 le:u12/16>>5\n\n\x01\x02",
+        "storage of 24": b"0 be:s24/24>>0\n\n\x01\x02\x03",
     }
     return {name: bytes([8]) + text for name, text in texts.items()}
 

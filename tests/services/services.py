@@ -16,7 +16,13 @@ from pathlib import Path
 
 # Classes of devices that come with a module: systemd allows none that the kernel does not know when
 # the service starts.
-MODULES = {"char-i2c": "i2c_dev", "char-spi": "spidev", "char-ttyUSB": "usbserial", "char-ttyACM": "cdc_acm"}
+MODULES = {
+    "char-i2c": "i2c_dev",
+    "char-spi": "spidev",
+    "char-iio": "industrialio",
+    "char-ttyUSB": "usbserial",
+    "char-ttyACM": "cdc_acm",
+}
 NO_CYCLE = {"qtplc-recorder.service"}  # these have no cycle, and ordinary scheduling
 MOST_EXPOSED = 35  # tenths, as systemd-analyze security counts; "OK" begins at 50, "MEDIUM" above it
 errors = []

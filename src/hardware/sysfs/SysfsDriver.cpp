@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "IioBuffer.h"
 #include "QPlcDriverSettings.h"
 #include "QPlcReadChannel.h"
 #include "QPlcWriteChannel.h"
@@ -16,8 +17,10 @@
 #include <QtCore/QMap>
 #include <QtCore/QRegularExpression>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <cmath>
 #include <functional>
 #include <vector>
 
@@ -28,6 +31,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::chrono::nanoseconds ShortestThermometerInterval = 1s;  // it measures for 0.75 s
+constexpr std::chrono::nanoseconds ShortestSilence = 1s;              // a chip may need this for its first scan
 
 /// Kind `sysfs`: devices for which the kernel has a driver, such as converters, inertial sensors,
 /// counters, thermometers and PWM. See docs/hardware/sysfs.md.
@@ -62,6 +66,7 @@ protected:
                                              "name, label or place of the device ('qtplc_hardware FILE --monitor' "
                                              "lists the names when one is wrong)")
                                   .arg(name));
+        configureBuffer(settings);
         if (m_class->kind == SysfsClass::Iio)
             configureRanges(settings);
         else if (m_class->kind == SysfsClass::Counter)
@@ -101,30 +106,24 @@ protected:
 
     bool open() override
     {
-        QString error;
-        const QString path = m_class->find(m_root, m_device.section(QLatin1Char(':'), 1), &error);
-        m_access.reset();
-        if (path.isEmpty())
-            return fail(error);
-        if (!m_folder.open(path))
-            return failAt("open", {});
-        for (const auto &input : m_inputs) {
-            if (!openInput(input.get()))
-                return false;
-        }
-        for (const auto &output : m_outputs) {
-            if (!output->output->open(&m_folder))
-                return failAt("open", output->output->file());
-        }
-        return true;
+        if (openDevice())
+            return true;
+        m_buffer.close();
+        return false;
     }
 
-    void close() override { m_folder.close(); }
+    void close() override
+    {
+        m_buffer.close();
+        m_folder.close();
+    }
 
     bool read() override
     {
         if (m_access.hasFailed())
             return true;  // as write() has told
+        if (m_isBuffered)
+            return readBuffer();
         for (const auto &input : m_inputs) {
             double value = 0.0;
             if (!m_access.repeat([&] { return readInput(input.get(), &value); }))
@@ -169,6 +168,8 @@ protected:
             return QStringLiteral("this is not a regular file of sysfs: check 'root'");
         case EINVAL:
             return QStringLiteral("the chip cannot do this: look at 'period' and 'polarity', or 'function'");
+        case ENOMEM:
+            return QStringLiteral("the kernel has no memory for the buffer: write a shorter 'length'");
         default:
             return QPlcDriver::remedy(errorNumber);
         }
@@ -185,6 +186,7 @@ private:
         QPlcReadChannel channel;
         SysfsPwm pwm;         // of PWM
         QByteArray file;      // of the others
+        int number = 0;       // in the buffer
         double offset = 0.0;  // value = (number + offset) * factor
         double factor = 1.0;
     };
@@ -216,6 +218,33 @@ private:
     }
 
     // ---- keys ----
+
+    void configureBuffer(QPlcDriverSettings &settings)
+    {
+        m_isBuffered = settings.truth(QStringLiteral("buffer"), false);
+        if (m_isBuffered && m_class->kind != SysfsClass::Iio)
+            settings.addError(QStringLiteral("buffer"),
+                              QStringLiteral("of these devices, only IIO has buffers; leave 'buffer' out"));
+        if (m_class->kind != SysfsClass::Iio)
+            return;
+        m_bufferSettings.trigger = settings.text(QStringLiteral("trigger"));
+        m_bufferSettings.length = int(settings.integer(QStringLiteral("length"), m_bufferSettings.length,
+                                                       IioBuffer::ShortestLength, IioBuffer::LongestLength));
+        for (const char *name : {"trigger", "length"}) {
+            const QString key = QLatin1String(name);
+            if (!m_isBuffered && settings.has(key))
+                settings.addError(
+                    key, QStringLiteral("'%1' belongs to a buffer; add 'buffer = yes', or leave it out").arg(key));
+        }
+        if (!m_isBuffered)
+            return;
+        settings.claim(QStringLiteral("buffer"), QStringLiteral("buffer of ") + m_device);
+        // Outputs get their safe values also when the buffer cannot be set up.
+        if (!settings.namesBehind(QStringLiteral("range.")).isEmpty())
+            settings.addError(QStringLiteral("buffer"),
+                              QStringLiteral("a section with a buffer has no outputs; write another section with the "
+                                             "same 'device' for them"));
+    }
 
     /// Of outputs: "range.voltage0 = 0, 4.096".
     void configureRanges(QPlcDriverSettings &settings)
@@ -300,6 +329,31 @@ private:
 
     // ---- the device ----
 
+    bool openDevice()
+    {
+        QString error;
+        const QString path = m_class->find(m_root, m_device.section(QLatin1Char(':'), 1), &error);
+        m_access.reset();
+        m_problem = nullptr;
+        m_buffer.close();
+        if (path.isEmpty())
+            return fail(error);
+        if (!m_folder.open(path))
+            return failAt("open", {});
+        if (m_isBuffered && !m_buffer.open(m_root, &m_folder, m_bufferSettings))
+            return failAt("open", m_buffer.file());
+        for (const auto &input : m_inputs) {
+            if (!openInput(input.get()))
+                return false;
+        }
+        for (const auto &output : m_outputs) {
+            if (!output->output->open(&m_folder))
+                return failAt("open", output->output->file());
+        }
+        m_lastScan = QPlcReadChannel::Never;
+        return !m_isBuffered || m_buffer.start(now()) || failAt("open", m_buffer.file());
+    }
+
     bool openInput(Input *input)
     {
         const QByteArray name = input->channel.name().toUtf8();
@@ -307,6 +361,10 @@ private:
         switch (m_class->kind) {
         case SysfsClass::Iio:
             isFound = findIio(input, name);
+            if (isFound && m_problem) {
+                errno = EBADMSG;
+                return failAt("open", input->file);
+            }
             break;
         case SysfsClass::Hwmon:
             isFound = findHwmon(input, name);
@@ -326,15 +384,23 @@ private:
     bool findIio(Input *input, const QByteArray &channel)
     {
         const QByteArray name = labelled(channel, QByteArrayLiteral("in_"), QByteArrayLiteral("_label"));
-        const bool isRaw = !m_folder.has("in_" + name + "_input");  // else the driver has converted it already
+        const bool isConverted = m_folder.has("in_" + name + "_input");  // by the driver of the kernel
+        const bool isRaw = m_isBuffered || !isConverted;
         input->file = "in_" + name + (isRaw ? "_raw" : "_input");
         input->factor = SysfsText::iioUnit(name);
         input->offset = 0.0;
+        const QByteArrayList scales = SysfsText::iioFiles("in_", name, "scale");
         if (isRaw) {
-            input->factor *= m_folder.firstNumber(SysfsText::iioFiles("in_", name, "scale"), 1.0);
+            input->factor *= m_folder.firstNumber(scales, 1.0);
             input->offset = m_folder.firstNumber(SysfsText::iioFiles("in_", name, "offset"), 0.0);
         }
-        return m_folder.has(input->file);
+        if (!m_isBuffered)
+            return m_folder.has(input->file);
+        const bool hasScale = m_folder.has(input->file)
+            || std::any_of(scales.cbegin(), scales.cend(), [&](const QByteArray &file) { return m_folder.has(file); });
+        if (isConverted && !hasScale)
+            m_problem = "the kernel does not tell the scale of what is in its buffer; read it without 'buffer'";
+        return m_buffer.add(name, &input->number);
     }
 
     bool findHwmon(Input *input, const QByteArray &channel)
@@ -381,6 +447,8 @@ private:
 
     QStringList knownChannels() const
     {
+        if (m_isBuffered)
+            return m_buffer.channels();
         const bool isCounter = m_class->kind == SysfsClass::Counter;
         const bool isIio = m_class->kind == SysfsClass::Iio;
         QStringList names;
@@ -396,8 +464,9 @@ private:
 
     bool failUnknown(const QByteArray &channel)
     {
-        return fail(QStringLiteral("%1 has no channel %2%3")
-                        .arg(m_device, quoted(QString::fromUtf8(channel)), knownAre(knownChannels())));
+        return fail(QStringLiteral("%1 has no channel %2%3%4")
+                        .arg(m_device, quoted(QString::fromUtf8(channel)),
+                             m_isBuffered ? QStringLiteral(" in its buffer") : QString(), knownAre(knownChannels())));
     }
 
     bool readInput(Input *input, double *value)
@@ -429,6 +498,56 @@ private:
         return number.has_value();
     }
 
+    bool readBuffer()
+    {
+        IioBuffer::Result result = IioBuffer::Failed;
+        m_problem = nullptr;
+        if (m_lastScan == QPlcReadChannel::Never)
+            m_lastScan = now();
+        if (!m_access.repeat([&] { return (result = m_buffer.read()) != IioBuffer::Failed; }))
+            return keepAfter("read", m_buffer.file());
+        switch (result) {
+        case IioBuffer::Scan:
+            return setValues();
+        case IioBuffer::None:
+            break;
+        default:
+            m_access.reject();
+            failAt("read", m_buffer.file());
+            return m_access.keep(now(), timeout().count()) && result != IioBuffer::Torn;
+        }
+        const qint64 longest = std::max(timeout(), ShortestSilence).count();
+        if (now() - m_lastScan > longest)
+            return fail(QStringLiteral("%1 (%2) has sent no scan for %3 s; look at its trigger: its rate, and whether "
+                                       "it runs (a slow one needs a longer 'timeout')")
+                            .arg(m_device, m_folder.path())
+                            .arg(double(longest) * 1e-9));
+        m_access.succeed(now());
+        return true;
+    }
+
+    /// All of a scan, or none of it.
+    bool setValues()
+    {
+        const qint64 time = m_buffer.time(now());
+        m_lastScan = now();
+        for (const auto &input : m_inputs) {
+            if (std::isfinite(valueOf(*input)))
+                continue;
+            m_problem = "it is not a finite number; check the device, or use another channel";
+            errno = EBADMSG;
+            m_access.reject();
+            failAt("read", input->channel.name().toUtf8());
+            return m_access.keep(now(), timeout().count());
+        }
+        for (const auto &input : m_inputs)
+            input->channel.set(valueOf(*input), time);
+        m_access.succeed(now());
+        return true;
+    }
+
+    double valueOf(const Input &input) const { return (m_buffer.value(input.number) + input.offset) * input.factor; }
+
     /// \return false when the device is lost
     bool keepAfter(const char *operation, const QByteArray &file)
     {
@@ -442,8 +561,9 @@ private:
         const QString place = file.isEmpty() ? QString() : QStringLiteral("'%1' of ").arg(QString::fromUtf8(file));
         const QString what
             = QStringLiteral("cannot %1 %2%3 (%4)").arg(QLatin1String(operation), place, m_device, m_folder.path());
-        if (m_problem && errorNumber == EBADMSG)
-            return fail(what + QStringLiteral(": ") + QLatin1String(m_problem));
+        const QString problem = m_problem ? QString::fromLatin1(m_problem) : m_buffer.problem();
+        if (!problem.isEmpty() && errorNumber == EBADMSG)
+            return fail(what + QStringLiteral(": ") + problem);
         return fail(QStringLiteral("%1: %2; %3").arg(what, qt_error_string(errorNumber), remedy(errorNumber)));
     }
 
@@ -457,7 +577,12 @@ private:
     QMap<QString, SysfsPwm::Settings> m_special;       // of channels with keys of their own
     QMap<QString, SysfsAnalogOutput::Range> m_ranges;  // of outputs
 
+    bool m_isBuffered = false;
+    IioBuffer::Settings m_bufferSettings;
+
     SysfsFolder m_folder;
+    IioBuffer m_buffer;
+    qint64 m_lastScan = 0;  // or the first reading [ns]
     DeviceAccess m_access{this};
     const char *m_problem = nullptr;  // with the text of the last access; null if it is right
     std::vector<std::unique_ptr<Input>> m_inputs;

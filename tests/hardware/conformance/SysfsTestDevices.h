@@ -6,6 +6,10 @@
 
 #include <QtCore/QProcess>
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 /// A converter of the class IIO.
 class SysfsConverterDevice : public TestDevice
 {
@@ -37,6 +41,68 @@ public:
 private:
     const QString m_folder = QStringLiteral("bus/iio/devices/iio:device0/");
     const SysfsTree m_tree{QStringLiteral("fake:converter")};
+};
+
+/// A converter of the class IIO that sends scans of its only channel.
+class SysfsBufferDevice : public TestDevice
+{
+public:
+    ~SysfsBufferDevice() override { closeNode(); }
+
+    QString kind() const override { return QStringLiteral("sysfs"); }
+    QByteArray keys() const override { return "root = fake:scans\ndevice = iio:ads8688\nbuffer = yes\n"; }
+    QString name() const override { return QStringLiteral("iio:ads8688"); }
+    QStringList inputs() const override { return {QStringLiteral("voltage0")}; }
+    QVector<double> values() const override { return {0.5, 4.095}; }
+
+    bool plugIn() override
+    {
+        for (const auto &[file, text] : {std::pair{"name", "ads8688\n"},
+                                         {"in_voltage_scale", "0.5\n"},
+                                         {"scan_elements/in_voltage0_en", "0\n"},
+                                         {"scan_elements/in_voltage0_index", "0\n"},
+                                         {"scan_elements/in_voltage0_type", "le:u16/16>>0\n"},
+                                         {"buffer/length", "2\n"},
+                                         {"buffer/enable", "0\n"}})
+            m_tree.write(QStringLiteral("bus/iio/devices/iio:device0/") + file, text);
+        const QString node = m_tree.path(QStringLiteral("dev/iio:device0"));
+        const QByteArray path = node.toLocal8Bit();
+        QDir().mkpath(QFileInfo(node).path());
+        ::mkfifo(path.constData(), 0600);  // it may be there
+        closeNode();
+        m_writer = ::open(path.constData(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
+        return m_writer >= 0;
+    }
+    bool unplug() override
+    {
+        closeNode();
+        return m_tree.remove();
+    }
+    bool fallSilent() override
+    {
+        closeNode();
+        return true;
+    }
+    void live() override
+    {
+        const auto number = quint16(qRound(m_value * 2000.0));
+        const quint8 scan[] = {quint8(number), quint8(number >> 8)};
+        if (m_writer >= 0 && ::write(m_writer, scan, sizeof scan) < 0)
+            qWarning("nothing reads the scans");
+    }
+    void give(const QString &, double value) override { m_value = value; }
+
+private:
+    void closeNode()
+    {
+        if (m_writer >= 0)
+            ::close(m_writer);
+        m_writer = -1;
+    }
+
+    const SysfsTree m_tree{QStringLiteral("fake:scans")};
+    int m_writer = -1;
+    double m_value = 0.0;
 };
 
 /// A channel of a PWM chip that is there already.
@@ -145,5 +211,7 @@ inline void addSysfsDevices(TestDevices *devices)
                             [bus = parts[0], chip] { return std::make_unique<SysfsKernelDevice>(bus, chip); });
     }
     devices->insert(QStringLiteral("sysfs, fake converter"), [] { return std::make_unique<SysfsConverterDevice>(); });
+    devices->insert(QStringLiteral("sysfs, fake converter with a buffer"),
+                    [] { return std::make_unique<SysfsBufferDevice>(); });
     devices->insert(QStringLiteral("sysfs, fake PWM"), [] { return std::make_unique<SysfsPwmDevice>(); });
 }
