@@ -13,12 +13,15 @@ FlightObserver::FlightObserver(const FlightStatisticsParameters &parameters, con
     , m_tetherSpeed(this, winchSpeedSignal(plant.winch))
 {
     setReceivesQuality(true);
-    if (plant.options.hasMachine)
+    if (plant.options.hasMachine) {
         m_electricalEnergy.emplace(this, "electricalEnergy");
+        m_machineOff.emplace(this, machineOffSignal);
+    }
     if (plant.options.hasTurbines)
         m_turbineEnergy.emplace(this, "turbineEnergy");
     if (plant.options.mast.isPresent) {
         m_docked.emplace(this, mastDockedSignal);
+        m_crashed.emplace(this, "crashed");
         m_dockings.emplace(this, mastDockingsSignal);
         m_dockingSpeed.emplace(this, mastDockingSpeedSignal);
     }
@@ -47,12 +50,15 @@ void FlightObserver::step(const QPlcCycle &)
     sample.tetherSpeed = m_tetherSpeed;
     sample.power = m_power;
     sample.energy = m_energy;
-    if (m_electricalEnergy)
+    if (m_electricalEnergy) {
         sample.electricalEnergy = *m_electricalEnergy;
+        sample.isMachineOff = *m_machineOff;
+    }
     if (m_turbineEnergy)
         sample.turbineEnergy = *m_turbineEnergy;
     if (m_docked) {
         sample.isDocked = *m_docked;
+        sample.crashed = *m_crashed;
         sample.dockings = *m_dockings;
         sample.dockingSpeed = *m_dockingSpeed;
     }

@@ -45,10 +45,13 @@ private:
     QPlcInput<double> m_power{this, "power"};                      // [W]
     QPlcInput<double> m_energy{this, "energy"};                    // [J]
     QPlcInput<qint8> m_phase{this, "flightPhase"};
-    std::optional<QPlcInput<double>> m_electricalEnergy;  // [J], of a machine at the winch
-    std::optional<QPlcInput<double>> m_turbineEnergy;     // [J], of turbines on board
+    // Of a machine at the winch:
+    std::optional<QPlcInput<double>> m_electricalEnergy;  // [J]
+    std::optional<QPlcInput<bool>> m_machineOff;
+    std::optional<QPlcInput<double>> m_turbineEnergy;  // [J], of turbines on board
     // Of a mast:
     std::optional<QPlcInput<bool>> m_docked;
+    std::optional<QPlcInput<bool>> m_crashed;  // also of a wing that hit the mast
     std::optional<QPlcInput<qint32>> m_dockings;
     std::optional<QPlcInput<double>> m_dockingSpeed;  // [m/s]
 };

@@ -91,8 +91,14 @@ QString summary(const QJsonObject &report)
                        .arg(number(report, "wall_s"), 0, 'f', 2)
                        .arg(number(report, "real_time_factor"), 0, 'f', 1);
     if (report.value(QStringLiteral("crashed")).toBool())
-        text += QStringLiteral("  THE KITE CRASHED after %1 s: it came down to the ground\n")
-                    .arg(number(report, "crashed_after_s"), 0, 'f', 1);
+        text += QStringLiteral("  THE KITE CRASHED after %1 s: it %2\n")
+                    .arg(number(report, "crashed_after_s"), 0, 'f', 1)
+                    .arg(report.value(QStringLiteral("hit_mast")).toBool() ? QStringLiteral("hit the mast")
+                                                                           : QStringLiteral("came down to the ground"));
+    if (report.contains(QStringLiteral("machine_off_after_s")))
+        text += QStringLiteral("  THE MACHINE OF THE WINCH WAS SWITCHED OFF after %1 s: it was faster than "
+                               "largestSpeed of [winch], and its brake holds the drum\n")
+                    .arg(number(report, "machine_off_after_s"), 0, 'f', 1);
     if (report.value(QStringLiteral("no_kite")).toBool())
         text += QStringLiteral("  There was no kite: no node wrote its position. Start awe_model before the flight.\n");
     text += row("energy", QStringLiteral("%1 kJ").arg(number(report, "energy_J") * 1e-3, 0, 'f', 1));

@@ -417,6 +417,10 @@ QJsonObject FlightRun::makeReport() const
         reportMast(flight, &report);
     if (flight.crashed)
         report.insert(QStringLiteral("crashed_after_s"), flight.crashTime);
+    if (flight.hitMast)
+        report.insert(QStringLiteral("hit_mast"), true);
+    if (flight.wasMachineOff)
+        report.insert(QStringLiteral("machine_off_after_s"), flight.machineOffTime);
     if (!m_observer.sawKite())
         report.insert(QStringLiteral("no_kite"), true);
     reportLinks(&report);

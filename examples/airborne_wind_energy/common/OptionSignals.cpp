@@ -56,6 +56,7 @@ void addMachine(Signals *all)
     add(all, "machineSpeed", &PlantDetails::machineSpeed);
     add(all, "machineCurrent", &PlantDetails::machineCurrent);
     add(all, "machinePosition", &PlantDetails::machinePosition);
+    add(all, machineOffSignal, &PlantDetails::isMachineOff);
     add(all, "electricalPower", &PlantDetails::electricalPower);
     all->push_back(
         {"electricalEnergy", Number([](const KiteDetails &kite) { return kite.plant.energies.electrical; })});

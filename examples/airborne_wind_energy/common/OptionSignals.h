@@ -28,7 +28,9 @@ std::vector<OptionSignal> modelSignals(const PlantOptions &options);
 
 /// What the autopilot tells a wing that the air turns.
 constexpr const char *steeringCommandSignal = "steeringCommand";
-/// What it tells turbines on board.
+/// Whether overspeed has switched the machine of the winch off.
+constexpr const char *machineOffSignal = "machineOff";
+/// What the autopilot tells turbines on board.
 constexpr const char *turbineCoefficientSignal = "turbineCoefficient";
 /// What it tells a mast.
 constexpr const char *mastReleaseSignal = "mastRelease";

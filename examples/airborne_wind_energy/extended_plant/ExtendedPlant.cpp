@@ -440,13 +440,14 @@ PlantDetails ExtendedPlant::details(const PlantInputs &inputs) const
     details.machineCurrent = m_machine.current();
     details.machinePosition = m_machine.position();
     details.energies = m_machine.energies();
+    details.isMachineOff = isMachineOff();
     details.isDocked = m_isDocked;
     details.dockings = m_dockings;
     details.dockingSpeed = m_dockingSpeed;
-    if (isAtRest())
-        return details;
-    details.turbinePower = wing(m_state, air, inputs).turbinePower;
-    details.electricalPower = m_machine.electricalPower();
+    if (!isHeld())
+        details.electricalPower = m_machine.electricalPower();  // on the mast, too: the converter is on
+    if (!isAtRest())
+        details.turbinePower = wing(m_state, air, inputs).turbinePower;
     return details;
 }
 

@@ -26,6 +26,7 @@ struct PlantDetails
     double machinePosition = 0.0;                        // [rad]
     double electricalPower = 0.0;                        // [W], > 0 while the winch generates
     WinchEnergies energies;                              // of the winch [J]
+    bool isMachineOff = false;                           // overspeed switched it off; the brake holds the drum
     bool isDocked = false;                               // the wing hangs on the mast
     int dockings = 0;                                    // times it came back since reset()
     double dockingSpeed = 0.0;                           // |v| as it last came back [m/s]
@@ -88,6 +89,9 @@ public:
     double tetherLength() const { return m_isThesis ? m_thesis.state().tetherLength : single(m_state, TetherLength); }
     /// Of the winch, since reset() [J], > 0 when it has generated.
     double electricalEnergy() const { return m_machine.energies().electrical; }
+    /// true since the machine was faster than its largest speed: its brake holds the drum until
+    /// reset()
+    bool isMachineOff() const { return m_machine.state() == DriveState::Fault; }
     /// Of the turbines, since reset() [J].
     double turbineEnergy() const { return single(m_state, TurbineEnergy); }
 

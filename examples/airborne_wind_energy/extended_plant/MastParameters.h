@@ -14,6 +14,8 @@ namespace awe {
 ///     crashes  |r| < distance - 1 m: the wing hit the mast
 struct MastParameters
 {
+    static constexpr double farthest = 40.0;  // the wing comes as near as 50 m when it recovers [m]
+
     bool isPresent = false;
     double distance = 12.0;              // of the top from the winch [m]
     double elevation = 70.0;             // of the top, seen from the winch [deg]
@@ -24,7 +26,7 @@ struct MastParameters
     template<typename Parameters, typename Visitor>
     static void visitConstants(Parameters &parameters, Visitor visit)
     {
-        visit("distance", parameters.distance, 3.0, 100.0, "m");
+        visit("distance", parameters.distance, 3.0, farthest, "m");
         visit("elevation", parameters.elevation, 20.0, 85.0, "deg");
         visit("azimuth", parameters.azimuth, -180.0, 180.0, "deg");
         visit("reach", parameters.reach, 0.1, 10.0, "m");

@@ -184,6 +184,8 @@ std::string AutopilotGains::validate() const
     checkRecovery(*this, check);
     checkFiltersAndLimit(*this, check);
     mast.check(check);
+    if (mast.isPresent && constantTether > 0.0)  // the cycle begins where the ascent ends
+        check.within("turbines.tetherLength", constantTether, mast.parkTether, 1e5, "m");
     return check.message();
 }
 

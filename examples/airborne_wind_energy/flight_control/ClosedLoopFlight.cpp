@@ -154,6 +154,8 @@ void ClosedLoopFlight::recordStatistics()
     sample.isDocked = m_plant.isDocked();
     sample.dockings = m_plant.dockings();
     sample.dockingSpeed = m_plant.dockingSpeed();
+    sample.crashed = m_outputs.crashed;
+    sample.isMachineOff = m_plant.isMachineOff();
     sample.flightPhase = static_cast<std::int8_t>(m_commands.phase);
     m_statistics.step(sample);
 }

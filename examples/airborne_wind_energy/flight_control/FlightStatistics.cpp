@@ -93,9 +93,15 @@ void FlightStatistics::step(const FlightSample &sample)
         m_afterWarmUp.add(sample, windSpeed);
     m_all.add(sample, windSpeed);
     followPhase(sample.flightPhase);
-    if (sample.position.z() <= 0.0 && !m_crashed) {
+    const double time = static_cast<double>(m_all.count - 1) * m_parameters.step;
+    if ((sample.position.z() <= 0.0 || sample.crashed) && !m_crashed) {
         m_crashed = true;
-        m_crashTime = static_cast<double>(m_all.count - 1) * m_parameters.step;
+        m_hitMast = sample.position.z() > 0.0;
+        m_crashTime = time;
+    }
+    if (sample.isMachineOff && !m_wasMachineOff) {
+        m_wasMachineOff = true;
+        m_machineOffTime = time;
     }
     m_maximumSpeed = std::max(m_maximumSpeed, sample.velocity.norm());
     m_maximumPower = std::max(m_maximumPower, sample.power);
@@ -170,7 +176,10 @@ FlightReport FlightStatistics::report() const
     report.dockingSpeed = m_dockingSpeed;
     report.landed = m_starts > 0 && m_isDocked;
     report.crashed = m_crashed;
+    report.hitMast = m_hitMast;
     report.crashTime = m_crashTime;
+    report.wasMachineOff = m_wasMachineOff;
+    report.machineOffTime = m_machineOffTime;
     return report;
 }
 

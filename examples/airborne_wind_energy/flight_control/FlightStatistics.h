@@ -28,6 +28,8 @@ struct FlightSample
     bool isDocked = false;                                   // on the mast
     int dockings = 0;                                        // so far
     double dockingSpeed = 0.0;                               // of the last one [m/s]
+    bool crashed = false;                                    // the plant says that the wing hit ground or mast
+    bool isMachineOff = false;                               // a fault has switched the machine of the winch off
 };
 
 struct FlightStatisticsParameters
@@ -75,8 +77,11 @@ struct FlightReport
     int dockings = 0;                  // all
     double dockingSpeed = 0.0;         // fastest docking [m/s], all
     bool landed = false;               // started, and on the mast at the end
-    bool crashed = false;              // z <= 0 in any sample, all
+    bool crashed = false;              // z <= 0 in any sample, or the plant says so, all
+    bool hitMast = false;              // crashed above the ground
     double crashTime = 0.0;            // of the first such sample, since the begin [s]
+    bool wasMachineOff = false;        // in any sample, all
+    double machineOffTime = 0.0;       // of the first such sample, since the begin [s]
 };
 
 /// Adds up a flight cycle by cycle. step() takes no memory. One thread at a time.
@@ -137,7 +142,10 @@ private:
     double m_maximumSpeed = 0.0;
     double m_maximumPower = 0.0;
     bool m_crashed = false;
-    double m_crashTime = 0.0;
+    bool m_hitMast = false;
+    double m_crashTime = 0.0;  // [s]
+    bool m_wasMachineOff = false;
+    double m_machineOffTime = 0.0;  // [s]
 };
 
 }  // namespace awe

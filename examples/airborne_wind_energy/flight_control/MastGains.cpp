@@ -7,7 +7,7 @@ namespace awe {
 
 void MastGains::check(RangeCheck &check) const
 {
-    check.within("mast.distance", distance, 3.0, 100.0, "m");
+    check.within("mast.distance", distance, 3.0, 40.0, "m");
     check.within("mast.elevation", elevation, 20.0, 85.0, "deg");
     check.within("mast.startWind", startWind, 0.0, stormStartWind, "m/s");
     check.within("mast.landWind", landWind, 0.0, startWind, "m/s");

@@ -73,6 +73,14 @@ void tst_AutopilotGains::badGainIsNamedWithItsRemedy_data()
         "mast", [](AutopilotGains &g) { g.mast.landWind = 7.0; },
         "mast.landWind is 7 m/s; choose a value from 0 to 6.2");
     row(
+        "short tether of turbines at a mast",
+        [](AutopilotGains &g) {
+            g = AutopilotGains::drag();
+            g.mast.isPresent = true;
+            g.constantTether = 50.0;
+        },
+        "turbines.tetherLength is 50 m; choose a value from 100 to");
+    row(
         "no step", [](AutopilotGains &g) { g.step = 0.0; }, "step is 0 s");
 }
 

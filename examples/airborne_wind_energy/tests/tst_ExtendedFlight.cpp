@@ -19,6 +19,7 @@ private Q_SLOTS:
     void turbulentRealisticFlightsSurvive();
     void everyWindIsFlownRealistically_data();
     void everyWindIsFlownRealistically();
+    void stormSwitchesTheMachineOffAndTheReportTells();
     void turbinesOnBoardReachTheirFigures();
     void tunedTurbinesFlyLowerWithMorePower();
     void turbinesOnBoardSurviveTurbulence_data();
@@ -138,6 +139,20 @@ void tst_ExtendedFlight::everyWindIsFlownRealistically()
     QVERIFY(!report.crashed);
     const double efficiency = report.electricalPower / report.meanPower;
     QVERIFY2(efficiency >= (speed >= 7.0 ? 0.78 : 0.6), qPrintable(QString::number(efficiency)));
+}
+
+void tst_ExtendedFlight::stormSwitchesTheMachineOffAndTheReportTells()
+{
+    ClosedLoopParameters parameters = realistic();
+    QVERIFY(!fly(parameters).wasMachineOff);
+    parameters.wind.meanVelocity = {30.0, 0.0, 0.0};
+    ClosedLoopFlight flight(parameters);
+    flight.fly(300.0);
+    const FlightReport report = flight.report();
+    QVERIFY(report.wasMachineOff);
+    QVERIFY(report.machineOffTime > 0.0 && report.machineOffTime < 300.0);
+    QVERIFY(flight.plant().isMachineOff());
+    QCOMPARE(flight.outputs().power, 0.0);  // its brake holds the drum
 }
 
 void tst_ExtendedFlight::turbinesOnBoardReachTheirFigures()

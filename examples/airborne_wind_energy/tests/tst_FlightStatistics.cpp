@@ -28,6 +28,8 @@ private Q_SLOTS:
     void parametersFollowFromThePlant();
     void forceIsTheLargestOfAll();
     void groundContactIsACrash();
+    void contactAboveTheGroundIsThatOfTheMast();
+    void firstSwitchOffOfTheMachineIsTold();
     void unknownPhaseIsNotCounted();
     void resetClearsAllFigures();
     void badParameterIsNamed();
@@ -224,6 +226,33 @@ void tst_FlightStatistics::groundContactIsACrash()
     m_sample.position.z() = 20.0;
     add(1);
     QVERIFY(m_statistics.report().crashed);
+}
+
+void tst_FlightStatistics::contactAboveTheGroundIsThatOfTheMast()
+{
+    m_sample.position.z() = 11.0;
+    add(100);
+    m_sample.crashed = true;
+    add(10);
+    const FlightReport report = m_statistics.report();
+    QVERIFY(report.crashed && report.hitMast);
+    COMPARE_NEAR(report.crashTime, 1.0, 1e-9);
+    m_statistics.reset();
+    m_sample.position.z() = -0.1;
+    add(1);
+    QVERIFY(m_statistics.report().crashed && !m_statistics.report().hitMast);
+}
+
+void tst_FlightStatistics::firstSwitchOffOfTheMachineIsTold()
+{
+    add(200);
+    QVERIFY(!m_statistics.report().wasMachineOff);
+    for (const bool isOff : {true, false, true}) {
+        m_sample.isMachineOff = isOff;
+        add(50);
+    }
+    QVERIFY(m_statistics.report().wasMachineOff);
+    COMPARE_NEAR(m_statistics.report().machineOffTime, 2.0, 1e-9);
 }
 
 void tst_FlightStatistics::unknownPhaseIsNotCounted()

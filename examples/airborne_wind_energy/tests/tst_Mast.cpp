@@ -16,6 +16,8 @@ private Q_SLOTS:
     void wingThatComesBackIsCaughtAndItsSpeedTold();
     void wingOutOfReachIsNotCaught();
     void wingBehindTheMastCrashes();
+    void electricalPowerOnTheMastIsThatOfTheEnergy();
+    void reportTellsThatTheWingHitTheMast();
     void resetDocksTheWingAgain();
     void mastWorksWithAllOptions();
 
@@ -134,6 +136,36 @@ void tst_Mast::wingBehindTheMastCrashes()
     plant.setPoint(1, 0.9 * withMast().mast.top(), Eigen::Vector3d::Zero());
     plant.step(blowing(8.0, false));
     QVERIFY(plant.hasCrashed());
+}
+
+void tst_Mast::electricalPowerOnTheMastIsThatOfTheEnergy()
+{
+    PlantOptions options = withMast();
+    options.hasMachine = true;
+    ExtendedPlant plant(PlantParameters(), options);
+    const PlantInputs inputs = blowing(8.0, false);
+    for (int i = 0; i < 100; ++i)
+        plant.step(inputs);
+    const double before = plant.electricalEnergy();
+    for (int i = 0; i < 100; ++i)
+        plant.step(inputs);
+    const double power = plant.electricalEnergy() - before;  // of a second
+    COMPARE_NEAR(power, -options.machine.converterLoss, 1e-9);
+    COMPARE_NEAR(plant.details(inputs).electricalPower, power, 1e-9);
+}
+
+/// The mast stands upwind: the wind carries the released wing against it.
+void tst_Mast::reportTellsThatTheWingHitTheMast()
+{
+    ClosedLoopParameters parameters = atMast(8.0);
+    parameters.options.mast.azimuth -= 180.0;
+    ClosedLoopFlight flight(parameters);
+    flight.setRequest(FlightRequest::Fly);
+    flight.fly(60.0);
+    QVERIFY(flight.plant().hasCrashed());
+    const FlightReport report = flight.report();
+    QVERIFY(report.crashed && report.hitMast && !report.landed);
+    QVERIFY2(report.crashTime > 0.0 && report.crashTime < 30.0, qPrintable(QString::number(report.crashTime)));
 }
 
 void tst_Mast::resetDocksTheWingAgain()
