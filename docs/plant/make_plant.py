@@ -32,6 +32,7 @@ MAST_PLANTS = {
     "spring": "spring tether, yaw speed as command",
     "turn-rate": "the same with turn-rate steering",
     "realistic": "realistic",
+    "drag": "turbines on board, spring tether",
 }
 DURATION = 1860  # [s]: a minute that does not count, and half an hour
 THESIS_WIND = (5.0, 3.0, 0.0)  # [m/s]

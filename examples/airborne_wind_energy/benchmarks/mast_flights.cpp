@@ -32,7 +32,8 @@ std::vector<Plant> plants()
     steered.steering.kind = SteeringKind::TurnRate;
     return {{"spring", {}, AutopilotGains::safe()},
             {"turn-rate", steered, AutopilotGains::steered()},
-            {"realistic", PlantOptions::realistic(), AutopilotGains::steered()}};
+            {"realistic", PlantOptions::realistic(), AutopilotGains::steered()},
+            {"drag", PlantOptions::drag(), AutopilotGains::drag()}};
 }
 
 /// The separator before the next element of a list.

@@ -30,6 +30,8 @@ private Q_SLOTS:
     void calmFlightsDockGently();
     void turbulentFlightsDock_data();
     void turbulentFlightsDock();
+    void turbinesOnBoardGenerateAndDock_data();
+    void turbinesOnBoardGenerateAndDock();
     void lullInTheMiddleOfReelingOutEndsTheFlight();
     void dayIsFlownWithoutAHand();
     void turbulentDaysAreSurvived_data();
@@ -308,6 +310,35 @@ void tst_Mast::turbulentFlightsDock()
         const FlightReport report = startAndLand(parameters);
         QVERIFY2(report.landed, qPrintable(QString::number(parameters.wind.seed)));
         QVERIFY2(report.dockingSpeed <= 2.5, qPrintable(QString::number(report.dockingSpeed)));
+    }
+}
+
+void tst_Mast::turbinesOnBoardGenerateAndDock_data()
+{
+    QTest::addColumn<double>("speed");
+    QTest::addColumn<double>("turbulence");
+    for (const double speed : {6.0, 8.0, 12.0})
+        QTest::addRow("%g m/s", speed) << speed << 0.0;
+    for (const double speed : {8.0, 10.0, 12.0})
+        QTest::addRow("%g m/s, turbulent", speed) << speed << 0.15;
+}
+
+/// The tether is paid out to 150 m, and the wing lands from there.
+void tst_Mast::turbinesOnBoardGenerateAndDock()
+{
+    QFETCH(double, speed);
+    QFETCH(double, turbulence);
+    ClosedLoopParameters parameters = atMast(speed, turbulence);
+    parameters.options.hasTurbines = true;
+    parameters.gains = AutopilotGains::drag();
+    parameters.gains.mast.isPresent = true;
+    for (parameters.wind.seed = 10; parameters.wind.seed <= lastSeed(); ++parameters.wind.seed) {
+        const FlightReport report = startAndLand(parameters);
+        QVERIFY2(report.landed && !report.crashed, qPrintable(QString::number(parameters.wind.seed)));
+        QVERIFY2(report.turbinePower > 500.0, qPrintable(QString::number(report.turbinePower)));
+        QCOMPARE(report.pumpingCycles, 0);
+        QVERIFY2(report.dockingSpeed <= (turbulence > 0.0 ? 2.5 : 1.0),
+                 qPrintable(QString::number(report.dockingSpeed)));
     }
 }
 
