@@ -74,6 +74,8 @@ private Q_SLOTS:
     void plantWithOptionsIsTheSameInEveryProcess();
     void optionsAddTheirFiguresToTheReport();
     void kiteAtAMastStartsAndLands();
+    void endOfAFlightWithOptionsIsTold_data();
+    void endOfAFlightWithOptionsIsTold();
     void plantWithOptionsEqualsTheSingleLoopFlight();
     void reportContainsTheAgeOfEveryLink_data();
     void reportContainsTheAgeOfEveryLink();
@@ -328,6 +330,51 @@ void tst_awe_sil::kiteAtAMastStartsAndLands()
     QVERIFY(figure(flight, "starts") == 1.0 && figure(flight, "dockings") == 1.0);
     QVERIFY(figure(flight, "docking_speed_m_s") > 0.0 && figure(flight, "docking_speed_m_s") <= 1.0);
     QVERIFY(figure(flight, "pumping_cycles") >= 2.0);
+}
+
+/// What a flight ended with is in its summary and report, and the remedy in what refuses it.
+void tst_awe_sil::endOfAFlightWithOptionsIsTold_data()
+{
+    QTest::addColumn<QByteArray>("plant");
+    QTest::addColumn<QString>("options");
+    QTest::addColumn<int>("exitCode");
+    QTest::addColumn<QString>("message");
+    const auto add = [](const char *name, const char *plant, const char *options, int exitCode, const char *message) {
+        QTest::newRow(name) << QByteArray(plant) << QString::fromLatin1(options) << exitCode
+                            << QString::fromUtf8(message);
+    };
+    add("mast upwind", "[kite]\nwind = 8,0,0\n[mast]\nkind = fixed\nazimuth = 180\n", "--duration=100", 0,
+        ": it hit the mast\n");
+    add("overspeed", "[winch]\nkind = machine\nlargestSpeed = 20\n", "--duration=100", 0,
+        "\n  THE MACHINE OF THE WINCH WAS SWITCHED OFF after ");
+    add("reeled in", "[tether]\nkind = segments\n", "--controls=0,0,-4 --duration=30", 2,
+        "the tether is reeled in: its segments are shorter than 5 cm; stop the winch before");
+    add("stiff segments", "[tether]\nkind = segments\naxialStiffness = 1e9\n", "--duration=5", 2,
+        "the simulation has diverged");
+    add("nodes without mass", "[tether]\nkind = segments\ndensity = 0\n", "--duration=5", 2,
+        "awe_sil: density of the tether is 0 kg/m³; choose a value from 1 to 20000 kg/m³");
+    add("short segments", "[kite]\ndistance = 0.1\n[tether]\nkind = segments\n", "--duration=5", 2,
+        "awe_sil: tether length at the start is 0.1 m; choose a value from 0.3 to 1e+06 m");
+    add("short tether of turbines at a mast",
+        "[kite]\nmode = drag\n[mast]\nkind = fixed\n[turbines]\ntetherLength = 20\n", "--duration=5", 2,
+        "awe_sil: turbines.tetherLength is 20 m; choose a value from 100 to 100000 m");
+}
+
+void tst_awe_sil::endOfAFlightWithOptionsIsTold()
+{
+    QFETCH(QByteArray, plant);
+    QFETCH(QString, options);
+    QFETCH(int, exitCode);
+    QFETCH(QString, message);
+    QFile file(m_folder.filePath(QStringLiteral("plant.ini")));
+    QVERIFY(file.open(QIODevice::WriteOnly | QIODevice::Truncate));
+    file.write(plant);
+    file.close();
+    const QStringList given = options.split(QLatin1Char(' ')) << QStringLiteral("--plant") << file.fileName();
+    const Outcome outcome = runProgram(path(), given);
+    QCOMPARE(outcome.exitCode, exitCode);
+    const QString told = outcome.output + outcome.errors;
+    QVERIFY2(told.contains(message), qPrintable(told));
 }
 
 /// As sameCycleFlightEqualsTheSingleLoopFlight(). The loop counts the electrical energy a cycle
