@@ -38,6 +38,7 @@ QVector<OptionFigures::Row> OptionFigures::rows() const
         {tr("Electrical power"), QStringLiteral("electricalPower"), -4000.0, 8000.0, {}},
         {tr("Efficiency of the winch"), QStringLiteral("winchEfficiency"), 0.0, 1.0, {}},
         {tr("Speed of the drum"), QStringLiteral("drumSpeed"), -10.0, 10.0, {}},
+        {tr("Machine switched off"), QStringLiteral("machineOff"), 0.0, 1.0, {}},
         {tr("Power of the turbines"), QStringLiteral("turbinePower"), 0.0, 8000.0, {}},
         {tr("Drag of the turbines"), QStringLiteral("turbineCoefficient"), 0.0, 0.3, {}},
         {tr("Steering command"), QStringLiteral("steeringCommand"), -1.0, 1.0, {}},
