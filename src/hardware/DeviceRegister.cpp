@@ -144,10 +144,7 @@ RawNumber::Limits DeviceRegister::limits() const
 
 quint64 DeviceRegister::join(const quint8 *bytes) const
 {
-    quint64 joined = 0;
-    for (int i = 0; i < size; ++i)
-        joined = joined << 8 | bytes[isBigEndian ? i : size - 1 - i];
-    return joined;
+    return RawNumber::join(bytes, size, isBigEndian);
 }
 
 double DeviceRegister::valueOf(const quint8 *bytes) const

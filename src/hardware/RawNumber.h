@@ -30,6 +30,14 @@ struct RawNumber
     {
         return count >= 64 ? ~quint64(0) : (quint64(1) << count) - 1;
     }
+    /// The bits in \a size bytes of a device: 1 ... 8.
+    static quint64 join(const quint8 *bytes, int size, bool isBigEndian) noexcept
+    {
+        quint64 joined = 0;
+        for (int i = 0; i < size; ++i)
+            joined = joined << 8 | bytes[isBigEndian ? i : size - 1 - i];
+        return joined;
+    }
     /// The number of a device for \a value = number * factor + offset; finite if the value is.
     static double scaled(double value, double factor, double offset) noexcept;
 

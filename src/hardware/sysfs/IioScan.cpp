@@ -54,10 +54,7 @@ std::optional<IioElement> IioElement::fromText(const QByteArray &text)
 
 quint64 IioElement::bits(const quint8 *bytes) const noexcept
 {
-    quint64 all = 0;
-    for (int i = 0; i < storage; ++i)
-        all = all << 8 | bytes[isBigEndian ? i : storage - 1 - i];
-    return all >> shift;
+    return RawNumber::join(bytes, storage, isBigEndian) >> shift;
 }
 
 void IioScan::clear()
