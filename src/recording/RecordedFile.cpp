@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "RecordedFile.h"
 
+#include <QtCore/QDir>
 #include <QtCore/QFileInfo>
 
 #include <algorithm>
@@ -47,6 +48,16 @@ const mcap::NamedEntry *RecordedFile::attachment(const char *wanted) const
     const auto found = std::find_if(attachments.begin(), attachments.end(),
                                     [wanted](const mcap::NamedEntry &entry) { return entry.name == wanted; });
     return found == attachments.end() ? nullptr : &*found;
+}
+
+QStringList filesIn(const QString &folder, const QStringList &patterns)
+{
+    const QDir dir(folder);
+    QStringList paths;
+    const QStringList names = dir.entryList(patterns, QDir::Files, QDir::Name);
+    for (const QString &name : names)
+        paths << dir.filePath(name);
+    return paths;
 }
 
 QString whyNoRecording(const QString &folder)

@@ -4,6 +4,8 @@
 #include "McapReader.h"
 #include "node/cycle/RingDescription.h"
 
+#include <QtCore/QStringList>
+
 #include <optional>
 #include <vector>
 
@@ -33,6 +35,8 @@ struct RecordedFile
     const mcap::NamedEntry *attachment(const char *wanted) const;
 };
 
+/// The paths of the files in a folder whose names match, in the order of their names.
+QStringList filesIn(const QString &folder, const QStringList &patterns);
 /// Why no recording is found in a folder, for people.
 QString whyNoRecording(const QString &folder);
 

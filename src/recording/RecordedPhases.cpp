@@ -4,7 +4,6 @@
 #include "RecordedFile.h"
 #include "RecordingFolder.h"
 
-#include <QtCore/QDir>
 #include <QtCore/QFileInfo>
 
 #include <algorithm>
@@ -17,17 +16,6 @@ namespace {
 auto phaseOf(const RingDescription &description)
 {
     return std::make_tuple(description.plant, description.session, description.phase);
-}
-
-QStringList filesIn(const QString &folder)
-{
-    QStringList paths;
-    const QDir dir(folder);
-    const QStringList names
-        = dir.entryList({QStringLiteral("*.mcap"), QStringLiteral("*.mcap.part")}, QDir::Files, QDir::Name);
-    for (const QString &name : names)
-        paths << dir.filePath(name);
-    return paths;
 }
 
 }  // namespace
@@ -58,7 +46,7 @@ bool findPhases(const QString &folder, QVector<RecordedPhase> *phases, QStringLi
 {
     phases->clear();
     std::vector<RecordedFile> found;
-    const QStringList paths = filesIn(folder);
+    const QStringList paths = filesIn(folder, {QStringLiteral("*.mcap"), QStringLiteral("*.mcap.part")});
     for (const QString &path : paths) {
         if (found.emplace_back().open(path, error))
             continue;

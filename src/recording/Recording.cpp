@@ -3,7 +3,6 @@
 
 #include "protocol/LittleEndian.h"
 
-#include <QtCore/QDir>
 #include <QtCore/QFileInfo>
 
 #include <algorithm>
@@ -18,17 +17,6 @@ QPlcSignalTable tableOf(const QByteArray &ini)
     QVector<QPlcParseError> errors;
     const QPlcSignalTable table = QPlcSignalTable::fromIni(ini, &errors);
     return errors.isEmpty() ? table : QPlcSignalTable();
-}
-
-/// The recordings in a folder.
-QStringList filesIn(const QString &path)
-{
-    const QDir folder(path);
-    QStringList files;
-    const QStringList names = folder.entryList({QStringLiteral("*.mcap")}, QDir::Files, QDir::Name);
-    for (const QString &name : names)
-        files << folder.filePath(name);
-    return files;
 }
 
 }  // namespace
@@ -48,7 +36,7 @@ bool Recording::open(const QStringList &paths, QString *error, Unreadable unread
     *this = {};
     for (const QString &path : paths) {
         const bool isFolder = QFileInfo(path).isDir();
-        const QStringList files = isFolder ? filesIn(path) : QStringList{path};
+        const QStringList files = isFolder ? filesIn(path, {QStringLiteral("*.mcap")}) : QStringList{path};
         if (files.isEmpty()) {
             *error = whyNoRecording(path);
             return false;
