@@ -86,8 +86,7 @@ int exportRecording(const CommandCall &call)
         return QPlcCoreApplication::Failure;
     }
     printWritten(call,
-                 {{QStringLiteral("file"), name},
-                  {QStringLiteral("rows"), double(table.rows())},
+                 {{QStringLiteral("rows"), double(table.rows())},
                   {QStringLiteral("columns"), int(table.columns().size())},
                   {QStringLiteral("damages"), table.damages()}},
                  QStringLiteral("%1 rows, %2 columns").arg(table.rows()).arg(table.columns().size()));

@@ -102,11 +102,12 @@ std::unique_ptr<qplc::OutputFile> openOutput(const CommandCall &call, const qplc
     return nullptr;
 }
 
-void printWritten(const CommandCall &call, const QJsonObject &facts, const QString &text)
+void printWritten(const CommandCall &call, QJsonObject facts, const QString &text)
 {
     const QString name = call.application.value(QStringLiteral("output"));
     if (name == QLatin1String(qplc::OutputFile::StandardOutput))
         return;
+    facts.insert(QStringLiteral("file"), name);
     if (call.isJson())
         printJson(QJsonDocument(facts));
     else

@@ -24,8 +24,9 @@ bool readSignals(const CommandCall &call, const qplc::Recording &recording, std:
 /// The file of --output, which is open. \return null, with the message out: it cannot be written,
 /// it is there and --force is missing, or it is a file of the recording
 std::unique_ptr<qplc::OutputFile> openOutput(const CommandCall &call, const qplc::Recording &recording);
-/// Says what was written: \a facts, or "FILE: text". Not if the file is the standard output.
-void printWritten(const CommandCall &call, const QJsonObject &facts, const QString &text);
+/// Says what was written: the name of the file and \a facts, or "FILE: text". Not if the file is
+/// the standard output.
+void printWritten(const CommandCall &call, QJsonObject facts, const QString &text);
 /// Writes the message for so many damaged chunks, if there are any. \return the exit code: a
 /// failure also if files were left out
 int exitCodeOf(const qplc::Recording &recording, int damages);

@@ -115,10 +115,8 @@ int writeReport(const CommandCall &call)
         QPlcCoreApplication::printError(error);
         return QPlcCoreApplication::Failure;
     }
-    printWritten(
-        call,
-        {{QStringLiteral("file"), name}, {QStringLiteral("bytes"), page.size()}, {QStringLiteral("damages"), damages}},
-        QStringLiteral("a report of %1 kB").arg((page.size() + 999) / 1000));
+    printWritten(call, {{QStringLiteral("bytes"), page.size()}, {QStringLiteral("damages"), damages}},
+                 QStringLiteral("a report of %1 kB").arg((page.size() + 999) / 1000));
     return exitCodeOf(recording, damages);
 }
 
