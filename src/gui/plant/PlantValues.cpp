@@ -97,6 +97,8 @@ void PlantValues::storeFrame(const QPlcIOBufferSlaveNode::Frame &frame, Time wal
 {
     if (!m_store || frame.size != m_channels.payloadSize())
         return;  // of another table
+    if (isLeftOver(frame))
+        return;
     if (!m_isContinued || frame.phase != m_phase) {
         beginPhase(frame, wallTime);
     } else if (frame.cycle <= m_lastCycle || m_interval.missed(m_lastCycle, frame.cycle) > 0) {
@@ -107,6 +109,12 @@ void PlantValues::storeFrame(const QPlcIOBufferSlaveNode::Frame &frame, Time wal
     m_isContinued = true;
     m_lastCycle = frame.cycle;
     storeRow(frame.inputs, m_phaseStart + Time(frame.cycle) * m_period, frame.qualities);
+}
+
+/// Of the connection before, and taken when another one was there: it would get the time of now.
+bool PlantValues::isLeftOver(const QPlcIOBufferSlaveNode::Frame &frame) const
+{
+    return frame.phase == m_phase && (m_isRejoining || !m_isContinued);
 }
 
 /// \param cycle  behind it

@@ -139,6 +139,7 @@ private:
     void makeStore();
     void beginPhase(const QPlcIOBufferSlaveNode::Frame &frame, Time wallTime);
     bool goesOn(const QPlcIOBufferSlaveNode::Frame &frame) const;
+    bool isLeftOver(const QPlcIOBufferSlaveNode::Frame &frame) const;
     void noteHole(quint64 cycle);
 
     Budget m_budget;

@@ -63,6 +63,8 @@ private Q_SLOTS:
     void anotherIntervalKeepsThePast();
     void newPhaseStartsANewSegmentAtALaterTime();
     void interruptionIsNotCountedAsCycleGap();
+    void framesThatTheLastConnectionLeftAreNoneOfTheNextOne_data();
+    void framesThatTheLastConnectionLeftAreNoneOfTheNextOne();
     void aPhaseGoesOnAtWholePeriodsBehindALostConnection_data();
     void aPhaseGoesOnAtWholePeriodsBehindALostConnection();
     void rowsOfThePastReplaceThoseOfTheirGap();
@@ -249,10 +251,40 @@ void tst_PlantValues::interruptionIsNotCountedAsCycleGap()
     values.setTable(table(), 10 * ms);
     give(&values, 0, 1, wall);
     values.interrupt();
-    give(&values, 1, 1, wall + 3000 * ms);
+    give(&values, 1, 2, wall + 3000 * ms);
     QVERIFY(values.store()->beginsAnew(1));
     QCOMPARE(qint64(values.store()->time(1)), wall + 3000 * ms);
     QCOMPARE(values.gaps(), quint64(0));
+}
+
+/// The thread that hears them takes some while the window leaves the master.
+void tst_PlantValues::framesThatTheLastConnectionLeftAreNoneOfTheNextOne_data()
+{
+    QTest::addColumn<bool>("isInterrupted");
+    QTest::newRow("the master was left") << true;
+    QTest::newRow("nothing was heard") << false;
+}
+
+void tst_PlantValues::framesThatTheLastConnectionLeftAreNoneOfTheNextOne()
+{
+    QFETCH(bool, isInterrupted);
+    PlantValues values;
+    values.setTable(table(), 10 * ms);
+    for (const quint64 cycle : {100, 101}) {
+        give(&values, cycle, 1, wall);
+        values.setPhase({7, wall});
+    }
+    if (isInterrupted)
+        values.interrupt();
+    values.rejoin();
+    values.setPhase({7, wall});
+    give(&values, 102, 1, wall + 1000 * ms);
+    QCOMPARE(values.rows(), quint64(2));
+    give(&values, 200, 2, wall + 1000 * ms);
+    QCOMPARE(values.rows(), quint64(3));
+    QCOMPARE(qint64(values.store()->time(2)), wall + 1000 * ms);
+    QVERIFY(values.store()->beginsAnew(2));
+    QCOMPARE(values.phase().session, quint64(7));
 }
 
 void tst_PlantValues::aPhaseGoesOnAtWholePeriodsBehindALostConnection_data()
