@@ -40,9 +40,10 @@ private:
     QTimer m_looks;
 };
 
-/// Whether \a predicate becomes true within \a milliseconds.
+/// Whether \a predicate becomes true within \a milliseconds. Where a test does not say how long, it
+/// has patience; so have QTRY_VERIFY() and QTRY_COMPARE() here.
 template<typename Predicate>
-bool waitUntil(Predicate predicate, int milliseconds = 5000)
+bool waitUntil(Predicate predicate, int milliseconds = patience)
 {
     for (Waiting waiting(milliseconds); !predicate();) {
         if (!waiting.goesOn())
@@ -69,3 +70,11 @@ inline void pass(std::chrono::milliseconds duration)
         if (!waiting.goesOn())                                                                                         \
             break;                                                                                                     \
     }
+
+// Those of Qt fail after 5 s.
+#undef QTRY_VERIFY
+#define QTRY_VERIFY(expr) QTRY_VERIFY_WITH_TIMEOUT((expr), ::patience)
+#undef QTRY_VERIFY2
+#define QTRY_VERIFY2(expr, messageExpression) QTRY_VERIFY2_WITH_TIMEOUT((expr), (messageExpression), ::patience)
+#undef QTRY_COMPARE
+#define QTRY_COMPARE(expr, expected) QTRY_COMPARE_WITH_TIMEOUT((expr), expected, ::patience)

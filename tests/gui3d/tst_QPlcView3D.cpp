@@ -69,7 +69,7 @@ struct ShownView
     bool waitForPictures(int more)
     {
         const int wanted = drawn.count() + more;
-        return waitUntil([this, wanted] { return drawn.count() >= wanted; }, patience);
+        return waitUntil([this, wanted] { return drawn.count() >= wanted; });
     }
 
     FlyingPlant plant;
@@ -163,7 +163,7 @@ void tst_QPlcView3D::bodyIsDrawnAtThePoseOfItsSignals()
     QVERIFY(plant.fly());
     view.show();
     QSignalSpy drawn(&view, &QPlcView3D::pictureDrawn);
-    QTRY_VERIFY_WITH_TIMEOUT(drawn.count() >= 3, patience);
+    QTRY_VERIFY(drawn.count() >= 3);
     const auto isMagenta
         = [](const QColor &color) { return color.red() > color.green() + 60 && color.blue() > color.green() + 60; };
     const QImage image = view.grab().toImage();
@@ -183,7 +183,7 @@ void tst_QPlcView3D::bodyIsDrawnAtThePoseOfItsSignals()
     turned.insert(QStringLiteral("orientation"), QStringLiteral("bodyPositionOrientation"));
     view.applySettings(turned);
     const int before = drawn.count();
-    QTRY_VERIFY_WITH_TIMEOUT(drawn.count() >= before + 3, patience);
+    QTRY_VERIFY(drawn.count() >= before + 3);
     const int tilted = countPixels(view.grab().toImage(), view.rect(), isMagenta);
     QVERIFY2(tilted < 0.42 * flat && tilted > 0.28 * flat,
              qPrintable(QStringLiteral("%1 of %2").arg(tilted).arg(flat)));
@@ -253,7 +253,7 @@ void tst_QPlcView3D::movingThePanelTwentyTimesKeepsThePicture()
     window.resize(900, 600);
     window.show();
     QSignalSpy drawn(view, &QPlcView3D::pictureDrawn);
-    QTRY_VERIFY_WITH_TIMEOUT(drawn.count() > 0, patience);
+    QTRY_VERIFY(drawn.count() > 0);
     const LayoutSide sides[] = {LayoutSide::Left, LayoutSide::Above, LayoutSide::Right, LayoutSide::Below};
     for (int i = 0; i < 20; ++i) {
         const QString neighbour = i % 2 ? QStringLiteral("panel2") : QStringLiteral("panel3");
@@ -267,7 +267,7 @@ void tst_QPlcView3D::movingThePanelTwentyTimesKeepsThePicture()
         QCOMPARE(window.widget(QStringLiteral("panel1")), view);
     }
     const int before = drawn.count();
-    QTRY_VERIFY_WITH_TIMEOUT(drawn.count() > before + 2, patience);
+    QTRY_VERIFY(drawn.count() > before + 2);
     QVERIFY(view->openGlError().isEmpty());
 }
 
@@ -344,7 +344,7 @@ void tst_QPlcView3D::severalViewsCanBeCreatedAndDestroyed()
             views.back()->show();
         }
         for (const auto &spy : drawn)
-            QTRY_VERIFY_WITH_TIMEOUT(spy->count() > 1, patience);
+            QTRY_VERIFY(spy->count() > 1);
     }
     QVERIFY(plant.context.plants()->at(0)->isConnected());
 }

@@ -56,7 +56,7 @@ private:
     bool waitForCycles(int count) const
     {
         const double before = counter("cycles");
-        return waitUntil([&] { return counter("cycles") >= before + count; }, Program::patience);
+        return waitUntil([&] { return counter("cycles") >= before + count; });
     }
     QString events() const { return m_plant->qtplc(QStringLiteral("events")).output; }
 
@@ -82,12 +82,10 @@ void tst_PlantFaults::stoppedNodeIsLateAndResumes()
     const double lateAfter = late("Autopilot");
     QVERIFY2(lateAfter - lateBefore >= 5, qPrintable(QString::number(lateAfter - lateBefore)));
     // It computes the newest cycle, and then each one: punctual again for many cycles in a row.
-    QVERIFY(waitUntil(
-        [&] {
-            const double before = late("Autopilot");
-            return waitForCycles(20) && late("Autopilot") - before < 15;
-        },
-        Program::patience));
+    QVERIFY(waitUntil([&] {
+        const double before = late("Autopilot");
+        return waitForCycles(20) && late("Autopilot") - before < 15;
+    }));
     QCOMPARE(state().value("state").toString(), QString("RealTime"));
     QVERIFY(hasBothNodes());
 }
@@ -111,7 +109,7 @@ void tst_PlantFaults::stoppedMasterSkipsMissedCycles()
     m_plant->master().sendSignal(SIGSTOP);
     QTest::qWait(2000);
     m_plant->master().sendSignal(SIGCONT);
-    QTRY_VERIFY_WITH_TIMEOUT(counter("skippedCycles") - skippedBefore >= 150, Program::patience);  // of about 200
+    QTRY_VERIFY(counter("skippedCycles") - skippedBefore >= 150);  // of about 200
     QVERIFY(waitForCycles(10));
     const QJsonObject all = state();
     QCOMPARE(all.value("state").toString(), endsIn);
@@ -122,19 +120,19 @@ void tst_PlantFaults::stoppedMasterSkipsMissedCycles()
     QVERIFY(std::abs(double(cycle.toULongLong(nullptr, 16)) + 1 - counters.value("cycles").toDouble()
                      - counters.value("skippedCycles").toDouble())
             <= 2);
-    QTRY_VERIFY_WITH_TIMEOUT(hasBothNodes(), Program::patience);  // those of a plant have left and come back
+    QTRY_VERIFY(hasBothNodes());  // those of a plant have left and come back
 }
 
 void tst_PlantFaults::killedNodeIsReportedAndReplaced()
 {
     QVERIFY(start());
     m_plant->autopilot().sendSignal(SIGKILL);
-    QTRY_VERIFY_WITH_TIMEOUT(node("Autopilot").isEmpty(), Program::patience);
+    QTRY_VERIFY(node("Autopilot").isEmpty());
     QVERIFY2(events().contains("node Autopilot is gone in the middle of its work"), qPrintable(events()));
     QCOMPARE(node("Model").value("name").toString(), QString("Model"));
     Program another(programPath("awe_autopilot"), {m_plant->address()});
     QVERIFY(another.waitForErrors(QStringLiteral("registered")));
-    QTRY_VERIFY_WITH_TIMEOUT(!node("Autopilot").isEmpty(), Program::patience);
+    QTRY_VERIFY(!node("Autopilot").isEmpty());
 }
 
 void tst_PlantFaults::garbageOnEveryPortChangesNothing()
@@ -163,7 +161,7 @@ void tst_PlantFaults::garbageOnEveryPortChangesNothing()
         if (i % 10 == 0)
             QTest::qWait(1);
     }
-    QTRY_VERIFY_WITH_TIMEOUT(counter("strangers") > 1000, Program::patience);
+    QTRY_VERIFY(counter("strangers") > 1000);
     QVERIFY(counter("cycles") > cyclesBefore + 10);
     QVERIFY(waitForCycles(20));
     const QJsonObject after = state();
@@ -186,7 +184,7 @@ void tst_PlantFaults::injectedFaultsAreReportedByAllPrograms()
     QVERIFY2(shown.contains("FAULTS    injected on purpose by Master (delay=100us), Autopilot (duplicate=50%,seed=9)"),
              qPrintable(shown));
     QCOMPARE(m_plant->qtplc(QStringLiteral("start")).exitCode, 0);
-    QTRY_VERIFY_WITH_TIMEOUT(node("Autopilot").value("duplicates").toDouble() > 5, Program::patience);
+    QTRY_VERIFY(node("Autopilot").value("duplicates").toDouble() > 5);
 }
 
 void tst_PlantFaults::masterWhoseLogNobodyReadsAnswersAndEnds()

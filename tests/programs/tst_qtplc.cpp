@@ -187,7 +187,7 @@ void tst_qtplc::otherServersAreReported()
         server.close();
     connect(&server, &QTcpServer::newConnection, &server, [&] { server.nextPendingConnection()->write(greeting); });
     Program program(path("qtplc"), {QStringLiteral("--master=127.0.0.1:%1").arg(port), QStringLiteral("state")});
-    QTRY_VERIFY_WITH_TIMEOUT(program.state() == QProcess::NotRunning, Program::patience);
+    QTRY_VERIFY(program.state() == QProcess::NotRunning);
     QCOMPARE(program.waitForEnd(), 2);
     QVERIFY2(program.errors().contains(message), qPrintable(program.errors()));
     QVERIFY2(program.errors().contains(QString::number(port)), qPrintable(program.errors()));
@@ -220,7 +220,7 @@ void tst_qtplc::masterMayRefuseTheGreeting()
     });
     Program program(path("qtplc"),
                     {QStringLiteral("--master=127.0.0.1:%1").arg(server.serverPort()), QStringLiteral("list")});
-    QTRY_VERIFY_WITH_TIMEOUT(program.state() == QProcess::NotRunning, Program::patience);
+    QTRY_VERIFY(program.state() == QProcess::NotRunning);
     QCOMPARE(program.waitForEnd(), 1);
     // What the other side says must not command the terminal.
     QVERIFY2(program.errors().contains(QLatin1String("refuses: the table is\\x07 too long")),
@@ -288,9 +288,7 @@ void tst_qtplc::startEndsAfterItsCycles()
 {
     QCOMPARE(qtplc(QStringLiteral("start --cycles 5")).output, QStringLiteral("started for 5 cycles\n"));
     QString state;
-    QTRY_VERIFY_WITH_TIMEOUT(
-        (state = qtplc(QStringLiteral("state")).output).startsWith(QLatin1String("state     Off\n")),
-        Program::patience);
+    QTRY_VERIFY((state = qtplc(QStringLiteral("state")).output).startsWith(QLatin1String("state     Off\n")));
     // Number 4, or one before it when a machine that is busy with other things made the master skip
     // the last ones.
     QVERIFY2(QRegularExpression(QStringLiteral("^cycle     [0-4] "), QRegularExpression::MultilineOption)
@@ -414,8 +412,7 @@ void tst_qtplc::echoStartedBeforeTheFlightShowsItsCycles()
     QVERIFY(startNodes());
     Program echo(path("qtplc"), withMaster(QStringLiteral("echo tetherLength --count 3")));
     QVERIFY(echo.waitForOutput(QStringLiteral("\n-\t")));
-    QTRY_VERIFY_WITH_TIMEOUT(qtplc(QStringLiteral("state")).output.contains(QLatin1String("qtplc-echo-")),
-                             Program::patience);
+    QTRY_VERIFY(qtplc(QStringLiteral("state")).output.contains(QLatin1String("qtplc-echo-")));
     QCOMPARE(qtplc(QStringLiteral("start")).exitCode, 0);
     QCOMPARE(echo.waitForEnd(), 0);
     QCOMPARE(echo.output().count(QLatin1Char('\n')), 4);

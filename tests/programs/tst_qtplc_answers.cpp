@@ -33,7 +33,7 @@ public:
     Outcome run(const QStringList &arguments)
     {
         Program program(programPath("qtplc"), arguments);
-        (void)waitUntil([&program] { return program.state() == QProcess::NotRunning; }, Program::patience);
+        (void)waitUntil([&program] { return program.state() == QProcess::NotRunning; });
         return {program.waitForEnd(), program.output(), program.errors()};
     }
 

@@ -289,7 +289,7 @@ void tst_qtplc_values::echoAndWatchPrintAnObjectPerLine()
     Program program(programPath("qtplc"), m_plant.withMaster(command));
     QVERIFY(program.waitForOutput("\n"));
     QCOMPARE(m_plant.qtplc("start").exitCode, 0);
-    QTRY_VERIFY_WITH_TIMEOUT(program.output().count('\n') >= 4, Program::patience);
+    QTRY_VERIFY(program.output().count('\n') >= 4);
     program.sendSignal(SIGINT);
     QCOMPARE(program.waitForEnd(), 0);
     const QStringList lines = program.output().split('\n', Qt::SkipEmptyParts);
@@ -306,7 +306,7 @@ void tst_qtplc_values::echoEveryShowsOneCyclePerInterval()
     Program program(programPath("qtplc"), m_plant.withMaster("echo power --json --rate 1000 --every 7"));
     QVERIFY(program.waitForOutput("\n"));
     QCOMPARE(m_plant.qtplc("start").exitCode, 0);
-    QTRY_VERIFY_WITH_TIMEOUT(program.output().count('\n') >= 5, Program::patience);
+    QTRY_VERIFY(program.output().count('\n') >= 5);
     program.sendSignal(SIGINT);
     QCOMPARE(program.waitForEnd(), 0);
     const QStringList lines = program.output().split('\n', Qt::SkipEmptyParts);
@@ -349,8 +349,7 @@ void tst_qtplc_values::watchRestoresTheTerminal()
     QFETCH(int, exitCode);
     Terminal terminal;
     TerminalProgram watch(terminal, m_plant.withMaster("watch power tetherSpeed"));
-    QTRY_VERIFY_WITH_TIMEOUT(terminal.screen().contains("tetherSpeed") && terminal.screen().contains("Off"),
-                             Program::patience);
+    QTRY_VERIFY(terminal.screen().contains("tetherSpeed") && terminal.screen().contains("Off"));
     QVERIFY(terminal.screen().startsWith("\033[?1049h"));
     QVERIFY(!terminal.hasLineInput());
     if (!keys.isEmpty())
@@ -369,13 +368,13 @@ void tst_qtplc_values::watchScrolls()
 {
     Terminal terminal;
     TerminalProgram watch(terminal, m_plant.withMaster("watch"));
-    QTRY_VERIFY_WITH_TIMEOUT(terminal.screen().contains("rows 1-17 of"), Program::patience);
+    QTRY_VERIFY(terminal.screen().contains("rows 1-17 of"));
     terminal.press("\033[B\033[6~");
-    QTRY_VERIFY_WITH_TIMEOUT(terminal.screen().contains("rows 19-35 of"), Program::patience);
+    QTRY_VERIFY(terminal.screen().contains("rows 19-35 of"));
     terminal.press("G");
-    QTRY_VERIFY_WITH_TIMEOUT(terminal.screen().contains("rows 32-48 of 48"), Program::patience);
+    QTRY_VERIFY(terminal.screen().contains("rows 32-48 of 48"));
     terminal.press("xyz\033[A");
-    QTRY_VERIFY_WITH_TIMEOUT(terminal.screen().contains("rows 31-47 of"), Program::patience);
+    QTRY_VERIFY(terminal.screen().contains("rows 31-47 of"));
     terminal.press("q");
     QCOMPARE(watch.waitForEnd(), 0);
 }
@@ -389,7 +388,7 @@ void tst_qtplc_values::setForRestoresTheFormerValueAfterItsTime()
     QVERIFY(set.waitForOutput("tetherSpeed = 5 m/s\n"));
     QCOMPARE(value("tetherSpeed"), QString("5"));
     QCOMPARE(set.waitForEnd(), 0);
-    QTRY_COMPARE_WITH_TIMEOUT(value("tetherSpeed"), QString("1.5"), Program::patience);
+    QTRY_COMPARE(value("tetherSpeed"), QString("1.5"));
     QCOMPARE(set.errors(), QString());
 }
 
@@ -411,7 +410,7 @@ void tst_qtplc_values::endedSetForRestoresTheFormerValue()
     QCOMPARE(value("tetherSpeed"), QString("5"));
     set.sendSignal(signal);
     QCOMPARE(set.waitForEnd(), exitCode);
-    QTRY_COMPARE_WITH_TIMEOUT(value("tetherSpeed"), QString("0"), Program::patience);
+    QTRY_COMPARE(value("tetherSpeed"), QString("0"));
 }
 
 void tst_qtplc_values::setForTellsThatTheMasterIsLost()
@@ -459,7 +458,7 @@ void tst_qtplc_values::interruptedHzPrintsItsResult()
 {
     QCOMPARE(m_plant.qtplc("start").exitCode, 0);
     Program hz(programPath("qtplc"), m_plant.withMaster("hz --for 1000"));
-    QTRY_VERIFY_WITH_TIMEOUT(m_plant.qtplc("state").output.contains("qtplc-hz-"), Program::patience);
+    QTRY_VERIFY(m_plant.qtplc("state").output.contains("qtplc-hz-"));
     QTest::qWait(300);
     hz.sendSignal(SIGINT);
     QVERIFY(hz.waitForEnd() >= 0);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "RecordedFlight.h"
 #include "recording/Happenings.h"
 #include "recording/McapReader.h"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/Waiting.h"
 #include "RecordedFlight.h"
 #include "recording/RecorderControl.h"
 #include "recording/RecorderLoop.h"

@@ -115,7 +115,7 @@ bool tst_ThesisPrograms::startMaster(const QString &variant)
 {
     m_master = std::make_unique<Program>(path(variant, QStringLiteral("master")), QStringList{QStringLiteral("0")});
     const QRegularExpression listening(QStringLiteral("listening on 127\\.0\\.0\\.1 port (\\d+) security none\n"));
-    if (!waitUntil([&] { return listening.match(m_master->errors()).hasMatch(); }, Program::patience))
+    if (!waitUntil([&] { return listening.match(m_master->errors()).hasMatch(); }))
         return false;
     m_port = listening.match(m_master->errors()).captured(1).toUShort();
     return connectTool();
@@ -257,11 +257,11 @@ void tst_ThesisPrograms::modelFollowsTheMaster()
     const QDateTime after = QDateTime::currentDateTimeUtc();
     for (const char *measured : {"masterWorkload", "masterJitter", "modelWorkload"}) {
         const auto isMeasured = [&] { return values().value(QString::fromLatin1(measured)).toReal() > 0.0; };
-        QVERIFY2(waitUntil(isMeasured, Program::patience), measured);
+        QVERIFY2(waitUntil(isMeasured), measured);
     }
-    QTRY_VERIFY_WITH_TIMEOUT(tetherLength() > 100.2, Program::patience);
+    QTRY_VERIFY(tetherLength() > 100.2);
     const qint64 early = values().value(QStringLiteral("masterTime")).toInt64();
-    QTRY_VERIFY_WITH_TIMEOUT(values().value(QStringLiteral("masterTime")).toInt64() > early, Program::patience);
+    QTRY_VERIFY(values().value(QStringLiteral("masterTime")).toInt64() > early);
     QVERIFY(ask(QPlcMessage::Stop));
     const QPlcMessage off = state();
     QCOMPARE(off.text(QStringLiteral("state")), QStringLiteral("Off"));
@@ -296,7 +296,7 @@ void tst_ThesisPrograms::silentPartnersAreReported()
     QVERIFY(ask(QPlcMessage::StartRealTime));
     const auto lateAnswers
         = [this] { return state().fields().value(QStringLiteral("nodes"))[0][QStringLiteral("lateAnswers")].toInt(); };
-    QTRY_VERIFY_WITH_TIMEOUT(tetherLength() > 100.0, Program::patience);
+    QTRY_VERIFY(tetherLength() > 100.0);
 
     // The watchdog of the model informs: the model goes on where it was.
     const double before = tetherLength();
@@ -306,7 +306,7 @@ void tst_ThesisPrograms::silentPartnersAreReported()
     QVERIFY2(barked, qPrintable(m_model->errors()));
     const double after = tetherLength();
     QVERIFY2(after >= before, qPrintable(QStringLiteral("%1 m after %2 m").arg(after).arg(before)));
-    QTRY_VERIFY_WITH_TIMEOUT(tetherLength() > after, Program::patience);
+    QTRY_VERIFY(tetherLength() > after);
     QCOMPARE(m_model->errors().count(QStringLiteral("registered")), 1);
 
     // ErrorZeroOrderHold: the master reports a late model and goes on with its last values, however
@@ -314,14 +314,14 @@ void tst_ThesisPrograms::silentPartnersAreReported()
     m_model->sendSignal(SIGSTOP);
     QVERIFY2(m_master->waitForErrors(QStringLiteral("was late in cycle")), qPrintable(m_master->errors()));
     int late = lateAnswers();
-    QTRY_VERIFY_WITH_TIMEOUT(lateAnswers() > late + 1, Program::patience);  // nothing is on its way any more
+    QTRY_VERIFY(lateAnswers() > late + 1);  // nothing is on its way any more
     const double held = tetherLength();
     QVERIFY(held > 100.0);
     late = lateAnswers();
-    QTRY_VERIFY_WITH_TIMEOUT(lateAnswers() > late + 10, Program::patience);
+    QTRY_VERIFY(lateAnswers() > late + 10);
     QCOMPARE(tetherLength(), held);
     m_model->sendSignal(SIGCONT);
-    QTRY_VERIFY_WITH_TIMEOUT(tetherLength() > held, Program::patience);
+    QTRY_VERIFY(tetherLength() > held);
     QCOMPARE(m_model->errors().count(QStringLiteral("registered")), 1);
     QVERIFY(ask(QPlcMessage::Stop));
 }
@@ -373,7 +373,7 @@ void tst_ThesisPrograms::pausesOfFortyMillisecondsDoNotStopTheFlight()
     QVERIFY2(startModel(path(QStringLiteral("plain"), program)), qPrintable(m_model->errors()));
     QVERIFY(setControls());
     QVERIFY(ask(QPlcMessage::StartRealTime));
-    QTRY_VERIFY_WITH_TIMEOUT(tetherLength() > 100.1, Program::patience);
+    QTRY_VERIFY(tetherLength() > 100.1);
 
     double length = 100.0;
     for (int second = 0; second < seconds; ++second) {

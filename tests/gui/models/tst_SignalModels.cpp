@@ -243,6 +243,7 @@ void tst_SignalModels::chosenSignalsShowRangeQualityAndRate()
     Plant *plant = plants.add(master.address());
     QTRY_COMPARE(cellText(table, 0, ValueTableModel::QualityColumn), QStringLiteral("at rest"));
     QCOMPARE(cellText(table, 0, ValueTableModel::Minimum), QStringLiteral("–"));
+    QTRY_COMPARE(master.nodes().size(), 2);  // the window hears the first cycles
     QVERIFY(master.startRealTime());
     QTRY_COMPARE(cellText(table, 0, ValueTableModel::QualityColumn), QStringLiteral("good"));
     QTRY_VERIFY(cellText(table, 0, ValueTableModel::Maximum).toInt() > 50);

@@ -101,7 +101,7 @@ struct RecordedPlant
     bool fly(quint64 cycles) { return master.startRealTime() && master.waitForCycles(cycles); }
     bool waitForCount(double count)
     {
-        return waitUntil([&] { return master.signalValue(QStringLiteral("count")).toReal() >= count; }, patience);
+        return waitUntil([&] { return master.signalValue(QStringLiteral("count")).toReal() >= count; });
     }
 
     QTemporaryDir folder;
@@ -128,7 +128,7 @@ struct Window
     }
     bool waitFor(const QString &text)
     {
-        return waitUntil([&] { return !events.filter(text).isEmpty(); }, patience);
+        return waitUntil([&] { return !events.filter(text).isEmpty(); });
     }
     /// What the window has, for people who read why a test fails.
     QString told() const
@@ -144,12 +144,12 @@ struct Window
     bool waitForGap(const QString &source = {})
     {
         const QString told = QStringLiteral("which this window had not heard");
-        return waitUntil([&] { return !events.filter(told).filter(source).isEmpty(); }, patience);
+        return waitUntil([&] { return !events.filter(told).filter(source).isEmpty(); });
     }
     /// Hears cycles, knows of which phase they are, and loses the connection.
     bool loseConnection()
     {
-        const bool isHeard = waitUntil([&] { return plant.values().phase().isTimed(); }, patience);
+        const bool isHeard = waitUntil([&] { return plant.values().phase().isTimed(); });
         plant.close();
         lost = plant.newestTime();
         return isHeard;
@@ -157,7 +157,7 @@ struct Window
     bool connectAgain()
     {
         plant.open();
-        return waitUntil([&] { return heardAgain != 0; }, patience);
+        return waitUntil([&] { return heardAgain != 0; });
     }
     SignalStore::Row rowAt(Time time) const { return plant.store()->rowAt(time); }
     double countOf(SignalStore::Row row) const
@@ -170,13 +170,16 @@ struct Window
     /// The counter counts each cycle that was computed: up to the first one that was heard, each of
     /// them is there once, in its place on the grid of the phase. Empty: it is so.
     QString defect() const { return defect(plant.store()->firstRow(), seam()); }
-    /// The same from a row to another one.
+    /// The same from a row to another one, which was heard: if the master has left out a cycle
+    /// right before it, it has the values of the row before.
     QString defect(SignalStore::Row first, SignalStore::Row last) const
     {
         const SignalStore *store = plant.store();
         for (SignalStore::Row row = first + 1; row <= last; ++row) {
             const Time distance = store->time(row) - store->time(row - 1);
-            if (countOf(row) != countOf(row - 1) + 1.0 || distance <= 0 || distance % period != 0)
+            const double computed = countOf(row) - countOf(row - 1);
+            const bool isCounted = computed == 1.0 || (row == last && computed == 0.0);
+            if (!isCounted || distance <= 0 || distance % period != 0)
                 return QStringLiteral("%1 at row %2 of %3, behind %4, %5 ns later")
                     .arg(countOf(row))
                     .arg(row)
@@ -347,7 +350,7 @@ void tst_PlantPast::aRestartedWindowShowsWhatWasBefore()
     QCOMPARE(store->beginsAnew(seam), store->time(seam) - store->time(seam - 1) != period);
     // And so do the cycles that come.
     const SignalStore::Row end = store->endRow();
-    QTRY_VERIFY_WITH_TIMEOUT(window.plant.store()->endRow() > end + 20, patience);
+    QTRY_VERIFY(window.plant.store()->endRow() > end + 20);
 }
 
 void tst_PlantPast::filesThatEndAndAreDeletedStayInTheCurves()
@@ -357,7 +360,7 @@ void tst_PlantPast::filesThatEndAndAreDeletedStayInTheCurves()
     Window window(plant.master);
     QVERIFY2(window.waitForPast(), qPrintable(window.told()));
     const QDir folder(plant.folder.path());
-    QTRY_VERIFY_WITH_TIMEOUT(folder.entryList({QStringLiteral("*.mcap")}).size() >= 2, patience);
+    QTRY_VERIFY(folder.entryList({QStringLiteral("*.mcap")}).size() >= 2);
     const QStringList files = folder.entryList({QStringLiteral("*.mcap")});
     for (const QString &file : files)
         QVERIFY(QFile::remove(folder.filePath(file)));
@@ -374,7 +377,7 @@ void tst_PlantPast::formerPhasesComeWithTheNextOne()
     QVERIFY(plant.recorder.waitForFinished(std::chrono::seconds(20)));
     const auto computed = SignalStore::Row(plant.recorder.status().cycles);
     Window window(plant.master);
-    QTRY_COMPARE_WITH_TIMEOUT(window.plant.nextAction(), Plant::Start, patience);
+    QTRY_COMPARE(window.plant.nextAction(), Plant::Start);
     QVERIFY(plant.master.startRealTime());
     QVERIFY2(window.waitForPast(), qPrintable(window.told()));
     const SignalStore *store = window.plant.store();
@@ -391,7 +394,7 @@ void tst_PlantPast::aWindowWithoutARecorderShowsWhatTheRingHas()
     const std::unique_ptr<RunningMaster> plant = std::move(m_unrecorded);
     RunningMaster &master = *plant;
     const auto least = quint64(PlantPast::LeastOfRing / period);
-    QVERIFY(waitUntil([&] { return master.statistics().cycles > least; }, patience));
+    QVERIFY(waitUntil([&] { return master.statistics().cycles > least; }));
     Window window(master);
     QVERIFY2(window.waitForPast(), qPrintable(window.told()));
     QCOMPARE(window.events.filter(QStringLiteral("from the ring of the master")).size(), 1);
@@ -410,9 +413,9 @@ void tst_PlantPast::aWindowWithoutARecorderShowsWhatTheRingHas()
         const auto &status = window.plant.status().master.recorder;
         return status && !status->file.isEmpty();
     };
-    QVERIFY(waitUntil(isTold, patience));
+    QVERIFY(waitUntil(isTold));
     const quint64 rows = window.plant.values().rows();
-    QTRY_VERIFY_WITH_TIMEOUT(window.plant.values().rows() > rows + 20, patience);
+    QTRY_VERIFY(window.plant.values().rows() > rows + 20);
     QCOMPARE(window.plant.store(), store);
     QCOMPARE(window.events.filter(QStringLiteral("the curves")).size(), 1);
 }
@@ -471,7 +474,7 @@ void tst_PlantPast::aLostConnectionLeavesNoGap()
     // The line goes on, unless the master has left out a cycle.
     for (SignalStore::Row row = first + 1; row <= last; ++row)
         QCOMPARE(store->beginsAnew(row), store->time(row) - store->time(row - 1) != period);
-    QTRY_VERIFY_WITH_TIMEOUT(window.plant.store()->endRow() > last + 20, patience);
+    QTRY_VERIFY(window.plant.store()->endRow() > last + 20);
 }
 
 /// The connection goes on, in threads of its own.
@@ -480,9 +483,9 @@ void tst_PlantPast::aWindowThatWasTooSlowLeavesNoGap()
     RecordedPlant plant;
     QVERIFY(plant.fly(1));
     Window window(plant.master);
-    QVERIFY(waitUntil([&] { return window.plant.values().phase().isTimed(); }, patience));
+    QVERIFY(waitUntil([&] { return window.plant.values().phase().isTimed(); }));
     const quint64 rows = window.plant.values().rows();
-    QTRY_VERIFY_WITH_TIMEOUT(window.plant.values().rows() > rows + 20, patience);
+    QTRY_VERIFY(window.plant.values().rows() > rows + 20);
     window.lost = window.plant.newestTime();
     const quint64 cycles = plant.master.statistics().cycles;
     while (plant.master.statistics().cycles < cycles + 700)  // 256 frames wait for a window
@@ -493,8 +496,12 @@ void tst_PlantPast::aWindowThatWasTooSlowLeavesNoGap()
     const SignalStore *store = window.plant.store();
     const SignalStore::Row first = window.rowAt(window.lost);
     const SignalStore::Row last = store->endRow() - 1;
-    QVERIFY(last - first >= 700);
-    QVERIFY2(window.defect(first, last).isEmpty(), qPrintable(window.defect(first, last)));
+    QVERIFY(window.countOf(last) - window.countOf(first) >= 700.0);
+    // On a loaded computer a frame may be lost on its way: only longer holes are read.
+    for (SignalStore::Row row = first + 1; row <= last; ++row) {
+        QVERIFY(store->time(row) - store->time(row - 1) < PlantValues::LeastHole);
+        QVERIFY(window.countOf(row) >= window.countOf(row - 1));
+    }
 }
 
 void tst_PlantPast::aPhaseThatBeginsWithoutTheWindowIsThereFromItsBegin()
@@ -512,7 +519,7 @@ void tst_PlantPast::aPhaseThatBeginsWithoutTheWindowIsThereFromItsBegin()
     const double left
         = computed - window.countOf(window.rowAt(window.lost)) + double(plant.master.statistics().skippedCycles) + 2.0;
     const Time end = window.lost + Time(left) * period;
-    QVERIFY(waitUntil([&] { return QDateTime::currentMSecsSinceEpoch() * 1'000'000 > end; }, patience));
+    QVERIFY(waitUntil([&] { return QDateTime::currentMSecsSinceEpoch() * 1'000'000 > end; }));
     QVERIFY(plant.master.startRealTime());
     QVERIFY(plant.waitForCount(30.0));
     QVERIFY2(window.connectAgain(), qPrintable(window.told()));
@@ -546,7 +553,7 @@ void tst_PlantPast::aRecorderThatIsStartedLaterFillsAGap()
     const auto restore = qScopeGuard([this] { qputenv("QTPLC_RING_DIR", m_rings.path().toUtf8()); });
     QVERIFY2(window.connectAgain(), qPrintable(window.told()));
     const quint64 rows = window.plant.values().rows();
-    QTRY_VERIFY_WITH_TIMEOUT(window.plant.values().rows() > rows + 100, patience);
+    QTRY_VERIFY(window.plant.values().rows() > rows + 100);
     const QString told = QStringLiteral("which this window had not heard");
     QVERIFY(window.events.filter(told).isEmpty());
     QVERIFY(plant.recorder.start() && plant.recorder.addRing(ring));

@@ -52,23 +52,23 @@ void tst_PlantPrograms::killedMasterIsFoundAgainWithoutBlocking()
     PlantList plants;
     Plant *plant = plants.add(QStringLiteral("127.0.0.1:") + port, QStringLiteral("kite"));
     Plant *bystander = plants.add(other.address(), QStringLiteral("bystander"));
-    QTRY_COMPARE_WITH_TIMEOUT(plant->nextAction(), Plant::Start, patience);
+    QTRY_COMPARE(plant->nextAction(), Plant::Start);
     plant->start();
-    QTRY_VERIFY_WITH_TIMEOUT(plant->values().rows() > 20, patience);
-    QTRY_VERIFY_WITH_TIMEOUT(bystander->values().rows() > 20, patience);
+    QTRY_VERIFY(plant->values().rows() > 20);
+    QTRY_VERIFY(bystander->values().rows() > 20);
 
     const Heartbeat heartbeat;
     master->sendSignal(SIGKILL);
-    QTRY_COMPARE_WITH_TIMEOUT(plant->quality(), Plant::Stale, patience);
-    QTRY_VERIFY_WITH_TIMEOUT(!plant->isConnected(), patience);
+    QTRY_COMPARE(plant->quality(), Plant::Stale);
+    QTRY_VERIFY(!plant->isConnected());
     const auto rows = plant->store()->endRow();
     const quint64 seen = bystander->values().rows();
-    QTRY_VERIFY_WITH_TIMEOUT(bystander->values().rows() > seen + 100, patience);
+    QTRY_VERIFY(bystander->values().rows() > seen + 100);
     master = startMaster(port);
     QVERIFY(master);
-    QTRY_COMPARE_WITH_TIMEOUT(plant->nextAction(), Plant::Start, patience);
+    QTRY_COMPARE(plant->nextAction(), Plant::Start);
     plant->start();
-    QTRY_VERIFY_WITH_TIMEOUT(plant->store()->endRow() > rows + 20, patience);
+    QTRY_VERIFY(plant->store()->endRow() > rows + 20);
     QVERIFY(plant->store()->beginsAnew(rows));
     QVERIFY2(heartbeat.longest() < 1000, qPrintable(QString::number(heartbeat.longest())));
 }
@@ -79,16 +79,16 @@ void tst_PlantPrograms::valuesOfASuspendedMasterAreStaleUntilItContinues()
     QVERIFY(master);
     Plant plant(QStringLiteral("udp://127.0.0.1:") + portOf(*master));
     plant.open();
-    QTRY_COMPARE_WITH_TIMEOUT(plant.nextAction(), Plant::Start, patience);
+    QTRY_COMPARE(plant.nextAction(), Plant::Start);
     plant.start();
-    QTRY_COMPARE_WITH_TIMEOUT(plant.quality(), Plant::Good, patience);
-    QTRY_VERIFY_WITH_TIMEOUT(plant.values().rows() > 20, patience);
+    QTRY_COMPARE(plant.quality(), Plant::Good);
+    QTRY_VERIFY(plant.values().rows() > 20);
     master->sendSignal(SIGSTOP);
-    QTRY_COMPARE_WITH_TIMEOUT(plant.quality(), Plant::Stale, patience);
+    QTRY_COMPARE(plant.quality(), Plant::Stale);
     QVERIFY(plant.isConnected());  // nobody knows yet what is the matter
     QVERIFY(plant.age() >= 0.5);
     master->sendSignal(SIGCONT);
-    QTRY_COMPARE_WITH_TIMEOUT(plant.quality(), Plant::Good, patience);
+    QTRY_COMPARE(plant.quality(), Plant::Good);
 }
 
 void tst_PlantPrograms::suspendedWindowHasAGapAndDoesNotDelayTheMaster()
@@ -97,14 +97,14 @@ void tst_PlantPrograms::suspendedWindowHasAGapAndDoesNotDelayTheMaster()
     QVERIFY(master.setInterval(std::chrono::milliseconds(1)));
     QVERIFY(master.startRealTime());
     Program window(QStringLiteral(QTPLC_PLANT_WINDOW), {QStringLiteral("local://%1").arg(master.serverPort())});
-    QTRY_VERIFY_WITH_TIMEOUT(reportOf(window).rows > 200, patience);
+    QTRY_VERIFY(reportOf(window).rows > 200);
     window.sendSignal(SIGSTOP);
     const quint64 cycles = master.statistics().cycles;
-    QVERIFY(waitUntil([&] { return master.statistics().cycles > cycles + 3000; }, patience));
+    QVERIFY(waitUntil([&] { return master.statistics().cycles > cycles + 3000; }));
     const Report before = reportOf(window);
     window.sendSignal(SIGCONT);
-    QTRY_VERIFY_WITH_TIMEOUT(reportOf(window).rows > before.rows + 500, patience);
-    QTRY_VERIFY_WITH_TIMEOUT(reportOf(window).gaps > before.gaps, patience);
+    QTRY_VERIFY(reportOf(window).rows > before.rows + 500);
+    QTRY_VERIFY(reportOf(window).gaps > before.gaps);
     QVERIFY2(reportOf(window).largestBatch <= 2048, qPrintable(window.output().right(100)));
     QCOMPARE(master.state(), QPlcMasterNode::RealTime);
 }
@@ -116,14 +116,14 @@ void tst_PlantPrograms::aSlowWindowKeepsABoundedBacklog()
     QVERIFY(master.startRealTime());
     Plant plant(master.address());
     plant.open();
-    QTRY_VERIFY_WITH_TIMEOUT(plant.values().rows() > 50, patience);
+    QTRY_VERIFY(plant.values().rows() > 50);
     const quint64 gaps = plant.values().gaps();
     const quint64 cycles = master.statistics().cycles;
     for (int looks = 0; looks < 1000 && master.statistics().cycles < cycles + 3000; ++looks)
         QThread::msleep(50);  // nothing is taken meanwhile
     int largestBatch = 0;
     connect(&plant, &Plant::updated, this, [&] { largestBatch = std::max(largestBatch, plant.values().batchSize()); });
-    QTRY_VERIFY_WITH_TIMEOUT(plant.values().gaps() > gaps, patience);
+    QTRY_VERIFY(plant.values().gaps() > gaps);
     QVERIFY2(largestBatch > 1000 && largestBatch <= 2048, qPrintable(QString::number(largestBatch)));
 }
 
@@ -136,17 +136,17 @@ void tst_PlantPrograms::aWindowThatIsStartedAgainHasWhatTheRecorderHas()
     const QString address = QStringLiteral("127.0.0.1:") + portOf(master);
     Plant person(address);
     person.open();
-    QTRY_COMPARE_WITH_TIMEOUT(person.nextAction(), Plant::Start, patience);
+    QTRY_COMPARE(person.nextAction(), Plant::Start);
     person.start();
     {
         Program window(QStringLiteral(QTPLC_PLANT_WINDOW), {address});
-        QTRY_VERIFY_WITH_TIMEOUT(reportOf(window).rows > 200, patience);
+        QTRY_VERIFY(reportOf(window).rows > 200);
         window.sendSignal(SIGKILL);
     }
     Program window(QStringLiteral(QTPLC_PLANT_WINDOW), {address});
-    QTRY_VERIFY_WITH_TIMEOUT(reportOf(window).rows > 0, patience);
+    QTRY_VERIFY(reportOf(window).rows > 0);
     const auto hasPast = [&] { return reportOf(window).kept > reportOf(window).rows + 100; };
-    QVERIFY2(waitUntil(hasPast, patience), qPrintable(window.output().right(100)));
+    QVERIFY2(waitUntil(hasPast), qPrintable(window.output().right(100)));
 }
 
 void tst_PlantPrograms::masterSetsSignalsOfALostWindowToNeutral_data()
@@ -166,8 +166,8 @@ void tst_PlantPrograms::masterSetsSignalsOfALostWindowToNeutral()
     other.open();
     Program window(QStringLiteral(QTPLC_PLANT_WINDOW), {master.address(), setpoint, QStringLiteral("4")});
     const auto value = [&] { return master.signalValue(setpoint).toReal(); };
-    QTRY_COMPARE_WITH_TIMEOUT(value(), 4.0, patience);
-    QTRY_VERIFY_WITH_TIMEOUT(other.lease(setpoint) && !other.lease(setpoint)->isMine, patience);
+    QTRY_COMPARE(value(), 4.0);
+    QTRY_VERIFY(other.lease(setpoint) && !other.lease(setpoint)->isMine);
     QTest::qWait(2 * PlantLeases::Timeout);  // it holds as long as it lives
     QCOMPARE(value(), 4.0);
     QCOMPARE(other.lease(setpoint)->state, LeaseStatus::Held);
@@ -175,14 +175,14 @@ void tst_PlantPrograms::masterSetsSignalsOfALostWindowToNeutral()
     QElapsedTimer clock;
     clock.start();
     window.sendSignal(signal);
-    QTRY_COMPARE_WITH_TIMEOUT(value(), 0.0, patience);
+    QTRY_COMPARE(value(), 0.0);
     QVERIFY2(clock.elapsed() < PlantLeases::Timeout + 2000, qPrintable(QString::number(clock.elapsed())));
-    QTRY_VERIFY_WITH_TIMEOUT(other.lease(setpoint) && other.lease(setpoint)->state == LeaseStatus::Lost, patience);
+    QTRY_VERIFY(other.lease(setpoint) && other.lease(setpoint)->state == LeaseStatus::Lost);
     window.sendSignal(SIGCONT);  // who comes back has lost it
     QTest::qWait(3 * PlantLeases::HeartbeatPeriod);
     QCOMPARE(value(), 0.0);
     other.takeLease({setpoint}, {{setpoint, QPlcValue(2.5)}});
-    QTRY_COMPARE_WITH_TIMEOUT(value(), 2.5, patience);
+    QTRY_COMPARE(value(), 2.5);
 }
 
 QTEST_GUILESS_MAIN(tst_PlantPrograms)

@@ -38,7 +38,7 @@ struct TwoPlants : WindowFixture
             return plant(place)->hasLeases() && !plant(place)->writer(6).isEmpty()
                 && plant(place)->quality() == qplc::Plant::Good && plant(place)->status().isRunning();
         };
-        return waitUntil([&] { return hasAll(0) && hasAll(1); }, patience) && settle();
+        return waitUntil([&] { return hasAll(0) && hasAll(1); }) && settle();
     }
     /// All that the window has sent so far has arrived and was answered, and what it sent upon
     /// these answers, and so on.
@@ -52,10 +52,10 @@ struct TwoPlants : WindowFixture
                 const auto ask = [this, place, answers] {
                     return plant(place)->ask(qplc::messages::GetState(), [answers](const auto &) { ++*answers; });
                 };
-                if (!waitUntil(ask, patience))
+                if (!waitUntil(ask))
                     return false;
             }
-            if (!waitUntil([&] { return *answers == 2; }, patience))
+            if (!waitUntil([&] { return *answers == 2; }))
                 return false;
         }
         return true;

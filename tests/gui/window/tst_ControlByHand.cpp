@@ -20,7 +20,7 @@ std::unique_ptr<Plant> otherWindow(const RunningMaster &master)
 
 bool isReady(const Plant &plant)
 {
-    return waitUntil([&] { return plant.hasLeases() && plant.table().size() > 0; }, patience);
+    return waitUntil([&] { return plant.hasLeases() && plant.table().size() > 0; });
 }
 
 }  // namespace
@@ -70,7 +70,7 @@ void tst_ControlByHand::noticeShowsHeldSignalsAndAClickReleasesThem()
     fixture.window.connectToMaster(master.address());
     QVERIFY(isReady(*fixture.plant()));
     fixture.plant()->takeLease({echo, setpoint});
-    QTRY_VERIFY_WITH_TIMEOUT(!notice->lines().isEmpty(), patience);
+    QTRY_VERIFY(!notice->lines().isEmpty());
     QCOMPARE(notice->lines().at(0), QStringLiteral("You control"));
     QStringList names = notice->lines().at(1).split(QStringLiteral(", "));
     names.sort();
@@ -78,8 +78,8 @@ void tst_ControlByHand::noticeShowsHeldSignalsAndAClickReleasesThem()
     QVERIFY(notice->giveBackButton()->isVisible());
     QVERIFY(notice->giveBackButton()->accessibleName().contains(echo));
     QTest::mouseClick(notice->giveBackButton(), Qt::LeftButton);
-    QTRY_VERIFY_WITH_TIMEOUT(master.leases().isEmpty(), patience);
-    QTRY_VERIFY_WITH_TIMEOUT(notice->lines().isEmpty(), patience);
+    QTRY_VERIFY(master.leases().isEmpty());
+    QTRY_VERIFY(notice->lines().isEmpty());
     QVERIFY(!notice->giveBackButton()->isVisible());
 }
 
@@ -90,10 +90,10 @@ void tst_ControlByHand::keysReleaseAllSignals()
     fixture.window.connectToMaster(master.address());
     QVERIFY(isReady(*fixture.plant()));
     fixture.plant()->takeLease({echo});
-    QTRY_VERIFY_WITH_TIMEOUT(fixture.action("Give back control")->isEnabled(), patience);
+    QTRY_VERIFY(fixture.action("Give back control")->isEnabled());
     fixture.press(Qt::Key_G, Qt::ControlModifier);
-    QTRY_VERIFY_WITH_TIMEOUT(master.leases().isEmpty(), patience);
-    QTRY_VERIFY_WITH_TIMEOUT(!fixture.action("Give back control")->isEnabled(), patience);
+    QTRY_VERIFY(master.leases().isEmpty());
+    QTRY_VERIFY(!fixture.action("Give back control")->isEnabled());
 }
 
 void tst_ControlByHand::noticeNamesOtherHoldersWithoutReleasingTheirSignals()
@@ -105,8 +105,7 @@ void tst_ControlByHand::noticeNamesOtherHoldersWithoutReleasingTheirSignals()
     const std::unique_ptr<Plant> other = otherWindow(master);
     QVERIFY(isReady(*other) && isReady(*fixture.plant()));
     other->takeLease({echo});
-    QTRY_COMPARE_WITH_TIMEOUT(notice->lines(),
-                              (QStringList{PlantLeases::whoever() + QStringLiteral(" controls"), echo}), patience);
+    QTRY_COMPARE(notice->lines(), (QStringList{PlantLeases::whoever() + QStringLiteral(" controls"), echo}));
     QVERIFY(!notice->giveBackButton()->isVisible());
     QVERIFY(notice->toolTip().contains(QLatin1String("A setter can take control")));
     giveBackControl(*fixture.window.context()->plants());
@@ -124,15 +123,14 @@ void tst_ControlByHand::noticeReportsLostControlWithTheRemedy()
     std::unique_ptr<Plant> other = otherWindow(master);
     QVERIFY(isReady(*other) && isReady(*fixture.plant()));
     other->takeLease({echo});
-    QTRY_VERIFY_WITH_TIMEOUT(!notice->lines().isEmpty(), patience);
+    QTRY_VERIFY(!notice->lines().isEmpty());
     other.reset();
-    QTRY_COMPARE_WITH_TIMEOUT(notice->lines(), (QStringList{QStringLiteral("Control is lost: neutral"), echo}),
-                              patience);
+    QTRY_COMPARE(notice->lines(), (QStringList{QStringLiteral("Control is lost: neutral"), echo}));
     QVERIFY2(notice->toolTip().startsWith(QLatin1String("Control of echo is lost: neutral. "))
                  && notice->toolTip().contains(QLatin1String("give back")),
              qPrintable(notice->toolTip()));
     QTest::mouseClick(notice->giveBackButton(), Qt::LeftButton);
-    QTRY_VERIFY_WITH_TIMEOUT(notice->lines().isEmpty(), patience);
+    QTRY_VERIFY(notice->lines().isEmpty());
 }
 
 void tst_ControlByHand::noticeShowsTwoLinesAndTheRestInTheToolTip()
@@ -146,10 +144,10 @@ void tst_ControlByHand::noticeShowsTwoLinesAndTheRestInTheToolTip()
     other->takeLease({setpoint});
     fixture.plant()->takeLease({echo});
     const QString theirs = PlantLeases::whoever() + QStringLiteral(" controls setpoint");
-    QTRY_COMPARE_WITH_TIMEOUT(notice->lines(), (QStringList{QStringLiteral("You control echo"), theirs}), patience);
+    QTRY_COMPARE(notice->lines(), (QStringList{QStringLiteral("You control echo"), theirs}));
     QCOMPARE(notice->toolTip().split(QLatin1Char('\n')).size(), 2);
     QTest::mouseClick(notice->giveBackButton(), Qt::LeftButton);
-    QTRY_COMPARE_WITH_TIMEOUT(notice->lines().value(1), setpoint, patience);  // theirs is left
+    QTRY_COMPARE(notice->lines().value(1), setpoint);  // theirs is left
 }
 
 void tst_ControlByHand::noticeNamesThePlantsAmongSeveral()
@@ -163,11 +161,11 @@ void tst_ControlByHand::noticeNamesThePlantsAmongSeveral()
     fixture.plant(0)->takeLease({echo});
     fixture.plant(1)->takeLease({echo});
     const ControlNotice *notice = fixture.topBar()->controlNotice();
-    QTRY_COMPARE_WITH_TIMEOUT(notice->lines().value(1), QStringLiteral("kite/echo, winch/echo"), patience);
+    QTRY_COMPARE(notice->lines().value(1), QStringLiteral("kite/echo, winch/echo"));
     fixture.press(Qt::Key_G, Qt::ControlModifier);
-    QTRY_VERIFY_WITH_TIMEOUT(first.leases().isEmpty() && second.leases().isEmpty(), patience);
+    QTRY_VERIFY(first.leases().isEmpty() && second.leases().isEmpty());
     fixture.plant(1)->takeLease({echo});
-    QTRY_COMPARE_WITH_TIMEOUT(notice->lines().value(1), QStringLiteral("winch/echo"), patience);
+    QTRY_COMPARE(notice->lines().value(1), QStringLiteral("winch/echo"));
     fixture.window.disconnectFromMaster(QStringLiteral("winch"));
     QVERIFY(notice->lines().isEmpty());
 }
@@ -185,11 +183,11 @@ void tst_ControlByHand::acquiringControlDoesNotMoveTheLayout()
             all << QRect(part->mapTo(&fixture.window, QPoint()), part->size());
         return all;
     };
-    QTRY_VERIFY_WITH_TIMEOUT(fixture.topBar()->nextButton()->isVisible(), patience);
+    QTRY_VERIFY(fixture.topBar()->nextButton()->isVisible());
     QTest::qWait(50);  // until the button has its width
     const QVector<QRect> before = places();
     fixture.plant()->takeLease({echo});
-    QTRY_VERIFY_WITH_TIMEOUT(fixture.topBar()->controlNotice()->giveBackButton()->isVisible(), patience);
+    QTRY_VERIFY(fixture.topBar()->controlNotice()->giveBackButton()->isVisible());
     QTest::qWait(50);
     QCOMPARE(places(), before);
     QCOMPARE(fixture.structure().cutButtons<BarButton>(), QStringList());
@@ -203,7 +201,7 @@ void tst_ControlByHand::aSetterOutlivesItsPlant()
     auto *view = fixture.part<LayoutView>();
     const LayoutTarget here = LayoutTarget::inTab(view->editor()->layout().currentTab().id);
     view->editor()->addPanel(QStringLiteral("Setter"), {{QStringLiteral("signal"), echo}}, here);
-    QTRY_VERIFY_WITH_TIMEOUT(fixture.structure().shows(QStringLiteral("^Take control$")), patience);
+    QTRY_VERIFY(fixture.structure().shows(QStringLiteral("^Take control$")));
     fixture.window.disconnectFromMaster(QStringLiteral("kite"));
     QVERIFY(fixture.window.plants().isEmpty());
 }

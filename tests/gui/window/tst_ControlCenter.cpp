@@ -73,15 +73,15 @@ void tst_ControlCenter::aTypedAddressConnectsAndTheNextActionStarts()
     WindowFixture fixture;
     fixture.connectTo(master.address());
     QVERIFY(fixture.part<ConnectStrip>()->isHidden());
-    QTRY_VERIFY_WITH_TIMEOUT(fixture.window.isConnected(master.address()), patience);
-    QTRY_VERIFY_WITH_TIMEOUT(fixture.topBar()->nextButton()->isVisible(), patience);
+    QTRY_VERIFY(fixture.window.isConnected(master.address()));
+    QTRY_VERIFY(fixture.topBar()->nextButton()->isVisible());
     QCOMPARE(fixture.topBar()->nextButton()->text(), QStringLiteral("Start"));
     QTest::mouseClick(fixture.topBar()->nextButton(), Qt::LeftButton);
-    QTRY_COMPARE_WITH_TIMEOUT(master.state(), QPlcMasterNode::RealTime, patience);
-    QTRY_COMPARE_WITH_TIMEOUT(fixture.topBar()->stepper()->step(), StateStep::RealTime, patience);
+    QTRY_COMPARE(master.state(), QPlcMasterNode::RealTime);
+    QTRY_COMPARE(fixture.topBar()->stepper()->step(), StateStep::RealTime);
     QVERIFY(!fixture.topBar()->nextButton()->isVisible());  // STOP is the next one
-    QTRY_COMPARE_WITH_TIMEOUT(fixture.topBar()->selector()->headline(), QStringLiteral("live"), patience);
-    QTRY_COMPARE_WITH_TIMEOUT(fixture.part<RecorderNotice>()->summary().text, QString("not recording"), patience);
+    QTRY_COMPARE(fixture.topBar()->selector()->headline(), QStringLiteral("live"));
+    QTRY_COMPARE(fixture.part<RecorderNotice>()->summary().text, QString("not recording"));
     // Connect..., Open a recording..., Back, and the address for the next time
     QCOMPARE(fixture.part<StartPage>()->buttons().size(), 4);
 }
@@ -92,9 +92,9 @@ void tst_ControlCenter::stopWorksByButtonAndByKeys()
     WindowFixture fixture;
     fixture.window.connectToMaster(master.address());
     const auto run = [&] {
-        QTRY_COMPARE_WITH_TIMEOUT(fixture.plant()->nextAction(), Plant::Start, patience);
+        QTRY_COMPARE(fixture.plant()->nextAction(), Plant::Start);
         fixture.press(Qt::Key_F5);
-        QTRY_COMPARE_WITH_TIMEOUT(master.state(), QPlcMasterNode::RealTime, patience);
+        QTRY_COMPARE(master.state(), QPlcMasterNode::RealTime);
     };
     run();
     QTest::mouseClick(fixture.topBar()->stopButton(), Qt::LeftButton);
@@ -122,7 +122,7 @@ void tst_ControlCenter::stopNamesItsPlantAndTheOthersContinue()
     QCOMPARE(fixture.topBar()->stopButton()->detail(), QStringLiteral("kite"));
     fixture.press(Qt::Key_P, Qt::ControlModifier);
     QCOMPARE(fixture.topBar()->stopButton()->detail(), QStringLiteral("winch"));
-    QTRY_VERIFY_WITH_TIMEOUT(fixture.window.isConnected(QStringLiteral("winch")), patience);
+    QTRY_VERIFY(fixture.window.isConnected(QStringLiteral("winch")));
     QTest::mouseClick(fixture.topBar()->stopButton(), Qt::LeftButton);
     QVERIFY(second.waitForState(QPlcMasterNode::Off));
     QCOMPARE(first.state(), QPlcMasterNode::RealTime);
@@ -161,7 +161,7 @@ void tst_ControlCenter::barsCannotBeMovedHiddenOrCut()
     fixture.window.resize(size);
     fixture.window.connectToMaster(first.address(), QStringLiteral("a plant with a name that goes on and on and on"));
     fixture.window.connectToMaster(second.address());
-    QTRY_VERIFY_WITH_TIMEOUT(fixture.topBar()->nextButton()->isVisible(), patience);
+    QTRY_VERIFY(fixture.topBar()->nextButton()->isVisible());
     for (const QToolBar *bar : fixture.window.findChildren<QToolBar *>()) {
         QVERIFY(!bar->isMovable());
         QVERIFY(!bar->isFloatable());
@@ -205,15 +205,15 @@ void tst_ControlCenter::timeBarShowsLiveOnlyWhileNewValuesArrive()
     auto master = std::make_unique<RunningMaster>();
     auto other = std::make_unique<RunningMaster>();
     fixture.window.connectToMaster(master->address(), QStringLiteral("north"));
-    QTRY_VERIFY_WITH_TIMEOUT(says("At rest"), patience);
+    QTRY_VERIFY(says("At rest"));
     QVERIFY(master->startRealTime());
-    QTRY_VERIFY_WITH_TIMEOUT(says("Live"), patience);
+    QTRY_VERIFY(says("Live"));
     master.reset();
-    QTRY_VERIFY_WITH_TIMEOUT(bar->stateText().contains(QLatin1String("No new values for ")), patience);
+    QTRY_VERIFY(bar->stateText().contains(QLatin1String("No new values for ")));
     QVERIFY(fixture.window.context()->timeAxis()->isLive());
     fixture.window.connectToMaster(other->address(), QStringLiteral("south"));
     QVERIFY(other->startRealTime());
-    QTRY_VERIFY_WITH_TIMEOUT(bar->stateText().contains(QLatin1String("No new values of north for ")), patience);
+    QTRY_VERIFY(bar->stateText().contains(QLatin1String("No new values of north for ")));
     fixture.window.disconnectFromMaster(QStringLiteral("north"));
     QTRY_VERIFY(says("Live"));
 }
@@ -258,7 +258,7 @@ void tst_ControlCenter::closedWindowIsRestored()
     QCOMPARE(again.theme(), QPlcControlCenter::SunlightTheme);
     QCOMPARE(again.plants(), QStringList{QStringLiteral("kite")});
     QVERIFY(again.findChild<SignalDock *>()->isHidden());
-    QTRY_VERIFY_WITH_TIMEOUT(again.isConnected(QStringLiteral("kite")), patience);
+    QTRY_VERIFY(again.isConnected(QStringLiteral("kite")));
     again.setTheme(QPlcControlCenter::SystemTheme);
 }
 
@@ -272,18 +272,18 @@ void tst_ControlCenter::rateAppliesToAllPlantsAndIsRestored()
         QVERIFY(fixture.action("Rate: every cycle")->isChecked());
         fixture.connectTo(master.address());
         const auto figures = [&] { return fixture.topBar()->selector()->toolTip(); };
-        QTRY_VERIFY_WITH_TIMEOUT(figures().contains(QStringLiteral("100 Hz ·")), patience);
+        QTRY_VERIFY(figures().contains(QStringLiteral("100 Hz ·")));
         fixture.action("Rate: 10 per second")->trigger();
         QVERIFY(!fixture.action("Rate: every cycle")->isChecked());
         QTRY_COMPARE(fixture.plant()->every(), 10);
-        QTRY_VERIFY_WITH_TIMEOUT(figures().contains(QStringLiteral("100 Hz, 10 shown")), patience);
+        QTRY_VERIFY(figures().contains(QStringLiteral("100 Hz, 10 shown")));
         fixture.window.close();
     }
     WindowFixture fixture;
     fixture.window.restoreView();
     QVERIFY(fixture.action("Rate: 10 per second")->isChecked());
-    QTRY_COMPARE_WITH_TIMEOUT(fixture.plant()->every(), 10, patience);
-    QTRY_VERIFY_WITH_TIMEOUT(fixture.plant()->values().rows() > 3, patience);
+    QTRY_COMPARE(fixture.plant()->every(), 10);
+    QTRY_VERIFY(fixture.plant()->values().rows() > 3);
 }
 
 void tst_ControlCenter::signalTreeIsRestored()
@@ -375,7 +375,7 @@ void tst_ControlCenter::aWindowEndsInEveryState()
     auto fixture = std::make_unique<WindowFixture>();
     fixture->window.connectToMaster(master.address());
     fixture->window.connectToMaster(QStringLiteral("127.0.0.1:%1").arg(freePort()));
-    QTRY_VERIFY_WITH_TIMEOUT(fixture->plant()->values().rows() > 5, patience);
+    QTRY_VERIFY(fixture->plant()->values().rows() > 5);
     fixture->press(Qt::Key_K, Qt::ControlModifier);
     fixture->window.close();
     QCOMPARE(master.state(), QPlcMasterNode::RealTime);  // the plant goes on

@@ -94,7 +94,7 @@ void tst_ControlCenterPanels::everyActionHasKeysOrIsInThePalette()
     RunningMaster master;
     WindowFixture fixture;
     fixture.window.connectToMaster(master.address());
-    QTRY_VERIFY_WITH_TIMEOUT(fixture.plant()->table().size() > 0, patience);
+    QTRY_VERIFY(fixture.plant()->table().size() > 0);
     fixture.press(Qt::Key_K, Qt::ControlModifier);
     auto *palette = fixture.part<CommandPalette>();
     QVERIFY(palette->isVisible());
@@ -148,7 +148,7 @@ void tst_ControlCenterPanels::signalsOfTheTreeArePlottedByEnterAndUndone()
     RunningMaster master;
     WindowFixture fixture;
     fixture.window.connectToMaster(master.address());
-    QTRY_VERIFY_WITH_TIMEOUT(fixture.plant()->table().size() > 0, patience);
+    QTRY_VERIFY(fixture.plant()->table().size() > 0);
     fixture.press(Qt::Key_F, Qt::ControlModifier);
     fixture.type(QStringLiteral("setpoint"));
     fixture.press(Qt::Key_Down);
@@ -157,7 +157,7 @@ void tst_ControlCenterPanels::signalsOfTheTreeArePlottedByEnterAndUndone()
         fixture.press(Qt::Key_End);
         return fixture.part<SignalDock>()->tree()->selectedReferences() == QStringList{QStringLiteral("setpoint")};
     };
-    QTRY_VERIFY_WITH_TIMEOUT(selectSignal(), patience);
+    QTRY_VERIFY(selectSignal());
     QVERIFY(tree->hasFocus());
     const QByteArray before = fixture.window.layoutJson();
     for (const auto &[key, type] :
@@ -328,12 +328,11 @@ void tst_ControlCenterPanels::valuesReachPanelsThatWantThem()
     auto *panel = static_cast<Listening *>(view->widget(id));
     QVERIFY(panel->hasContext);
     panel->listen();
-    QTRY_VERIFY_WITH_TIMEOUT(panel->counts.size() > 30, patience);
+    QTRY_VERIFY(panel->counts.size() > 30);
     for (int i = 1; i < panel->counts.size(); ++i)
         QVERIFY(panel->counts[i] > panel->counts[i - 1]);
     panel->write(3.25);
-    QTRY_COMPARE_WITH_TIMEOUT(fixture.plant()->value(testTable().indexOf(QStringLiteral("setpoint"))).toReal(), 3.25,
-                              patience);
+    QTRY_COMPARE(fixture.plant()->value(testTable().indexOf(QStringLiteral("setpoint"))).toReal(), 3.25);
     view->editor()->closePanel(id);
 }
 

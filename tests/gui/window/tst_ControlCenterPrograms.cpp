@@ -27,28 +27,27 @@ void tst_ControlCenterPrograms::killedMasterIsReportedAndFoundAgain()
     const QString port = portOf(*master);
     WindowFixture fixture;
     fixture.connectTo(QStringLiteral("127.0.0.1:") + port);
-    QTRY_VERIFY_WITH_TIMEOUT(fixture.topBar()->nextButton()->isVisible(), patience);
+    QTRY_VERIFY(fixture.topBar()->nextButton()->isVisible());
     QTest::mouseClick(fixture.topBar()->nextButton(), Qt::LeftButton);
     PlantSelector *selector = fixture.topBar()->selector();
-    QTRY_COMPARE_WITH_TIMEOUT(selector->headline(), QStringLiteral("live"), patience);
+    QTRY_COMPARE(selector->headline(), QStringLiteral("live"));
 
     const Heartbeat heartbeat;
     master->sendSignal(SIGKILL);
-    QTRY_VERIFY2_WITH_TIMEOUT(selector->headline().startsWith(QLatin1String("lost")), qPrintable(selector->headline()),
-                              patience);
+    QTRY_VERIFY2(selector->headline().startsWith(QLatin1String("lost")), qPrintable(selector->headline()));
     QCOMPARE(fixture.plant()->quality(), Plant::Stale);
     QCOMPARE(fixture.topBar()->stepper()->step(), StateStep::None);
     QVERIFY(fixture.topBar()->stopButton()->isEnabled());
-    QTRY_VERIFY_WITH_TIMEOUT(selector->headline().contains(QLatin1String("next attempt in")), patience);
+    QTRY_VERIFY(selector->headline().contains(QLatin1String("next attempt in")));
     QTest::mouseClick(fixture.topBar()->stopButton(), Qt::LeftButton);  // waits for nobody, and says so
-    QTRY_VERIFY_WITH_TIMEOUT(fixture.hint().contains(QLatin1String("no connection")), patience);
+    QTRY_VERIFY(fixture.hint().contains(QLatin1String("no connection")));
     QVERIFY(fixture.part<EventLine>("EventLine")->text().contains(QLatin1String("Error")));
 
     master = startMaster(port);
     QVERIFY(master);
-    QTRY_VERIFY_WITH_TIMEOUT(fixture.topBar()->nextButton()->isVisible(), patience);
+    QTRY_VERIFY(fixture.topBar()->nextButton()->isVisible());
     fixture.press(Qt::Key_F5);
-    QTRY_COMPARE_WITH_TIMEOUT(selector->headline(), QStringLiteral("live"), patience);
+    QTRY_COMPARE(selector->headline(), QStringLiteral("live"));
     QVERIFY2(heartbeat.longest() < 1000, qPrintable(QString::number(heartbeat.longest())));
 }
 

@@ -68,6 +68,25 @@ void pressKey(Qt::Key key)
     QCoreApplication::processEvents();
 }
 
+/// What stops a plant. A person begins anew where the computer was too slow between two presses.
+/// \param between  them
+/// \return whether the first one stopped nothing
+bool pressEscapeTwice(
+    const QSignalSpy &stops, const std::function<void()> &between = [] {})
+{
+    constexpr qint64 longestPause = 600;  // [ms]
+    QElapsedTimer pause;
+    do {
+        pause.start();
+        pressKey(Qt::Key_Escape);
+        between();
+        if (!stops.isEmpty())
+            return false;
+    } while (pause.elapsed() > longestPause);
+    pressKey(Qt::Key_Escape);
+    return true;
+}
+
 QAction *actionOf(QWidget *widget, const char *text)
 {
     for (QAction *each : widget->actions()) {
@@ -101,7 +120,7 @@ struct FlyingWindow : WindowFixture
     {
         isReady = master.startRealTime();
         window.connectToMaster(master.address());
-        isReady = isReady && waitUntil([this] { return plant()->status().isRunning(); }, patience);
+        isReady = isReady && waitUntil([this] { return plant()->status().isRunning(); });
         auto *editor = part<LayoutView>()->editor();
         editor->addTab();
         const LayoutTarget here = LayoutTarget::inTab(editor->layout().currentTab().id);
@@ -120,7 +139,7 @@ struct FlyingWindow : WindowFixture
         plot = add("Time plot");
         tree = part<SignalDock>()->tree();
         makeThings();
-        isReady = isReady && waitUntil([this] { return number->isEnabled() && slider->isEnabled(); }, patience);
+        isReady = isReady && waitUntil([this] { return number->isEnabled() && slider->isEnabled(); });
     }
 
     void makeThings();
@@ -304,13 +323,10 @@ void tst_EscapeKeys::escapeTwiceWithNothingOpenStopsThePlantAndShowsIt()
     const auto *notice = fixture.part<StopNotice>();
     QVERIFY(!notice->isVisible());
     fixture.plot->setFocus();
-    pressKey(Qt::Key_Escape);
-    QTest::qWait(50);
-    QCOMPARE(fixture.master.state(), QPlcMasterNode::RealTime);
+    QVERIFY(pressEscapeTwice(fixture.stops, [] { QTest::qWait(50); }));
     const QDateTime before = QDateTime::currentDateTime();
-    pressKey(Qt::Key_Escape);
-    QTRY_COMPARE_WITH_TIMEOUT(fixture.master.state(), QPlcMasterNode::Off, patience);
-    QTRY_VERIFY_WITH_TIMEOUT(notice->isVisible(), patience);
+    QTRY_COMPARE(fixture.master.state(), QPlcMasterNode::Off);
+    QTRY_VERIFY(notice->isVisible());
     const QRegularExpression line(
         QStringLiteral("^Stopped by you \\(Esc Esc\\), (\\d\\d:\\d\\d:\\d\\d)\\. Start again: F5$"));
     const QRegularExpressionMatch match = line.match(notice->text());
@@ -319,8 +335,8 @@ void tst_EscapeKeys::escapeTwiceWithNothingOpenStopsThePlantAndShowsIt()
     QTest::qWait(700);  // it stays, over polls of the state
     QVERIFY(notice->isVisible());
     pressKey(Qt::Key_F5);
-    QTRY_COMPARE_WITH_TIMEOUT(fixture.master.state(), QPlcMasterNode::RealTime, patience);
-    QTRY_VERIFY_WITH_TIMEOUT(!notice->isVisible(), patience);
+    QTRY_COMPARE(fixture.master.state(), QPlcMasterNode::RealTime);
+    QTRY_VERIFY(!notice->isVisible());
 }
 
 void tst_EscapeKeys::noticeShowsWhichPersonStoppedThePlant()
@@ -329,22 +345,22 @@ void tst_EscapeKeys::noticeShowsWhichPersonStoppedThePlant()
     QVERIFY(fixture.isReady);
     const auto *notice = fixture.part<StopNotice>();
     QTest::mouseClick(fixture.topBar()->stopButton(), Qt::LeftButton);
-    QTRY_VERIFY_WITH_TIMEOUT(notice->text().startsWith(QLatin1String("Stopped by you (STOP), ")), patience);
+    QTRY_VERIFY(notice->text().startsWith(QLatin1String("Stopped by you (STOP), ")));
     QVERIFY(fixture.master.startRealTime());
-    QTRY_VERIFY_WITH_TIMEOUT(!notice->isVisible(), patience);
+    QTRY_VERIFY(!notice->isVisible());
 
     Plant other(fixture.master.address(), QString(), QStringLiteral("Other"));
     other.open();
-    QTRY_VERIFY_WITH_TIMEOUT(other.status().isRunning(), patience);
+    QTRY_VERIFY(other.status().isRunning());
     other.stop(QStringLiteral("STOP"));
     const QString expected = QStringLiteral("Stopped by %1 (STOP), ").arg(PlantLeases::whoever());
-    QTRY_VERIFY_WITH_TIMEOUT(notice->text().startsWith(expected), patience);
-    QTRY_VERIFY_WITH_TIMEOUT(other.status().master.stopped && other.status().master.stopped->yours, patience);
+    QTRY_VERIFY(notice->text().startsWith(expected));
+    QTRY_VERIFY(other.status().master.stopped && other.status().master.stopped->yours);
 
     QVERIFY(fixture.master.startRealTime());
-    QTRY_VERIFY_WITH_TIMEOUT(!notice->isVisible(), patience);
+    QTRY_VERIFY(!notice->isVisible());
     fixture.master.stop();  // its program, and no person
-    QTRY_VERIFY_WITH_TIMEOUT(!fixture.plant()->status().isRunning(), patience);
+    QTRY_VERIFY(!fixture.plant()->status().isRunning());
     QVERIFY(!notice->isVisible());
 }
 
@@ -392,9 +408,8 @@ void tst_EscapeKeys::withAnythingOpenEscapeNeverStops()
         QVERIFY2(opened.value(thing.name) > 0, qPrintable(thing.name));
     QCOMPARE(fixture.master.state(), QPlcMasterNode::RealTime);
     fixture.plot->setFocus();
-    pressKey(Qt::Key_Escape);
-    pressKey(Qt::Key_Escape);
-    QTRY_COMPARE_WITH_TIMEOUT(fixture.master.state(), QPlcMasterNode::Off, patience);
+    QVERIFY(pressEscapeTwice(fixture.stops));
+    QTRY_COMPARE(fixture.master.state(), QPlcMasterNode::Off);
 }
 
 /// A person who holds a slider in a fright and presses Escape again and again wants to stop.
@@ -413,11 +428,8 @@ void tst_EscapeKeys::escapeEndsADragAndTwiceMoreStops()
         const int place = fixture.slider->sliderPosition();
         QTest::mouseMove(fixture.slider, QPoint(2, fixture.slider->height() / 2));
         QCOMPARE(fixture.slider->sliderPosition(), place);
-        pressKey(Qt::Key_Escape);
-        QVERIFY(fixture.stops.isEmpty());
-        QCOMPARE(fixture.master.state(), QPlcMasterNode::RealTime);
-        pressKey(Qt::Key_Escape);
-        QTRY_COMPARE_WITH_TIMEOUT(fixture.master.state(), QPlcMasterNode::Off, patience);
+        QVERIFY(pressEscapeTwice(fixture.stops));
+        QTRY_COMPARE(fixture.master.state(), QPlcMasterNode::Off);
         QTest::mouseRelease(fixture.slider, Qt::LeftButton);
     }
 }
@@ -428,9 +440,8 @@ void tst_EscapeKeys::aListWithTheFocusKeepsNoEscape()
     FlyingWindow fixture;
     QVERIFY(fixture.isReady);
     fixture.events->findChild<QAbstractItemView *>()->setFocus();
-    pressKey(Qt::Key_Escape);
-    pressKey(Qt::Key_Escape);
-    QTRY_COMPARE_WITH_TIMEOUT(fixture.master.state(), QPlcMasterNode::Off, patience);
+    QVERIFY(pressEscapeTwice(fixture.stops));
+    QTRY_COMPARE(fixture.master.state(), QPlcMasterNode::Off);
 }
 
 QTEST_MAIN(tst_EscapeKeys)

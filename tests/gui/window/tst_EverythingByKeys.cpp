@@ -48,7 +48,7 @@ struct PanelFixture : WindowFixture
         const QString id = editor->addPanel(type, settings, LayoutTarget::inTab(editor->layout().currentTab().id));
         frame = view->frame(id);
         panel = view->widget(id);
-        isReady = waitUntil([this] { return plant()->hasLeases() && plant()->table().size() > 0; }, patience);
+        isReady = waitUntil([this] { return plant()->hasLeases() && plant()->table().size() > 0; });
     }
     /// Gives the keyboard to the panel as a person without a mouse does: its title, and what can be
     /// done there. \return whether it came further than to the title

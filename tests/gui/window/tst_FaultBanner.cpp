@@ -27,7 +27,7 @@ void tst_FaultBanner::bannerIsHiddenWithoutInjectedFaults()
     const auto *banner = fixture.part<FaultBanner>();
     QVERIFY(!banner->isVisible());
     fixture.window.connectToMaster(master.address());
-    QTRY_VERIFY_WITH_TIMEOUT(fixture.plant()->status().master.state != messages::MasterState::Unknown, patience);
+    QTRY_VERIFY(fixture.plant()->status().master.state != messages::MasterState::Unknown);
     QVERIFY(!banner->isVisible());
     QVERIFY(banner->text().isEmpty());
 }
@@ -44,16 +44,16 @@ void tst_FaultBanner::bannerNamesEveryInjectorAndItsFaults()
     WindowFixture fixture;
     const auto *banner = fixture.part<FaultBanner>();
     fixture.window.connectToMaster(QStringLiteral("127.0.0.1:%1").arg(master.serverPort()), QStringLiteral("winch"));
-    QTRY_VERIFY_WITH_TIMEOUT(banner->isVisible(), patience);
+    QTRY_VERIFY(banner->isVisible());
     QCOMPARE(banner->text(),
              QStringLiteral("winch: faults are injected on purpose by the master (delay=1ms,jitter=1ms,seed=7), "
                             "Echo (loss=5%)"));
     QCOMPARE(banner->accessibleName(), banner->text());
-    QTRY_VERIFY_WITH_TIMEOUT(banner->width() > fixture.window.width() / 2, patience);
+    QTRY_VERIFY(banner->width() > fixture.window.width() / 2);
     QVERIFY(banner->height() >= 24);
     QTest::qWait(500);  // for the picture
     echo.disconnectFromMaster();
-    QTRY_VERIFY_WITH_TIMEOUT(!banner->text().contains(QStringLiteral("Echo")), patience);
+    QTRY_VERIFY(!banner->text().contains(QStringLiteral("Echo")));
     QVERIFY(banner->isVisible());
 }
 
@@ -65,9 +65,9 @@ void tst_FaultBanner::bannerDisappearsWithItsPlant()
     WindowFixture fixture;
     const auto *banner = fixture.part<FaultBanner>();
     fixture.window.connectToMaster(QStringLiteral("127.0.0.1:%1").arg(master.serverPort()), QStringLiteral("winch"));
-    QTRY_VERIFY_WITH_TIMEOUT(banner->isVisible(), patience);
+    QTRY_VERIFY(banner->isVisible());
     fixture.window.disconnectFromMaster(QStringLiteral("winch"));
-    QTRY_VERIFY_WITH_TIMEOUT(!banner->isVisible(), patience);
+    QTRY_VERIFY(!banner->isVisible());
 }
 
 QTEST_MAIN(tst_FaultBanner)

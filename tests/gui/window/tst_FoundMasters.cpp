@@ -95,7 +95,7 @@ void tst_FoundMasters::aClickConnects()
     WindowFixture fixture;
     tell(fixture, {master(running.serverPort())});
     QTest::mouseClick(buttons<StartPage>(fixture).constFirst(), Qt::LeftButton);
-    QTRY_VERIFY_WITH_TIMEOUT(fixture.window.isConnected(running.address()), patience);
+    QTRY_VERIFY(fixture.window.isConnected(running.address()));
     QVERIFY(!fixture.window.isStartPageShown());
 }
 
@@ -110,7 +110,7 @@ void tst_FoundMasters::keysSelectAndConnectFoundMasters()
         fixture.press(Qt::Key_Tab);
     QVERIFY(wanted->hasFocus());
     fixture.press(Qt::Key_Return);
-    QTRY_VERIFY_WITH_TIMEOUT(fixture.window.isConnected(running.address()), patience);
+    QTRY_VERIFY(fixture.window.isConnected(running.address()));
 }
 
 void tst_FoundMasters::connectStripShowsFoundMasters()
@@ -123,7 +123,7 @@ void tst_FoundMasters::connectStripShowsFoundMasters()
     QVERIFY(buttons<ConnectStrip>(fixture).constFirst()->isVisible());
     QTest::mouseClick(buttons<ConnectStrip>(fixture).constFirst(), Qt::LeftButton);
     QVERIFY(fixture.part<ConnectStrip>()->isHidden());
-    QTRY_VERIFY_WITH_TIMEOUT(fixture.window.isConnected(running.address()), patience);
+    QTRY_VERIFY(fixture.window.isConnected(running.address()));
 }
 
 void tst_FoundMasters::focusStaysOnAMasterWhileOthersChange()

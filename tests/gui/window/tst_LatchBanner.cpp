@@ -38,18 +38,18 @@ void tst_LatchBanner::aSafeStopIsShownWithItsReasonUntilItIsReset()
     fixture.window.connectToMaster(master.address(), QStringLiteral("kite"));
     auto *banner = fixture.part<LatchBanner>();
     QVERIFY(!banner->isVisible());
-    QTRY_COMPARE_WITH_TIMEOUT(fixture.plant()->nextAction(), Plant::Start, patience);
+    QTRY_COMPARE(fixture.plant()->nextAction(), Plant::Start);
     fixture.press(Qt::Key_F5);
-    QTRY_COMPARE_WITH_TIMEOUT(master.state(), QPlcMasterNode::RealTime, patience);
+    QTRY_COMPARE(master.state(), QPlcMasterNode::RealTime);
     master.safeStop(QStringLiteral("smoke at the winch"));
-    QTRY_VERIFY_WITH_TIMEOUT(banner->isVisible(), patience);
+    QTRY_VERIFY(banner->isVisible());
     QCOMPARE(banner->text(),
              QStringLiteral("kite has stopped safely: smoke at the winch. Reset it, then initialize and start."));
     QCOMPARE(banner->accessibleName(), banner->text());
     QCOMPARE(fixture.topBar()->selector()->headline(), QStringLiteral("stopped safely"));
     QCOMPARE(PlantSummary::of(*fixture.plant()).tone, Tone::Alarm);
     QCOMPARE(fixture.topBar()->nextButton()->text(), QStringLiteral("Reset"));
-    QTRY_VERIFY_WITH_TIMEOUT(fixture.topBar()->stepper()->toolTip().contains(QLatin1String("Safe stop")), patience);
+    QTRY_VERIFY(fixture.topBar()->stepper()->toolTip().contains(QLatin1String("Safe stop")));
     QTest::qWait(100);  // a picture with values
     const QString folder = qEnvironmentVariable("QTPLC_SCREENSHOTS");
     if (!folder.isEmpty())
@@ -57,8 +57,8 @@ void tst_LatchBanner::aSafeStopIsShownWithItsReasonUntilItIsReset()
             QStringLiteral("%1/safe_stop_%2.png").arg(folder, QLatin1String(QTest::currentDataTag())));
     QTest::mouseClick(banner->resetButton(), Qt::LeftButton);
     QVERIFY(master.waitForState(QPlcMasterNode::Off));
-    QTRY_VERIFY_WITH_TIMEOUT(!banner->isVisible(), patience);
-    QTRY_COMPARE_WITH_TIMEOUT(fixture.plant()->nextAction(), Plant::Start, patience);
+    QTRY_VERIFY(!banner->isVisible());
+    QTRY_COMPARE(fixture.plant()->nextAction(), Plant::Start);
 }
 
 void tst_LatchBanner::bannerNamesPendingConditionsAndDisablesReset()
@@ -74,12 +74,12 @@ void tst_LatchBanner::bannerNamesPendingConditionsAndDisablesReset()
     fixture.window.connectToMaster(master.address(), QStringLiteral("kite"));
     critical.disconnectFromMaster();
     auto *banner = fixture.part<LatchBanner>();
-    QTRY_VERIFY_WITH_TIMEOUT(banner->text().contains(QLatin1String("critical node 'Echo' has left")), patience);
+    QTRY_VERIFY(banner->text().contains(QLatin1String("critical node 'Echo' has left")));
     QVERIFY2(banner->text().contains(QLatin1String("Before a reset: node 'Echo' is not back")),
              qPrintable(banner->text()));
     QVERIFY(!banner->resetButton()->isEnabled());
     QVERIFY(critical.connectToMasterAndWaitForConnected(master.protocol(QStringLiteral("udp"))));
-    QTRY_VERIFY_WITH_TIMEOUT(banner->resetButton()->isEnabled(), patience);
+    QTRY_VERIFY(banner->resetButton()->isEnabled());
     fixture.press(Qt::Key_F7);
     QVERIFY(master.waitForState(QPlcMasterNode::Off));
     critical.disconnectFromMaster();
@@ -93,15 +93,14 @@ void tst_LatchBanner::missingNodeIsNamedUntilItIsBack()
     QVERIFY(critical.connectToMasterAndWaitForConnected(master.protocol(QStringLiteral("udp"))));
     WindowFixture fixture;
     fixture.window.connectToMaster(master.address(), QStringLiteral("kite"));
-    QTRY_VERIFY_WITH_TIMEOUT(fixture.window.isConnected(QStringLiteral("kite")), patience);
+    QTRY_VERIFY(fixture.window.isConnected(QStringLiteral("kite")));
     auto *notice = fixture.part<MissingNotice>();
     QCOMPARE(notice->text(), QString());
     critical.disconnectFromMaster();
-    QTRY_VERIFY_WITH_TIMEOUT(notice->text().startsWith(QLatin1String("kite: critical node 'Echo' (has left: ")),
-                             patience);
+    QTRY_VERIFY(notice->text().startsWith(QLatin1String("kite: critical node 'Echo' (has left: ")));
     QVERIFY(notice->isVisible());
     QVERIFY(critical.connectToMasterAndWaitForConnected(master.protocol(QStringLiteral("udp"))));
-    QTRY_COMPARE_WITH_TIMEOUT(notice->text(), QString(), patience);
+    QTRY_COMPARE(notice->text(), QString());
     critical.disconnectFromMaster();
 }
 
@@ -114,11 +113,11 @@ void tst_LatchBanner::nextButtonStepsThroughInitializeArmAndStart()
     BarButton *next = fixture.topBar()->nextButton();
     for (const auto &[action, word] :
          {std::pair(Plant::Initialize, "Initialize"), std::pair(Plant::Arm, "Arm"), std::pair(Plant::Start, "Start")}) {
-        QTRY_COMPARE_WITH_TIMEOUT(fixture.plant()->nextAction(), action, patience);
-        QTRY_COMPARE_WITH_TIMEOUT(next->text(), QString::fromLatin1(word), patience);
+        QTRY_COMPARE(fixture.plant()->nextAction(), action);
+        QTRY_COMPARE(next->text(), QString::fromLatin1(word));
         QTest::mouseClick(next, Qt::LeftButton);
     }
-    QTRY_COMPARE_WITH_TIMEOUT(master.state(), QPlcMasterNode::RealTime, patience);
+    QTRY_COMPARE(master.state(), QPlcMasterNode::RealTime);
 }
 
 void tst_LatchBanner::safeStopOfAnUnselectedPlantIsShown()
@@ -132,10 +131,10 @@ void tst_LatchBanner::safeStopOfAnUnselectedPlantIsShown()
     QVERIFY(other.waitForState(QPlcMasterNode::RealTime));
     other.safeStop(QStringLiteral("smoke"));
     auto *banner = fixture.part<LatchBanner>();
-    QTRY_VERIFY_WITH_TIMEOUT(banner->text().startsWith(QLatin1String("tower has stopped safely: smoke")), patience);
+    QTRY_VERIFY(banner->text().startsWith(QLatin1String("tower has stopped safely: smoke")));
     QTest::mouseClick(banner->resetButton(), Qt::LeftButton);
     QVERIFY(other.waitForState(QPlcMasterNode::Off));
-    QTRY_VERIFY_WITH_TIMEOUT(banner->isHidden(), patience);
+    QTRY_VERIFY(banner->isHidden());
 }
 
 QTEST_MAIN(tst_LatchBanner)

@@ -58,7 +58,7 @@ struct RecordingWindow : WindowFixture
     {
         QString error;
         name = window.openRecording({flight.file}, &error);
-        if (name.isEmpty() || !waitUntil([this] { return !plant()->recording()->isReading(); }, patience))
+        if (name.isEmpty() || !waitUntil([this] { return !plant()->recording()->isReading(); }))
             qFatal("%s", qPrintable(error));
     }
     Playback &playback() { return *playbackOf; }
@@ -148,7 +148,7 @@ void tst_Recordings::playingMovesThePlayheadByTheTimeThatPasses()
     playback.play();
     QVERIFY(playback.isPlaying());
     const Playback::Time before = playback.position();
-    QVERIFY(waitUntil([&] { return playback.position() > before; }, patience));
+    QVERIFY(waitUntil([&] { return playback.position() > before; }));
     playback.pause();
     QVERIFY(!playback.isPlaying());
 }
@@ -277,7 +277,7 @@ void tst_Recordings::nothingInARecordingCanBeCommanded()
     QVERIFY(!fixture.action("Start")->isEnabled());
     QVERIFY(!fixture.action("Initialize")->isEnabled());
     fixture.plant()->start();
-    QVERIFY(waitUntil([&] { return !fixture.hint().isEmpty(); }, patience));
+    QVERIFY(waitUntil([&] { return !fixture.hint().isEmpty(); }));
     QCOMPARE(fixture.hint(), QStringLiteral("'flight' is a recording: nothing can be commanded"));
 }
 
@@ -286,7 +286,7 @@ void tst_Recordings::stopMeansNoRecording()
     RecordingWindow fixture;
     QVERIFY(PlantSelection(fixture.window.context()->plants()).plantsToStop().isEmpty());
     fixture.press(Qt::Key_Period, Qt::ControlModifier);
-    QVERIFY(waitUntil([&] { return !fixture.hint().isEmpty(); }, patience));
+    QVERIFY(waitUntil([&] { return !fixture.hint().isEmpty(); }));
     QVERIFY2(fixture.hint().contains(QLatin1String("recording")), qPrintable(fixture.hint()));
 }
 
@@ -375,7 +375,7 @@ void tst_Recordings::aRecordingOfOneCycleIsShown()
     QCOMPARE(flight.recorder.proceed(&flight.error), PlantRecorder::Ended);
     QVERIFY(flight.recorder.finish(&flight.error));
     QVERIFY2(!fixture.window.openRecording({flight.file}, &flight.error).isEmpty(), qPrintable(flight.error));
-    QVERIFY(waitUntil([&] { return !fixture.plant()->recording()->isReading(); }, patience));
+    QVERIFY(waitUntil([&] { return !fixture.plant()->recording()->isReading(); }));
     QCOMPARE(fixture.plant()->store()->endRow() - fixture.plant()->store()->firstRow(), SignalStore::Row(1));
     auto *playback = fixture.part<RecordingTimeline>()->playback();
     playback->play();
@@ -392,7 +392,7 @@ void tst_Recordings::aRecordingThatDoesNotFitIsAnOverviewUntilAPersonLooksCloser
     constexpr std::int64_t memory = 2000 * PlantValues::bytesOfRow(6);
     Plant plant{QString(), QStringLiteral("flight")};
     auto *read = new PlantRecording(&plant, std::move(recording), memory);
-    QVERIFY(waitUntil([&] { return !read->isReading(); }, patience));
+    QVERIFY(waitUntil([&] { return !read->isReading(); }));
     const int channel = plant.values().channels().channel(plant.table().indexOf(QStringLiteral("position_x")));
     const auto extremes
         = [&] { return plant.store()->range(channel, plant.store()->firstRow(), plant.store()->endRow()); };
@@ -400,7 +400,7 @@ void tst_Recordings::aRecordingThatDoesNotFitIsAnOverviewUntilAPersonLooksCloser
     QCOMPARE(extremes().maximum, 19'999.0F);
     read->see(read->begin() + 10'000 * period, read->begin() + 10'100 * period);
     QVERIFY(read->isReading());
-    QVERIFY(waitUntil([&] { return !read->isReading(); }, patience));
+    QVERIFY(waitUntil([&] { return !read->isReading(); }));
     const SignalStore &store = *plant.store();
     const std::optional<SignalStore::Row> row = store.rowUpTo(read->begin() + 10'050 * period);
     QVERIFY(row);
@@ -409,7 +409,7 @@ void tst_Recordings::aRecordingThatDoesNotFitIsAnOverviewUntilAPersonLooksCloser
     read->see(read->begin() + 10'010 * period, read->begin() + 10'110 * period);  // it is there
     QVERIFY(!read->isReading());
     read->see(read->begin(), read->end());
-    QVERIFY(waitUntil([&] { return !read->isReading(); }, patience));
+    QVERIFY(waitUntil([&] { return !read->isReading(); }));
     QCOMPARE(extremes().maximum, 19'999.0F);
 }
 
@@ -422,7 +422,7 @@ void tst_Recordings::whatIsLeftOutOfAFolderIsTold()
     WindowFixture fixture;
     QString error;
     QVERIFY2(!fixture.window.openRecording({flight.folder.path()}, &error).isEmpty(), qPrintable(error));
-    QVERIFY(waitUntil([&] { return !fixture.plant()->recording()->isReading(); }, patience));
+    QVERIFY(waitUntil([&] { return !fixture.plant()->recording()->isReading(); }));
     QVERIFY2(fixture.plant()->stateText().contains("not all files"), qPrintable(fixture.plant()->stateText()));
     const EventLogModel *events = fixture.window.context()->events();
     const auto isTold = [&] {
@@ -460,13 +460,13 @@ void tst_Recordings::aRecordingWithLessMemoryBecomesAnOverviewAndComesBack()
     Plant plant{QString(), QStringLiteral("flight")};
     auto *read = new PlantRecording(&plant, std::move(recording), 40'000 * PlantValues::bytesOfRow(6));
     const auto rows = [&] { return plant.store()->endRow() - plant.store()->firstRow(); };
-    QVERIFY(waitUntil([&] { return !read->isReading(); }, patience));
+    QVERIFY(waitUntil([&] { return !read->isReading(); }));
     QCOMPARE(rows(), SignalStore::Row(20'000));
     read->setMemory(2000 * PlantValues::bytesOfRow(6));
-    QVERIFY(waitUntil([&] { return !read->isReading(); }, patience));
+    QVERIFY(waitUntil([&] { return !read->isReading(); }));
     QVERIFY(rows() <= 2000);
     read->setMemory(40'000 * PlantValues::bytesOfRow(6));
-    QVERIFY(waitUntil([&] { return !read->isReading(); }, patience));
+    QVERIFY(waitUntil([&] { return !read->isReading(); }));
     QCOMPARE(rows(), SignalStore::Row(20'000));
     read->setMemory(50'000 * PlantValues::bytesOfRow(6));  // it is there
     QVERIFY(!read->isReading());

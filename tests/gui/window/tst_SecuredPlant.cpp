@@ -27,7 +27,7 @@ private:
     bool next(WindowFixture *fixture, const char *text)
     {
         BarButton *button = fixture->topBar()->nextButton();
-        if (!waitUntil([&] { return button->isVisible() && button->text() == QLatin1String(text); }, patience))
+        if (!waitUntil([&] { return button->isVisible() && button->text() == QLatin1String(text); }))
             return false;
         QTest::mouseClick(button, Qt::LeftButton);
         return true;
@@ -65,7 +65,7 @@ void tst_SecuredPlant::anOperatorInitializesArmsAndStarts()
     QVERIFY(next(&fixture, "Arm"));
     QVERIFY(next(&fixture, "Start"));
     QVERIFY(m_master->waitForState(QPlcMasterNode::RealTime));
-    QTRY_VERIFY_WITH_TIMEOUT(fixture.plant()->store()->endRow() > 5, patience);
+    QTRY_VERIFY(fixture.plant()->store()->endRow() > 5);
     QTest::mouseClick(fixture.topBar()->stopButton(), Qt::LeftButton);
     QVERIFY(m_master->waitForState(QPlcMasterNode::Off));
 }
@@ -86,10 +86,10 @@ void tst_SecuredPlant::anObserverSeesAndMayStopAndNothingElse()
     WindowFixture fixture;
     fixture.connectTo(address());
     QVERIFY(next(&fixture, "Initialize"));
-    QTRY_VERIFY_WITH_TIMEOUT(fixture.hint().contains(QLatin1String("role Observer may not")), patience);
+    QTRY_VERIFY(fixture.hint().contains(QLatin1String("role Observer may not")));
     QCOMPARE(m_master->state(), QPlcMasterNode::Off);
     QVERIFY(m_master->startArmed());
-    QTRY_VERIFY_WITH_TIMEOUT(fixture.plant()->store()->endRow() > 5, patience);
+    QTRY_VERIFY(fixture.plant()->store()->endRow() > 5);
     QTest::mouseClick(fixture.topBar()->stopButton(), Qt::LeftButton);
     QVERIFY(m_master->waitForState(QPlcMasterNode::Off));
 }
@@ -99,8 +99,7 @@ void tst_SecuredPlant::unknownIdentityIsReported()
     QPlcSecurity::setCurrent(m_files.of(QStringLiteral("mallory"), 'f'));
     WindowFixture fixture;
     fixture.connectTo(address());
-    QTRY_VERIFY_WITH_TIMEOUT(fixture.plant()->stateText().contains(QLatin1String("does not know identity 'mallory'")),
-                             patience);
+    QTRY_VERIFY(fixture.plant()->stateText().contains(QLatin1String("does not know identity 'mallory'")));
     QVERIFY(!fixture.window.isConnected(address()));
 }
 
@@ -111,19 +110,19 @@ void tst_SecuredPlant::aPlainAndASecuredPlantAreInOneWindow()
     QVERIFY(plain.listen());
     WindowFixture fixture;
     fixture.connectTo(QStringLiteral("127.0.0.1:%1").arg(plain.serverPort()));
-    QTRY_VERIFY_WITH_TIMEOUT(fixture.plant(0)->isConnected(), patience);
+    QTRY_VERIFY(fixture.plant(0)->isConnected());
     fixture.connectTo(address() + QStringLiteral("?keys=") + m_files.path(QStringLiteral("anna.ini")));
-    QTRY_COMPARE_WITH_TIMEOUT(fixture.window.plants().size(), 2, patience);
-    QTRY_VERIFY_WITH_TIMEOUT(fixture.plant(1)->isConnected(), patience);
-    QTRY_VERIFY_WITH_TIMEOUT(fixture.plant(1)->ownNode(), patience);  // its listener is known by the key, too
+    QTRY_COMPARE(fixture.window.plants().size(), 2);
+    QTRY_VERIFY(fixture.plant(1)->isConnected());
+    QTRY_VERIFY(fixture.plant(1)->ownNode());  // its listener is known by the key, too
     const PlantSelector *selector = fixture.topBar()->selector();
     QCOMPARE(fixture.plant(1)->name(), address());
-    QTRY_VERIFY_WITH_TIMEOUT(selector->figures().startsWith(QStringLiteral("anna (Operator)")), patience);
+    QTRY_VERIFY(selector->figures().startsWith(QStringLiteral("anna (Operator)")));
     const QString profile = QStringLiteral("Profile Plant: set at the master");
-    QTRY_COMPARE_WITH_TIMEOUT(selector->accessibleDescription(), profile, patience);
+    QTRY_COMPARE(selector->accessibleDescription(), profile);
     QVERIFY2(selector->toolTip().endsWith(profile), qPrintable(selector->toolTip()));
     fixture.press(Qt::Key_P, Qt::ControlModifier);
-    QTRY_VERIFY_WITH_TIMEOUT(!selector->figures().contains(QStringLiteral("anna")), patience);
+    QTRY_VERIFY(!selector->figures().contains(QStringLiteral("anna")));
     QVERIFY(next(&fixture, "Start"));
     QVERIFY(plain.waitForState(QPlcMasterNode::RealTime));
     QCOMPARE(m_master->state(), QPlcMasterNode::Off);
@@ -147,7 +146,7 @@ void tst_SecuredPlant::unusableAddressIsReported()
     QFETCH(QString, sentence);
     WindowFixture fixture;
     fixture.window.connectToMaster(address() + query);
-    QTRY_VERIFY_WITH_TIMEOUT(fixture.plant()->stateText().contains(sentence), patience);
+    QTRY_VERIFY(fixture.plant()->stateText().contains(sentence));
 }
 
 QTEST_MAIN(tst_SecuredPlant)

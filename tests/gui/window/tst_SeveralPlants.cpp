@@ -14,7 +14,7 @@ const QString momentary = QStringLiteral("momentary");
 void typeInto(QWidget *setter, const QString &text)
 {
     auto *field = setter->findChild<QLineEdit *>();
-    QTRY_VERIFY_WITH_TIMEOUT(field->isEnabled(), patience);
+    QTRY_VERIFY(field->isEnabled());
     field->setFocus();
     field->selectAll();
     QTest::keyClicks(field, text);
@@ -82,7 +82,7 @@ void tst_SeveralPlants::panelsFollowTheSelectedPlantAndNameIt()
         QCOMPARE(TwoPlants::badgeOf(panel), QStringLiteral("south"));
     QVERIFY(title->badge().color != ofNorth);
     typeInto(setter, QStringLiteral("2.5\r"));
-    QTRY_COMPARE_WITH_TIMEOUT(fixture.south.valueOf(setpoint), 2.5, patience);
+    QTRY_COMPARE(fixture.south.valueOf(setpoint), 2.5);
     QVERIFY(fixture.settle());
     QCOMPARE(fixture.northTap.commands().size(), 0);
     QCOMPARE(fixture.southTap.count(QPlcMessage::SetSignals), 1);
@@ -101,9 +101,9 @@ void tst_SeveralPlants::aQualifiedOrPinnedPanelStaysWithItsPlant()
     QVERIFY(TwoPlants::frameOf(pinned)->titleBar()->badge().isPinned);
     QVERIFY(!TwoPlants::frameOf(qualified)->titleBar()->badge().isPinned);
     typeInto(qualified, QStringLiteral("1\r"));
-    QTRY_COMPARE_WITH_TIMEOUT(fixture.north.valueOf(setpoint), 1.0, patience);
+    QTRY_COMPARE(fixture.north.valueOf(setpoint), 1.0);
     typeInto(pinned, QStringLiteral("2\r"));
-    QTRY_COMPARE_WITH_TIMEOUT(fixture.north.valueOf(setpoint), 2.0, patience);
+    QTRY_COMPARE(fixture.north.valueOf(setpoint), 2.0);
     QVERIFY(fixture.settle());
     QCOMPARE(fixture.southTap.commands().size(), 0);
 }
@@ -154,12 +154,12 @@ void tst_SeveralPlants::heldButtonIsReleasedInItsOwnPlant()
     QPlcSetter *setter = fixture.addSetter(setpoint, momentary);
     QVERIFY(fixture.isReady());
     auto *button = qobject_cast<QAbstractButton *>(setter->focusProxy()->focusProxy());
-    QTRY_VERIFY_WITH_TIMEOUT(button->isEnabled(), patience);
+    QTRY_VERIFY(button->isEnabled());
     QTest::mousePress(button, Qt::LeftButton);
-    QTRY_COMPARE_WITH_TIMEOUT(fixture.north.valueOf(setpoint), 10.0, patience);
+    QTRY_COMPARE(fixture.north.valueOf(setpoint), 10.0);
     fixture.selectNext();
-    QTRY_COMPARE_WITH_TIMEOUT(fixture.north.valueOf(setpoint), 0.0, patience);
-    QTRY_VERIFY_WITH_TIMEOUT(fixture.north.leases().isEmpty(), patience);
+    QTRY_COMPARE(fixture.north.valueOf(setpoint), 0.0);
+    QTRY_VERIFY(fixture.north.leases().isEmpty());
     QTest::mouseRelease(setter, Qt::LeftButton);
     QVERIFY(fixture.settle());
     QCOMPARE(fixture.southTap.commands().size(), 0);
@@ -170,13 +170,13 @@ void tst_SeveralPlants::heldKeysAreReleasedInTheirOwnPlant()
     TwoPlants fixture;
     QPlcKeyboardControl *keyboard = fixture.addKeyboard();
     QVERIFY(fixture.isReady());
-    QTRY_VERIFY_WITH_TIMEOUT(TwoPlants::take(keyboard), patience);
-    QTRY_VERIFY_WITH_TIMEOUT(fixture.plant(0)->lease(echo) && fixture.plant(0)->lease(echo)->isMine, patience);
+    QTRY_VERIFY(TwoPlants::take(keyboard));
+    QTRY_VERIFY(fixture.plant(0)->lease(echo) && fixture.plant(0)->lease(echo)->isMine);
     keyboard->setFocus();
     QTest::keyPress(keyboard, Qt::Key_W);
-    QTRY_COMPARE_WITH_TIMEOUT(fixture.north.valueOf(echo), 4.0, patience);
+    QTRY_COMPARE(fixture.north.valueOf(echo), 4.0);
     fixture.selectNext();
-    QTRY_COMPARE_WITH_TIMEOUT(fixture.north.valueOf(echo), 0.0, patience);
+    QTRY_COMPARE(fixture.north.valueOf(echo), 0.0);
     QTest::keyRelease(keyboard, Qt::Key_W);
     QTest::keyPress(keyboard, Qt::Key_W);
     QVERIFY(fixture.settle());
@@ -190,8 +190,8 @@ void tst_SeveralPlants::controlIsAcquiredFromTheShownPlant()
     QPlcSetter *setter = fixture.addSetter(echo, number);
     QVERIFY(fixture.isReady());
     fixture.selectNext();
-    QTRY_VERIFY_WITH_TIMEOUT(TwoPlants::take(setter), patience);
-    QTRY_COMPARE_WITH_TIMEOUT(fixture.south.leases().size(), 1, patience);
+    QTRY_VERIFY(TwoPlants::take(setter));
+    QTRY_COMPARE(fixture.south.leases().size(), 1);
     QCOMPARE(fixture.northTap.commands().size(), 0);
 }
 
@@ -201,12 +201,12 @@ void tst_SeveralPlants::stopActsOnTheControlledPlant()
     QPlcSetter *setter = fixture.addSetter(QStringLiteral("south/echo"), number);
     QVERIFY(fixture.isReady());
     QCOMPARE(fixture.stopPlants(), QStringList(QStringLiteral("north")));
-    QTRY_VERIFY_WITH_TIMEOUT(TwoPlants::take(setter), patience);
-    QTRY_COMPARE_WITH_TIMEOUT(fixture.stopPlants(), QStringList(QStringLiteral("south")), patience);
+    QTRY_VERIFY(TwoPlants::take(setter));
+    QTRY_COMPARE(fixture.stopPlants(), QStringList(QStringLiteral("south")));
     QCOMPARE(fixture.barPlant(), QStringLiteral("north"));
     QVERIFY(fixture.action("Stop south (Esc Esc)"));
     QTest::mouseClick(fixture.topBar()->stopButton(), Qt::LeftButton);
-    QTRY_COMPARE_WITH_TIMEOUT(fixture.south.state(), QPlcMasterNode::Off, patience);
+    QTRY_COMPARE(fixture.south.state(), QPlcMasterNode::Off);
     QCOMPARE(fixture.barPlant(), QStringLiteral("south"));  // what comes next is for what was stopped
     QVERIFY(fixture.settle());
     QCOMPARE(fixture.north.state(), QPlcMasterNode::RealTime);
@@ -218,12 +218,12 @@ void tst_SeveralPlants::escapeTwiceStopsTheControlledPlant()
     TwoPlants fixture;
     QPlcSetter *setter = fixture.addSetter(QStringLiteral("south/echo"), number);
     QVERIFY(fixture.isReady());
-    QTRY_VERIFY_WITH_TIMEOUT(TwoPlants::take(setter), patience);
-    QTRY_COMPARE_WITH_TIMEOUT(fixture.stopPlants(), QStringList(QStringLiteral("south")), patience);
+    QTRY_VERIFY(TwoPlants::take(setter));
+    QTRY_COMPARE(fixture.stopPlants(), QStringList(QStringLiteral("south")));
     fixture.window.setFocus();
     fixture.press(Qt::Key_Escape);
     fixture.press(Qt::Key_Escape);
-    QTRY_COMPARE_WITH_TIMEOUT(fixture.south.state(), QPlcMasterNode::Off, patience);
+    QTRY_COMPARE(fixture.south.state(), QPlcMasterNode::Off);
     QVERIFY(fixture.settle());
     QCOMPARE(fixture.northTap.commands().size(), 0);
 }
@@ -234,15 +234,15 @@ void tst_SeveralPlants::stopNeverMovesToAnotherPlantWhenTheControlledOneIsLost()
     TwoPlants fixture;
     QPlcSetter *setter = fixture.addSetter(QStringLiteral("south/echo"), number);
     QVERIFY(fixture.isReady());
-    QTRY_VERIFY_WITH_TIMEOUT(TwoPlants::take(setter), patience);
-    QTRY_COMPARE_WITH_TIMEOUT(fixture.stopPlants(), QStringList(QStringLiteral("south")), patience);
+    QTRY_VERIFY(TwoPlants::take(setter));
+    QTRY_COMPARE(fixture.stopPlants(), QStringList(QStringLiteral("south")));
     fixture.southTap.cut();
-    QTRY_VERIFY_WITH_TIMEOUT(!fixture.plant(1)->isConnected(), patience);
+    QTRY_VERIFY(!fixture.plant(1)->isConnected());
     QCOMPARE(fixture.stopPlants(), QStringList(QStringLiteral("south")));
     fixture.window.setFocus();
     fixture.press(Qt::Key_Escape);
     fixture.press(Qt::Key_Escape);
-    QTRY_COMPARE_WITH_TIMEOUT(fixture.barPlant(), QStringLiteral("south"), patience);
+    QTRY_COMPARE(fixture.barPlant(), QStringLiteral("south"));
     QTest::mouseClick(fixture.topBar()->stopButton(), Qt::LeftButton);
     QTest::qWait(100);
     QCOMPARE(fixture.northTap.count(QPlcMessage::Stop), 0);
@@ -250,7 +250,7 @@ void tst_SeveralPlants::stopNeverMovesToAnotherPlantWhenTheControlledOneIsLost()
     fixture.selectNext();  // now north is what the person means
     QCOMPARE(fixture.stopPlants(), QStringList(QStringLiteral("north")));
     QTest::mouseClick(fixture.topBar()->stopButton(), Qt::LeftButton);
-    QTRY_COMPARE_WITH_TIMEOUT(fixture.north.state(), QPlcMasterNode::Off, patience);
+    QTRY_COMPARE(fixture.north.state(), QPlcMasterNode::Off);
 }
 
 void tst_SeveralPlants::stopReasonRecordsHowTheQuestionWasAnswered()
@@ -259,12 +259,12 @@ void tst_SeveralPlants::stopReasonRecordsHowTheQuestionWasAnswered()
     QPlcSetter *ofNorth = fixture.addSetter(QStringLiteral("north/echo"), number);
     QPlcSetter *ofSouth = fixture.addSetter(QStringLiteral("south/echo"), number);
     QVERIFY(fixture.isReady());
-    QTRY_VERIFY_WITH_TIMEOUT(TwoPlants::take(ofNorth) && TwoPlants::take(ofSouth), patience);
-    QTRY_COMPARE_WITH_TIMEOUT(fixture.stopPlants().size(), 2, patience);
+    QTRY_VERIFY(TwoPlants::take(ofNorth) && TwoPlants::take(ofSouth));
+    QTRY_COMPARE(fixture.stopPlants().size(), 2);
     fixture.window.setFocus();
     for (int press = 0; press < 4; ++press)
         fixture.press(Qt::Key_Escape);
-    QTRY_VERIFY_WITH_TIMEOUT(fixture.plant(1)->status().master.stopped, patience);
+    QTRY_VERIFY(fixture.plant(1)->status().master.stopped);
     QCOMPARE(fixture.plant(1)->status().master.stopped->how, QStringLiteral("Esc Esc"));
 }
 
@@ -294,8 +294,8 @@ void tst_SeveralPlants::stopAsksWhenSeveralPlantsAreControlled()
     QPlcSetter *ofNorth = fixture.addSetter(QStringLiteral("north/echo"), number);
     QPlcSetter *ofSouth = fixture.addSetter(QStringLiteral("south/echo"), number);
     QVERIFY(fixture.isReady());
-    QTRY_VERIFY_WITH_TIMEOUT(TwoPlants::take(ofNorth) && TwoPlants::take(ofSouth), patience);
-    QTRY_COMPARE_WITH_TIMEOUT(fixture.topBar()->stopButton()->detail(), QStringLiteral("north, south?"), patience);
+    QTRY_VERIFY(TwoPlants::take(ofNorth) && TwoPlants::take(ofSouth));
+    QTRY_COMPARE(fixture.topBar()->stopButton()->detail(), QStringLiteral("north, south?"));
     auto *question = fixture.part<StopQuestion>();
     const auto isStopped = [&](const CommandTap &tap) { return tap.count(QPlcMessage::Stop) > 0; };
     QTest::mouseClick(fixture.topBar()->stopButton(), Qt::LeftButton);
@@ -304,7 +304,7 @@ void tst_SeveralPlants::stopAsksWhenSeveralPlantsAreControlled()
     QVERIFY(!isStopped(fixture.northTap) && !isStopped(fixture.southTap));
     QTest::mouseClick(buttonOf(question, QStringLiteral("Stop south")), Qt::LeftButton);
     QVERIFY(question->isHidden());
-    QTRY_COMPARE_WITH_TIMEOUT(fixture.south.state(), QPlcMasterNode::Off, patience);
+    QTRY_COMPARE(fixture.south.state(), QPlcMasterNode::Off);
     QVERIFY(!isStopped(fixture.northTap));
 
     QTest::mouseClick(fixture.topBar()->stopButton(), Qt::LeftButton);
@@ -314,12 +314,12 @@ void tst_SeveralPlants::stopAsksWhenSeveralPlantsAreControlled()
     QVERIFY(!isStopped(fixture.northTap));
     QTest::mouseClick(fixture.topBar()->stopButton(), Qt::LeftButton);
     QTest::mouseClick(fixture.topBar()->stopButton(), Qt::LeftButton);  // once more is "all"
-    QTRY_COMPARE_WITH_TIMEOUT(fixture.north.state(), QPlcMasterNode::Off, patience);
+    QTRY_COMPARE(fixture.north.state(), QPlcMasterNode::Off);
 
     QTest::mouseClick(fixture.topBar()->stopButton(), Qt::LeftButton);
     QVERIFY(!question->isHidden());
     fixture.press(Qt::Key_G, Qt::ControlModifier);  // nothing is controlled any more: nothing is asked
-    QTRY_VERIFY_WITH_TIMEOUT(question->isHidden(), patience);
+    QTRY_VERIFY(question->isHidden());
 }
 
 void tst_SeveralPlants::resetKeyBelongsToTheSelectedPlant()
@@ -328,14 +328,14 @@ void tst_SeveralPlants::resetKeyBelongsToTheSelectedPlant()
     QVERIFY(fixture.isReady());
     fixture.south.safeStop(QStringLiteral("test"));
     auto *banner = fixture.part<LatchBanner>();
-    QTRY_VERIFY_WITH_TIMEOUT(banner->isVisible(), patience);
+    QTRY_VERIFY(banner->isVisible());
     QVERIFY(banner->accessibleName().startsWith(QStringLiteral("south ")));
     auto *reset = banner->findChild<BarButton *>();
     QCOMPARE(reset->detail(), QString());
     fixture.selectNext();
     QCOMPARE(reset->detail(), QStringLiteral("F7"));
     fixture.north.safeStop(QStringLiteral("test"));
-    QTRY_VERIFY_WITH_TIMEOUT(fixture.plant(0)->status().isLatched(), patience);
+    QTRY_VERIFY(fixture.plant(0)->status().isLatched());
     QVERIFY(banner->accessibleName().startsWith(QStringLiteral("south ")));
     fixture.selectNext();
     QVERIFY(banner->accessibleName().startsWith(QStringLiteral("north ")));
@@ -346,10 +346,10 @@ void tst_SeveralPlants::histogramsFollowTheSelectedPlant()
     TwoPlants fixture;
     QPlcWidget *histogram = fixture.addPanel(QStringLiteral("Jitter histogram"), {});
     QVERIFY(fixture.isReady());
-    QTRY_VERIFY_WITH_TIMEOUT(labelsOf(histogram).contains(QStringLiteral("north: ")), patience);
+    QTRY_VERIFY(labelsOf(histogram).contains(QStringLiteral("north: ")));
     fixture.selectNext();
     QCOMPARE(TwoPlants::badgeOf(histogram), QStringLiteral("south"));
-    QTRY_VERIFY_WITH_TIMEOUT(labelsOf(histogram).contains(QStringLiteral("south: ")), patience);
+    QTRY_VERIFY(labelsOf(histogram).contains(QStringLiteral("south: ")));
 }
 
 QTEST_MAIN(tst_SeveralPlants)

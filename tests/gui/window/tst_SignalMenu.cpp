@@ -28,8 +28,8 @@ struct MenuFixture : WindowFixture
         window.connectToMaster(master.address());
         editor->setLayout(threePanels());
         // Rows that move below their writers take no selection along.
-        isReady = waitUntil([this] { return find("time").parent().data() == QLatin1String("Master"); }, patience)
-            && waitUntil([this] { return find("count").parent().data() == QLatin1String("Counter"); }, patience)
+        isReady = waitUntil([this] { return find("time").parent().data() == QLatin1String("Master"); })
+            && waitUntil([this] { return find("count").parent().data() == QLatin1String("Counter"); })
             && find("setpoint").isValid();
         rows->setFocus();
     }
@@ -289,7 +289,7 @@ void tst_SignalMenu::aTreeInAPanelHasTheMenuToo()
                                                 LayoutTarget::inTab(fixture.editor->layout().currentTab().id));
     fixture.tree = qobject_cast<QPlcSignalTree *>(fixture.view->widget(id));
     fixture.rows = fixture.tree->findChild<QTreeView *>();
-    QTRY_VERIFY_WITH_TIMEOUT(fixture.find("setpoint").isValid(), patience);
+    QTRY_VERIFY(fixture.find("setpoint").isValid());
     fixture.view->frame("panel3")->titleBar()->setFocus();
     fixture.rows->setFocus();
     QMenu *menu = fixture.openByKeys("setpoint");

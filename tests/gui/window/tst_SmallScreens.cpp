@@ -65,7 +65,7 @@ void tst_SmallScreens::everythingIsReachedOnASmallScreen()
     WindowFixture fixture;
     if (isConnected) {
         fixture.window.connectToMaster(master.address());
-        QTRY_VERIFY_WITH_TIMEOUT(fixture.plant()->status().isRunning(), patience);
+        QTRY_VERIFY(fixture.plant()->status().isRunning());
     }
     fixture.action("Connect...")->trigger();  // the strip needs room, too
     fixture.window.resize(smallest);
@@ -83,12 +83,11 @@ void tst_SmallScreens::theBarHasRoomForLongNamesAndForControl()
     fixture.window.connectToMaster(first.address(), QStringLiteral("Kite of the northern field"));
     fixture.window.connectToMaster(second.address(), QStringLiteral("Kite of the southern field"));
     for (int place : {0, 1}) {
-        QTRY_VERIFY_WITH_TIMEOUT(fixture.plant(place)->hasLeases(), patience);
+        QTRY_VERIFY(fixture.plant(place)->hasLeases());
         fixture.plant(place)->takeLease({QStringLiteral("echo")});
     }
     TopBar *bar = fixture.topBar();
-    QTRY_VERIFY_WITH_TIMEOUT(bar->controlNotice()->giveBackButton()->isVisible() && bar->nextButton()->isVisible(),
-                             patience);
+    QTRY_VERIFY(bar->controlNotice()->giveBackButton()->isVisible() && bar->nextButton()->isVisible());
     fixture.window.resize(smallest);
     QTest::qWait(50);
     QCOMPARE(fixture.window.size(), smallest);
@@ -105,10 +104,10 @@ void tst_SmallScreens::controlNoticeIsReadableOnASmallScreen()
     FlyingMaster master;
     WindowFixture fixture;
     fixture.window.connectToMaster(master.address(), QStringLiteral("north"));
-    QTRY_VERIFY_WITH_TIMEOUT(fixture.plant()->hasLeases(), patience);
+    QTRY_VERIFY(fixture.plant()->hasLeases());
     fixture.plant()->takeLease({QStringLiteral("echo")});
     const ControlNotice *notice = fixture.topBar()->controlNotice();
-    QTRY_VERIFY_WITH_TIMEOUT(notice->giveBackButton()->isVisible(), patience);
+    QTRY_VERIFY(notice->giveBackButton()->isVisible());
     QCOMPARE(notice->lines(), (QStringList{QStringLiteral("You control"), QStringLiteral("echo")}));
     fixture.window.resize(smallest);
     QTest::qWait(50);

@@ -169,7 +169,7 @@ void tst_ThesisWiring::wiringOfTheThesisWorks()
 
     // A person connects: the address goes to the node of the program.
     QVERIFY(program.connectTo(master.serverPort()));
-    QTRY_COMPARE_WITH_TIMEOUT(program.controlCenter->plants().size(), 1, patience);
+    QTRY_COMPARE(program.controlCenter->plants().size(), 1);
     const QString plant = program.controlCenter->plants().constFirst();
     QCOMPARE(plant, QStringLiteral("127.0.0.1:%1").arg(master.serverPort()));  // as it was entered
     QVERIFY(program.controlCenter->isConnected(plant));
@@ -187,22 +187,22 @@ void tst_ThesisWiring::wiringOfTheThesisWorks()
     // ... and starts: the command goes the same way. The values of before are old by now.
     QTest::qWait(700);
     QTest::keyClick(program.controlCenter, Qt::Key_F5);
-    QTRY_COMPARE_WITH_TIMEOUT(master.state(), QPlcMasterNode::RealTime, patience);
-    QTRY_VERIFY_WITH_TIMEOUT(program.panel()->counts.size() > 50, patience);
+    QTRY_COMPARE(master.state(), QPlcMasterNode::RealTime);
+    QTRY_VERIFY(program.panel()->counts.size() > 50);
     const auto *stepper = program.controlCenter->findChild<StateStepper *>();
-    QTRY_COMPARE_WITH_TIMEOUT(stepper->accessibleName(), QStringLiteral("State of the master: Real time"), patience);
+    QTRY_COMPARE(stepper->accessibleName(), QStringLiteral("State of the master: Real time"));
     const QVector<int> counts = program.panel()->counts;
     for (int i = 1; i < counts.size(); ++i)
         QVERIFY(counts[i] > counts[i - 1]);  // a busy machine misses cycles, and never tells one twice
     QCOMPARE(master.signalValue(QStringLiteral("setpoint")).toReal(), 1.5);
     program.panel()->write(-2.25);
-    QTRY_COMPARE_WITH_TIMEOUT(master.signalValue(QStringLiteral("setpoint")).toReal(), -2.25, patience);
+    QTRY_COMPARE(master.signalValue(QStringLiteral("setpoint")).toReal(), -2.25);
 
     // STOP, and leave.
     QTest::keyClick(program.controlCenter, Qt::Key_Period, Qt::ControlModifier);
     QVERIFY(master.waitForState(QPlcMasterNode::Off));
     QTest::keyClick(program.controlCenter, Qt::Key_D, Qt::ControlModifier);
-    QTRY_VERIFY_WITH_TIMEOUT(!program.controlCenter->isConnected(plant), patience);
+    QTRY_VERIFY(!program.controlCenter->isConnected(plant));
     master.removeLocalNode(&counter);
 }
 
@@ -218,7 +218,7 @@ void tst_ThesisWiring::aRefusedConnectionIsSeenInTheWindow()
     ThesisProgram program;
     QVERIFY(program.connectTo(port));
     const auto *strip = program.controlCenter->findChild<ConnectStrip *>();
-    QTRY_VERIFY_WITH_TIMEOUT(strip->error().contains(QString::number(port)), patience);
+    QTRY_VERIFY(strip->error().contains(QString::number(port)));
     QVERIFY(strip->isVisible());
     program.controlCenter->errorWithMaster(QPlcAbstractSocket::TimeoutError);
     QVERIFY2(strip->error().contains(QStringLiteral("TimeoutError")), qPrintable(strip->error()));

@@ -77,7 +77,7 @@ struct VideoWindow : WindowFixture
                               {QStringLiteral("style"), QStringLiteral("number")}});
         plot = view->widget(view->addPanel(QStringLiteral("Time plot")));
         plot->addSignals({QStringLiteral("position_x")});
-        QVERIFY(waitUntil([this] { return colour->isVisible() && gauge->isVisible(); }, patience));
+        QVERIFY(waitUntil([this] { return colour->isVisible() && gauge->isVisible(); }));
         options.from = 1.0;
         options.to = 3.0;
         options.framesPerSecond = 5.0;
@@ -230,12 +230,12 @@ void tst_Videos::picturesHaveNoButtonsOverCurves()
         return std::count_if(all.begin(), all.end(), [](QToolButton *button) { return button->isVisible(); });
     };
     fixture.window.context()->timeAxis()->freeze();
-    QTRY_VERIFY_WITH_TIMEOUT(buttons() > 0, patience);
+    QTRY_VERIFY(buttons() > 0);
     std::ptrdiff_t inPictures = 0;
     connect(&fixture.video, &QPlcVideoExport::progressed, this, [&] { inPictures += buttons(); });
     QVERIFY2(fixture.make(fixture.file("frames")), qPrintable(fixture.video.errorString()));
     QCOMPARE(inPictures, std::ptrdiff_t(0));
-    QTRY_VERIFY_WITH_TIMEOUT(buttons() > 0, patience);
+    QTRY_VERIFY(buttons() > 0);
 }
 
 /// A person waits with the mouse over a plot, and moves it now and then.
@@ -252,7 +252,7 @@ void tst_Videos::theMouseAndTheFocusAreNotInPictures()
     fixture.window.context()->timeAxis()->freeze();
     moveMouse(fixture.plot->width() / 2);
     moveMouse(fixture.plot->width() / 2 + 10);
-    QTRY_VERIFY_WITH_TIMEOUT(axis->pointer().has_value(), patience);
+    QTRY_VERIFY(axis->pointer().has_value());
     fixture.gauge->setFocus();
     int wrong = 0;
     connect(&fixture.video, &QPlcVideoExport::progressed, this, [&](int done) {
@@ -266,7 +266,7 @@ void tst_Videos::theMouseAndTheFocusAreNotInPictures()
     QCOMPARE(fixture.window.focusWidget(), static_cast<QWidget *>(fixture.gauge));
     moveMouse(fixture.plot->width() / 2);
     moveMouse(fixture.plot->width() / 2 + 10);
-    QTRY_VERIFY_WITH_TIMEOUT(axis->pointer().has_value(), patience);
+    QTRY_VERIFY(axis->pointer().has_value());
 }
 
 void tst_Videos::gaugesShowTheTimeOfEachPicture()
@@ -381,7 +381,7 @@ void tst_Videos::aCancelledVideoLeavesNothing()
         QVERIFY(fixture.video.isRunning());
         QMetaObject::Connection first;
         first = connect(&fixture.video, &QPlcVideoExport::progressed, this, [&] { fixture.video.cancel(); });
-        QVERIFY(waitUntil([&] { return !fixture.video.isRunning(); }, patience));
+        QVERIFY(waitUntil([&] { return !fixture.video.isRunning(); }));
         disconnect(first);
         disconnect(ended);
         QVERIFY(!isWritten);
@@ -425,7 +425,7 @@ void tst_Videos::theCommandSavesWhatIsBetweenTheCursors()
     fixture.setCursors(2.4, 2.0);
     command->save(fixture.file("frames"));
     QVERIFY(!fixture.action("Save a video of the recording...")->isEnabled());
-    QVERIFY(waitUntil([&] { return !command->isRunning(); }, patience));
+    QVERIFY(waitUntil([&] { return !command->isRunning(); }));
     QCOMPARE(fixture.hint(), QStringLiteral("frames: 11 pictures"));
     QCOMPARE(ColourPanel::cycleOf(QImage(fixture.file("frames/frame_000000.png")).pixel(fixture.place())), 200);
     QCOMPARE(ColourPanel::cycleOf(QImage(fixture.file("frames/frame_000010.png")).pixel(fixture.place())), 240);

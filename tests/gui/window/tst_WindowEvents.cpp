@@ -81,17 +81,17 @@ void tst_WindowEvents::startsAndStopsAreOnTheBottomLine()
     RunningMaster master;
     WindowFixture fixture;
     fixture.window.connectToMaster(master.address(), QStringLiteral("kite"));
-    QTRY_VERIFY_WITH_TIMEOUT(fixture.plant()->isConnected(), patience);
+    QTRY_VERIFY(fixture.plant()->isConnected());
     auto *line = fixture.part<EventLine>();
     fixture.press(Qt::Key_F5);
-    QTRY_VERIFY_WITH_TIMEOUT(line->detail().endsWith(QLatin1String("kite: state Real time")), patience);
+    QTRY_VERIFY(line->detail().endsWith(QLatin1String("kite: state Real time")));
     // A warning does not hide it.
     fixture.window.context()->events()->append(
         {QDateTime::currentDateTime(), PlantEvent::Warning, QStringLiteral("kite"), QStringLiteral("late"), false});
     QVERIFY(line->text().contains(QLatin1String("late")));
     QVERIFY(line->detail().endsWith(QLatin1String("kite: state Real time")));
     fixture.plant()->stop();
-    QTRY_VERIFY_WITH_TIMEOUT(line->detail().contains(QLatin1String("kite: state Off")), patience);
+    QTRY_VERIFY(line->detail().contains(QLatin1String("kite: state Off")));
     QVERIFY2(line->detail().contains(PlantLeases::whoever()), qPrintable(line->detail()));
 }
 
@@ -114,7 +114,7 @@ void tst_WindowEvents::aNoteIsAnEventOfTheMaster()
     RunningMaster master;
     WindowFixture fixture;
     fixture.window.connectToMaster(master.address(), QStringLiteral("kite"));
-    QTRY_VERIFY_WITH_TIMEOUT(fixture.plant()->isConnected(), patience);
+    QTRY_VERIFY(fixture.plant()->isConnected());
     auto *strip = fixture.part<NoteStrip>();
     QVERIFY(strip->isHidden());
     fixture.press(Qt::Key_N);
@@ -122,7 +122,7 @@ void tst_WindowEvents::aNoteIsAnEventOfTheMaster()
     fixture.type(QStringLiteral("  gust at  the mast "));
     fixture.press(Qt::Key_Return);
     const EventLogModel &events = *fixture.window.context()->events();
-    QTRY_COMPARE_WITH_TIMEOUT(notesOf(events).size(), 1, patience);
+    QTRY_COMPARE(notesOf(events).size(), 1);
     QCOMPARE(notesOf(events).first().text, QStringLiteral("gust at the mast"));
     QVERIFY(notesOf(events).first().source.startsWith(QLatin1String("kite")));
     QCOMPARE(events.unacknowledged(), 0);  // it asks nobody
@@ -134,7 +134,7 @@ void tst_WindowEvents::nIsALetterWhileAPersonTypes()
     RunningMaster master;
     WindowFixture fixture;
     fixture.window.connectToMaster(master.address(), QStringLiteral("kite"));
-    QTRY_VERIFY_WITH_TIMEOUT(fixture.plant()->isConnected(), patience);
+    QTRY_VERIFY(fixture.plant()->isConnected());
     fixture.press(Qt::Key_O, Qt::ControlModifier);
     fixture.part<ConnectStrip>()->line()->clear();
     fixture.type(QStringLiteral("north"));
@@ -148,7 +148,7 @@ void tst_WindowEvents::escapeForgetsANoteAndStopsNothing()
     QVERIFY(master.startRealTime());
     WindowFixture fixture;
     fixture.window.connectToMaster(master.address(), QStringLiteral("kite"));
-    QTRY_VERIFY_WITH_TIMEOUT(fixture.plant()->isConnected(), patience);
+    QTRY_VERIFY(fixture.plant()->isConnected());
     auto *strip = fixture.part<NoteStrip>();
     for (const bool hasText : {true, false}) {
         fixture.press(Qt::Key_N);
@@ -170,14 +170,14 @@ void tst_WindowEvents::aNoteBelongsToThePlantInWhichItWasBegun()
     WindowFixture fixture;
     fixture.window.connectToMaster(north.address(), QStringLiteral("north"));
     fixture.window.connectToMaster(south.address(), QStringLiteral("south"));
-    QTRY_VERIFY_WITH_TIMEOUT(fixture.plant(0)->isConnected() && fixture.plant(1)->isConnected(), patience);
+    QTRY_VERIFY(fixture.plant(0)->isConnected() && fixture.plant(1)->isConnected());
     fixture.window.context()->plants()->select(fixture.plant(0));
     fixture.press(Qt::Key_N);
     fixture.type(QStringLiteral("calm"));
     fixture.window.context()->plants()->select(fixture.plant(1));
     fixture.press(Qt::Key_Return);
     const EventLogModel &events = *fixture.window.context()->events();
-    QTRY_COMPARE_WITH_TIMEOUT(notesOf(events).size(), 1, patience);
+    QTRY_COMPARE(notesOf(events).size(), 1);
     QVERIFY(notesOf(events).first().source.startsWith(QLatin1String("north")));
 }
 
@@ -195,12 +195,12 @@ void tst_WindowEvents::aNoteStaysInItsLineWhenTheConnectionIsLost()
     auto master = std::make_unique<RunningMaster>();
     WindowFixture fixture;
     fixture.window.connectToMaster(master->address(), QStringLiteral("kite"));
-    QTRY_VERIFY_WITH_TIMEOUT(fixture.plant()->isConnected(), patience);
+    QTRY_VERIFY(fixture.plant()->isConnected());
     auto *strip = fixture.part<NoteStrip>();
     fixture.press(Qt::Key_N);
     fixture.type(QStringLiteral("gust"));
     master.reset();
-    QTRY_VERIFY_WITH_TIMEOUT(!fixture.plant()->isConnected(), patience);
+    QTRY_VERIFY(!fixture.plant()->isConnected());
     fixture.press(Qt::Key_Return);
     QVERIFY(strip->isVisible());
     QCOMPARE(strip->line()->text(), QStringLiteral("gust"));
@@ -227,15 +227,15 @@ void tst_WindowEvents::eventsAndLeasesUseTheSamePersonName()
     QVERIFY(master.startRealTime());
     WindowFixture fixture;
     fixture.window.connectToMaster(master.address(), QStringLiteral("kite"));
-    QTRY_VERIFY_WITH_TIMEOUT(fixture.plant()->hasLeases(), patience);
+    QTRY_VERIFY(fixture.plant()->hasLeases());
     fixture.plant()->takeLease({QStringLiteral("echo")});
-    QTRY_VERIFY_WITH_TIMEOUT(fixture.plant()->leases().size() == 1, patience);
+    QTRY_VERIFY(fixture.plant()->leases().size() == 1);
     const QString name = fixture.plant()->leases().first().holder;
     QCOMPARE(name, PlantLeases::whoever());
     fixture.plant()->setValues({{QStringLiteral("setpoint"), QPlcValue(1.0)}});
     const EventLogModel &events = *fixture.window.context()->events();
     const QString set = QStringLiteral("'%1' has set setpoint").arg(name);
-    QTRY_COMPARE_WITH_TIMEOUT(columnTexts(events, EventLogModel::Text).filter(set).size(), 1, patience);
+    QTRY_COMPARE(columnTexts(events, EventLogModel::Text).filter(set).size(), 1);
     // The window is a node, too: nodes have names of their own, which begin with that of the
     // person.
     QVERIFY2(!columnTexts(events, EventLogModel::Text).filter(QStringLiteral("node %1-").arg(name)).isEmpty(),

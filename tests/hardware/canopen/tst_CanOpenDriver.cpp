@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The driver canopen against devices that were written from the standard alone.
+#include "../../common/Waiting.h"
 #include "CanOpenBench.h"
 #include "QPlcHardwareNode.h"
 #include "hardware/canopen/CanOpenClient.h"

@@ -162,7 +162,8 @@ void tst_DemoFlight::hintShowsTheProgramsOfTheDemo()
     for (const QLabel *label : window.findChildren<QLabel *>())
         hint = label->text().contains(QStringLiteral("./awe_model")) ? label : hint;
     QVERIFY(hint);
-    QTRY_VERIFY(hint->visibleRegion().boundingRect().height() >= 5 * hint->fontMetrics().lineSpacing());
+    QTRY_VERIFY_WITH_TIMEOUT(hint->visibleRegion().boundingRect().height() >= 5 * hint->fontMetrics().lineSpacing(),
+                             Program::patience);
     QString error;
     QVERIFY2(awe::writeScreenshot(&window, QStringLiteral(AWE_SCREENSHOTS "/awe_parts.png"), &error),
              qPrintable(error));

@@ -184,7 +184,7 @@ void tst_SilProcesses::nodePausedInADebuggerDoesNotEndTheFlight()
     QVERIFY2(goesOn, qPrintable(program.errors()));
     QVERIFY(sawIt);
     QVERIFY2(seesCycles(50), qPrintable(program.errors()));
-    QTRY_VERIFY(witness.seesGoodValues());
+    QTRY_VERIFY_WITH_TIMEOUT(witness.seesGoodValues(), Program::patience);
     QVERIFY(!witness.hasSeenSafeValues());
     QVERIFY2(witness.shortestTether() > 99.0, qPrintable(QString::number(witness.shortestTether())));
     QCOMPARE(program.errors().count(QStringLiteral("node Model registered over")), 1);
