@@ -57,9 +57,9 @@ QByteArray encodeControlFrame(const QPlcMessage &message, quint32 limit)
     return nestingDepth(json) > MaximumControlDepth ? QByteArray() : encodeControlFrame(message.kind(), json, limit);
 }
 
-QByteArray encodeControlFrame(QPlcMessage::Kind kind, const QByteArray &json, quint32 limit)
+QByteArray encodeControlFrame(QPlcMessage::Kind kind, const QByteArray &json, quint32 limit, int behind)
 {
-    const quint32 length = quint32(KindSize + json.size());
+    const quint32 length = quint32(KindSize) + quint32(json.size()) + quint32(behind);
     if (length > limit)
         return QByteArray();
 

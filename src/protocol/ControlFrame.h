@@ -22,7 +22,9 @@ constexpr int MaximumControlDepth = 16;
 QByteArray encodeControlFrame(const QPlcMessage &message, quint32 limit = UsualControlFrame);
 
 /// The bytes of a message whose fields are \a json already; empty when they are too long.
-QByteArray encodeControlFrame(QPlcMessage::Kind kind, const QByteArray &json, quint32 limit = UsualControlFrame);
+/// \param behind  bytes of the fields that are sent behind these
+QByteArray encodeControlFrame(QPlcMessage::Kind kind, const QByteArray &json, quint32 limit = UsualControlFrame,
+                              int behind = 0);
 
 /// A control frame that was cut out of its stream, and not read yet.
 struct UnreadControlFrame

@@ -10,6 +10,11 @@
 #include <QtNetwork/QTcpServer>
 #include <QtNetwork/QTcpSocket>
 
+#include <malloc.h>
+
+#include <memory>
+#include <vector>
+
 // Who asks and asks, and takes no answer, costs a bounded amount of memory.
 class tst_UnreadAnswers : public QObject
 {
@@ -19,6 +24,8 @@ private Q_SLOTS:
     void peerThatReadsNothingIsNotServed();
     void peerThatResumesReadingGetsAllAnswers();
     void peerOverTlsThatResumesReadingGetsAllAnswers();
+    void greetingsThatNobodyReadsShareTheTable();
+    void connectionThatIsClosedSendsAllBefore();
 
 private:
     static constexpr int Requests = 300;
@@ -130,6 +137,76 @@ void tst_UnreadAnswers::peerOverTlsThatResumesReadingGetsAllAnswers()
     int answers = 0;
     QTRY_VERIFY_WITH_TIMEOUT((answers += countIn(&reader, way->readAll())) == Requests, 20000);
     QCOMPARE(answerer->bytesToSend(), qint64(0));
+}
+
+/// A table whose text is larger than what the kernel keeps of a connection.
+static QPlcSignalTable largeTable()
+{
+    QByteArray text;
+    for (int i = 0; i < 50'000; ++i)
+        text += "[signal" + QByteArray::number(i) + "]\ntype=Real64\ndescription=" + QByteArray(80, 'x') + "\n";
+    return QPlcSignalTable::fromIni(text);
+}
+
+/// [byte]
+static std::size_t heapInUse()
+{
+    const struct mallinfo2 heap = ::mallinfo2();
+    return heap.uordblks + heap.hblkhd;
+}
+
+/// Whoever is greeted with the table costs a copy of it otherwise, without being known to anybody.
+void tst_UnreadAnswers::greetingsThatNobodyReadsShareTheTable()
+{
+    constexpr int strangers = 60;
+    const QPlcSignalTable table = largeTable();
+    const auto size = std::size_t(table.toIni().size());
+    QVERIFY(size > 5'000'000);
+    QPlcMasterNode master;
+    QVERIFY(master.setSignalTable(table));
+    QVERIFY(master.startServer(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, 0)));
+    std::vector<std::unique_ptr<QTcpSocket>> sockets;
+    const std::size_t before = heapInUse();
+    for (int i = 0; i < strangers; ++i) {
+        sockets.push_back(std::make_unique<QTcpSocket>());
+        QTcpSocket &socket = *sockets.back();
+        socket.setReadBufferSize(1000);
+        socket.connectToHost(QHostAddress::LocalHost, master.serverPort());
+        QTRY_COMPARE(socket.state(), QAbstractSocket::ConnectedState);
+        socket.write(qplc::encodeControlFrame(
+            QPlcMessage(QPlcMessage::Hello,
+                        {{"protocol", 2}, {"name", QStringLiteral("stranger%1").arg(i)}, {"wantsTable", true}})));
+        QTRY_VERIFY(socket.bytesAvailable() > 0);
+    }
+    const std::size_t grown = heapInUse() - std::min(before, heapInUse());
+    QVERIFY2(grown < size * strangers / 10, QByteArray::number(qulonglong(grown)).constData());
+    // And who reads gets all of it.
+    QTcpSocket &reading = *sockets.back();
+    reading.setReadBufferSize(0);
+    qplc::ControlFrameReader reader;
+    reader.setLimit(qplc::MaximumControlFrame);
+    QPlcMessage greeting;
+    QVERIFY(waitUntil([&] { return reader.append(reading.readAll()), reader.next(&greeting); }));
+    QCOMPARE(greeting.kind(), QPlcMessage::Hello);
+    QCOMPARE(greeting.fields().value(QStringLiteral("table")).toString().toUtf8(), table.toIni());
+}
+
+void tst_UnreadAnswers::connectionThatIsClosedSendsAllBefore()
+{
+    Ends ends;
+    QVERIFY(ends.connectEnds());
+    QTRY_VERIFY(ends.answerer->bytesToSend() > Most / 2);
+    ends.answerer->close();
+    QVERIFY(!ends.answerer->isConnected());
+    QVERIFY(!ends.answerer->sendMessage(QPlcMessage(QPlcMessage::Done)));
+    const int asked = ends.asked;
+    ends.asker.setReadBufferSize(0);
+    qplc::ControlFrameReader reader;
+    int answers = 0;
+    QTRY_COMPARE(((answers += countIn(&reader, ends.asker.readAll())), ends.asker.state()),
+                 QAbstractSocket::UnconnectedState);
+    answers += countIn(&reader, ends.asker.readAll());
+    QCOMPARE(answers, asked);
 }
 
 QTEST_GUILESS_MAIN(tst_UnreadAnswers)

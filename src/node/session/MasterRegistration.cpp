@@ -183,8 +183,11 @@ void MasterServer::open(MasterConnection *connection, const messages::ClientHell
     Q_EMIT greeted(connection);
     const bool needsTable
         = greeting.wantsTable && greeting.tableHash.value_or(messages::Hex64()) != m_image.table().hash();
-    const QByteArray text = needsTable ? m_greeting.withTable(hello) : messages::HelloText::withoutTable(hello);
-    if (!PacedReading::send(*connection->socket, hello.kind, text))
+    using messages::HelloText;
+    const bool isSent = needsTable
+        ? PacedReading::send(*connection->socket, hello.kind, HelloText::beforeTable(hello), m_greeting.table())
+        : PacedReading::send(*connection->socket, hello.kind, HelloText::withoutTable(hello));
+    if (!isSent)
         reject(connection, messages::errorWord::tooLong,
                QStringLiteral("the signal table is too long to be sent; give '%1' the same table as the master")
                    .arg(connection->name));

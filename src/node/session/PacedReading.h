@@ -37,8 +37,10 @@ public:
     static bool wasTakenAhead(const QPlcAbstractSocket &socket);
     /// Whether one behind it was.
     static bool isOvertaken(const QPlcAbstractSocket &socket);
-    /// Sends a message whose fields are \a json already. \return false when they are too long
-    static bool send(QPlcAbstractSocket &socket, QPlcMessage::Kind kind, const QByteArray &json);
+    /// Sends a message whose fields are \a json and \a end already. However slowly the other end
+    /// reads, \a end is not copied as a whole. \return false when they are too long
+    static bool send(QPlcAbstractSocket &socket, QPlcMessage::Kind kind, const QByteArray &json,
+                     const QByteArray &end = {});
 };
 
 }  // namespace qplc

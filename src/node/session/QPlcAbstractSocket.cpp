@@ -10,8 +10,63 @@
 #include <QtCore/QPointer>
 #include <QtNetwork/QTcpSocket>
 
+#include <algorithm>
+#include <deque>
 #include <fcntl.h>
 #include <functional>
+
+namespace {
+
+constexpr qint64 MostUnread
+    = 1 << 20;  // [byte] that the other end has not taken in; then its requests wait, most of them with it
+constexpr qint64 MostBuffered = 1 << 16;  // [byte] of them that wait here
+constexpr qint64 MostCopied = 1 << 16;    // [byte] of what is sent that each socket keeps for itself
+
+/// What the socket has not got yet. It copies what it gets: however slowly the other ends read,
+/// connections that send the same bytes share them here.
+class Unsent
+{
+public:
+    void append(const QByteArray &bytes)
+    {
+        if (bytes.isEmpty())
+            return;
+        m_parts.push_back(bytes);
+        m_size += bytes.size();
+    }
+    void clear()
+    {
+        m_parts.clear();
+        m_size = 0;
+        m_begin = 0;
+    }
+    qint64 size() const { return m_size; }  // [byte]
+    /// Gives \a socket at most \a bytes. \return false if it does not take them
+    bool give(QTcpSocket *socket, qint64 bytes)
+    {
+        while (bytes > 0 && !m_parts.empty()) {
+            const QByteArray &part = m_parts.front();
+            const int given = int(std::min<qint64>(bytes, part.size() - m_begin));
+            if (socket->write(part.constData() + m_begin, given) != given)
+                return false;
+            bytes -= given;
+            m_size -= given;
+            m_begin += given;
+            if (m_begin == part.size()) {
+                m_parts.pop_front();
+                m_begin = 0;
+            }
+        }
+        return true;
+    }
+
+private:
+    std::deque<QByteArray> m_parts;
+    int m_begin = 0;    // [byte] of the first part: what is before it is given
+    qint64 m_size = 0;  // [byte]
+};
+
+}  // namespace
 
 struct QPlcAbstractSocket::Private
 {
@@ -19,7 +74,9 @@ struct QPlcAbstractSocket::Private
     qplc::Tls *tls = nullptr;  // of the socket, when it is or will be encrypted, or comes from a master with security
     qplc::ControlFrameReader reader;
     quint32 sendLimit = qplc::UsualControlFrame;  // [byte]
+    Unsent unsent;
     bool isSending = false;
+    bool isClosing = false;               // when all is sent
     bool isPaused = false;                // the other end takes nothing in
     std::function<void()> onArrival;      // null: messages are given away as they come
     std::function<bool(quint32)> admits;  // whether a long message may go on arriving; null: always
@@ -31,6 +88,36 @@ struct QPlcAbstractSocket::Private
     {
         const quint32 length = reader.announced();
         return length <= qplc::UsualControlFrame || !admits || reader.error() || admits(length);
+    }
+    qint64 bytesInSocket() const { return socket->bytesToWrite() + (tls ? tls->encryptedBytesToWrite() : 0); }
+    /// Gives the socket as much as it may copy. \return false if it takes nothing
+    bool giveUnsent()
+    {
+        bool isTaken = true;
+        while (isTaken && unsent.size() > 0 && bytesInSocket() < MostCopied)
+            isTaken = unsent.give(socket, MostCopied - bytesInSocket());
+        if (isClosing && unsent.size() == 0) {
+            isClosing = false;
+            socket->disconnectFromHost();
+        }
+        return isTaken;
+    }
+    void forgetUnsent()
+    {
+        unsent.clear();
+        isClosing = false;
+    }
+    /// Sends as much as the other end takes at once. \return false if the socket takes nothing
+    bool send(QPlcAbstractSocket *owner)
+    {
+        const QPointer<QPlcAbstractSocket> self(owner);  // who hears of an error may delete it
+        isSending = true;
+        bool isTaken = giveUnsent();
+        while (self && socket->flush() && self && isTaken && unsent.size() > 0)
+            isTaken = giveUnsent();
+        if (self)
+            isSending = false;
+        return isTaken;
     }
     void readMore()
     {
@@ -50,10 +137,6 @@ struct QPlcAbstractSocket::Private
 };
 
 namespace {
-
-constexpr qint64 MostUnread
-    = 1 << 20;  // [byte] that the other end has not taken in; then its requests wait, most of them with it
-constexpr qint64 MostBuffered = 1 << 16;  // [byte] of them that wait here
 
 QPlcAbstractSocket::Error errorOf(QAbstractSocket::SocketError error)
 {
@@ -107,6 +190,7 @@ void QPlcAbstractSocket::setSocket(QTcpSocket *socket)
     d->tls = qplc::Tls::of(socket);
     d->reader = qplc::ControlFrameReader();
     d->sendLimit = qplc::UsualControlFrame;
+    d->forgetUnsent();
     socket->setParent(this);
     setControlOptions(socket);
     const auto nowConnected = [this] {
@@ -117,11 +201,15 @@ void QPlcAbstractSocket::setSocket(QTcpSocket *socket)
         connect(d->tls, &qplc::Tls::encrypted, this, nowConnected);
     else
         connect(socket, &QTcpSocket::connected, this, nowConnected);
-    connect(socket, &QTcpSocket::disconnected, this, &QPlcAbstractSocket::disconnected);
+    connect(socket, &QTcpSocket::disconnected, this, [this] {
+        d->forgetUnsent();
+        Q_EMIT disconnected();
+    });
     connect(socket, &QTcpSocket::readyRead, this, &QPlcAbstractSocket::readMessages);
     const auto goOn = [this] {
         if (d->isPaused && bytesToSend() <= MostUnread)  // not at once: who sends may be in the middle of a message
             QMetaObject::invokeMethod(this, &QPlcAbstractSocket::readMessages, Qt::QueuedConnection);
+        d->giveUnsent();
     };
     connect(socket, &QTcpSocket::bytesWritten, this, goOn);
     if (d->tls)  // which counts as written what it has encrypted
@@ -142,7 +230,8 @@ QTcpSocket *QPlcAbstractSocket::socket() const
 
 bool QPlcAbstractSocket::isConnected() const
 {
-    return d->socket->state() == QAbstractSocket::ConnectedState && !(d->tls && d->tls->isHandshaking());
+    return d->socket->state() == QAbstractSocket::ConnectedState && !d->isClosing
+        && !(d->tls && d->tls->isHandshaking());
 }
 
 bool QPlcAbstractSocket::isSecured() const
@@ -175,27 +264,24 @@ bool QPlcAbstractSocket::sendFrame(const QByteArray &frame, QPlcMessage::Kind ki
         return false;
     }
     qCDebug(lcControl).noquote() << "to" << peerName() << QPlcMessage::kindName(kind) << shown(frame, isSecured());
-    const QPointer<QPlcAbstractSocket> self(this);  // who hears of an error may delete us
-    d->isSending = true;
-    const bool sent = d->socket->write(frame) == frame.size();
-    d->socket->flush();
-    if (self)
-        d->isSending = false;
-    return sent;
+    d->unsent.append(frame);
+    return d->send(this);
 }
 
 qint64 QPlcAbstractSocket::bytesToSend() const
 {
-    return d->socket->bytesToWrite() + (d->tls ? d->tls->encryptedBytesToWrite() : 0);
+    return d->unsent.size() + d->bytesInSocket();
 }
 
 void QPlcAbstractSocket::close()
 {
-    d->socket->disconnectFromHost();
+    d->isClosing = true;
+    d->send(this);
 }
 
 void QPlcAbstractSocket::abort()
 {
+    d->forgetUnsent();
     d->socket->abort();
 }
 
@@ -352,9 +438,18 @@ bool PacedReading::isOvertaken(const QPlcAbstractSocket &socket)
     return socket.d->reader.isOvertaken();
 }
 
-bool PacedReading::send(QPlcAbstractSocket &socket, QPlcMessage::Kind kind, const QByteArray &json)
+bool PacedReading::send(QPlcAbstractSocket &socket, QPlcMessage::Kind kind, const QByteArray &json,
+                        const QByteArray &end)
 {
-    return socket.isConnected() && socket.sendFrame(encodeControlFrame(kind, json, socket.d->sendLimit), kind);
+    const QPointer<QPlcAbstractSocket> self(&socket);  // who hears of an error may delete it
+    if (!socket.isConnected()
+        || !socket.sendFrame(encodeControlFrame(kind, json, socket.d->sendLimit, end.size()), kind))
+        return false;
+    if (!self || end.isEmpty())
+        return true;
+    qCDebug(lcControl).noquote() << "to" << socket.peerName() << end.size() << "bytes that belong to it";
+    socket.d->unsent.append(end);
+    return socket.d->send(&socket);
 }
 
 }  // namespace qplc

@@ -9,7 +9,7 @@ namespace qplc::messages {
 
 namespace {
 
-QByteArray endWith(const QPlcSignalTable &table)
+QByteArray textOf(const QPlcSignalTable &table)
 {
     const QJsonObject field{{QStringLiteral("table"), QString::fromUtf8(table.toIni())}};
     return QJsonDocument(field).toJson(QJsonDocument::Compact).replace(0, 1, ",");
@@ -18,13 +18,13 @@ QByteArray endWith(const QPlcSignalTable &table)
 }  // namespace
 
 HelloText::HelloText(const QPlcSignalTable &table)
-    : m_end(endWith(table))
+    : m_table(textOf(table))
 {
 }
 
-QByteArray HelloText::withTable(const MasterHello &hello) const
+QByteArray HelloText::beforeTable(const MasterHello &hello)
 {
-    return withoutTable(hello).chopped(1) + m_end;
+    return withoutTable(hello).chopped(1);
 }
 
 QByteArray HelloText::withoutTable(const MasterHello &hello)
