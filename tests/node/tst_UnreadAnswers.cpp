@@ -158,7 +158,7 @@ static std::size_t heapInUse()
 /// Whoever is greeted with the table costs a copy of it otherwise, without being known to anybody.
 void tst_UnreadAnswers::greetingsThatNobodyReadsShareTheTable()
 {
-    constexpr int strangers = 60;
+    constexpr int strangers = 20;
     const QPlcSignalTable table = largeTable();
     const auto size = std::size_t(table.toIni().size());
     QVERIFY(size > 5'000'000);
