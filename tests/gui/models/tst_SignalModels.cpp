@@ -170,14 +170,15 @@ void tst_SignalModels::visibleRowsAreUpdatedAtMostTenTimesASecond()
     time.start();
     changes.clear();
     QTRY_VERIFY(changes.size() > 5);
+    int ofCounter = 0;
     for (const QList<QVariant> &change : qAsConst(changes)) {
         const QString node = change.at(0).toModelIndex().parent().data().toString();
+        ofCounter += node == QLatin1String("Counter") ? 1 : 0;
         QVERIFY2(node == QLatin1String("Counter") || wasStale, qPrintable(node));
         QCOMPARE(change.at(0).toModelIndex().column(), int(SignalTreeModel::Value));
     }
-    QVERIFY(wasStale
-            || double(changes.size())
-                <= double(time.elapsed()) / SignalTreeModel::RefreshPause * 2 + 2);  // count, sum: a range or two
+    QVERIFY(double(ofCounter)
+            <= double(time.elapsed()) / SignalTreeModel::RefreshPause * 2 + 2);  // count, sum: a range or two
     view.collapseAll();
     QTest::qWait(3 * SignalTreeModel::RefreshPause);
     changes.clear();
@@ -252,7 +253,9 @@ void tst_SignalModels::chosenSignalsShowRangeQualityAndRate()
     QVERIFY(master.startRealTime());
     QTRY_COMPARE(cellText(table, 0, ValueTableModel::QualityColumn), QStringLiteral("good"));
     QTRY_VERIFY(cellText(table, 0, ValueTableModel::Maximum).toInt() > 50);
-    QVERIFY(cellText(table, 0, ValueTableModel::Minimum).toInt() < 25);  // a loaded computer hears some too late
+    const SignalStore *store = plant->store();  // a loaded computer may hear the first cycles too late
+    const int count = plant->values().channels().channel(plant->table().indexOf(QStringLiteral("count")));
+    QCOMPARE(cellText(table, 0, ValueTableModel::Minimum).toFloat(), store->value(count, store->firstRow()));
     QTRY_VERIFY(cellText(table, 0, ValueTableModel::Rate).endsWith(QStringLiteral(" Hz")));
     QCOMPARE(cellText(table, 2, ValueTableModel::Minimum), QString());
     QCOMPARE(cellText(table, 3, ValueTableModel::Minimum), QString());
