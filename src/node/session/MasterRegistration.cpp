@@ -183,11 +183,9 @@ void MasterServer::open(MasterConnection *connection, const messages::ClientHell
     Q_EMIT greeted(connection);
     const bool needsTable
         = greeting.wantsTable && greeting.tableHash.value_or(messages::Hex64()) != m_image.table().hash();
-    using messages::HelloText;
-    const bool isSent = needsTable
-        ? PacedReading::send(*connection->socket, hello.kind, HelloText::beforeTable(hello), m_greeting.table())
-        : PacedReading::send(*connection->socket, hello.kind, HelloText::withoutTable(hello));
-    if (!isSent)
+    const QByteArray text
+        = needsTable ? messages::HelloText::beforeTable(hello) : messages::HelloText::withoutTable(hello);
+    if (!PacedReading::send(*connection->socket, hello.kind, text, needsTable ? m_greeting.table() : QByteArray()))
         reject(connection, messages::errorWord::tooLong,
                QStringLiteral("the signal table is too long to be sent; give '%1' the same table as the master")
                    .arg(connection->name));

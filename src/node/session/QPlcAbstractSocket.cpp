@@ -22,6 +22,12 @@ constexpr qint64 MostUnread
 constexpr qint64 MostBuffered = 1 << 16;  // [byte] of them that wait here
 constexpr qint64 MostCopied = 1 << 16;    // [byte] of what is sent that each socket keeps for itself
 
+/// For the debug log. What is encrypted for the wire may hold keys: it stays secret here, too.
+QString shown(const QByteArray &frame, bool isSecured)
+{
+    return isSecured ? QStringLiteral("%1 bytes").arg(frame.size()) : QString::fromLatin1(frame.toHex(' '));
+}
+
 /// What the socket has not got yet. It copies what it gets: however slowly the other ends read,
 /// connections that send the same bytes share them here.
 class Unsent
@@ -41,21 +47,19 @@ public:
         m_begin = 0;
     }
     qint64 size() const { return m_size; }  // [byte]
-    /// Gives \a socket at most \a bytes. \return false if it does not take them
+    /// Gives \a socket some of it, at most \a bytes. \return false if it does not take them
+    /// \pre size() > 0
     bool give(QTcpSocket *socket, qint64 bytes)
     {
-        while (bytes > 0 && !m_parts.empty()) {
-            const QByteArray &part = m_parts.front();
-            const int given = int(std::min<qint64>(bytes, part.size() - m_begin));
-            if (socket->write(part.constData() + m_begin, given) != given)
-                return false;
-            bytes -= given;
-            m_size -= given;
-            m_begin += given;
-            if (m_begin == part.size()) {
-                m_parts.pop_front();
-                m_begin = 0;
-            }
+        const QByteArray &part = m_parts.front();
+        const int given = int(std::min<qint64>(bytes, part.size() - m_begin));
+        if (socket->write(part.constData() + m_begin, given) != given)
+            return false;
+        m_size -= given;
+        m_begin += given;
+        if (m_begin == part.size()) {
+            m_parts.pop_front();
+            m_begin = 0;
         }
         return true;
     }
@@ -107,8 +111,22 @@ struct QPlcAbstractSocket::Private
         unsent.clear();
         isClosing = false;
     }
-    /// Sends as much as the other end takes at once. \return false if the socket takes nothing
-    bool send(QPlcAbstractSocket *owner)
+    /// Sends \a frame, and \a end behind it.
+    bool send(QPlcAbstractSocket *owner, QPlcMessage::Kind kind, const QByteArray &frame, const QByteArray &end = {})
+    {
+        if (frame.isEmpty()) {
+            qCWarning(lcControl).noquote()
+                << QPlcMessage::kindName(kind) << "for" << owner->peerName() << "is too long or too deep to be sent";
+            return false;
+        }
+        qCDebug(lcControl).noquote() << "to" << owner->peerName() << QPlcMessage::kindName(kind)
+                                     << shown(frame + end, owner->isSecured());
+        unsent.append(frame);
+        unsent.append(end);
+        return sendUnsent(owner);
+    }
+    /// As much as the other end takes at once. \return false if the socket takes nothing
+    bool sendUnsent(QPlcAbstractSocket *owner)
     {
         const QPointer<QPlcAbstractSocket> self(owner);  // who hears of an error may delete it
         isSending = true;
@@ -159,12 +177,6 @@ void setControlOptions(QTcpSocket *socket)
 {
     socket->setSocketOption(QAbstractSocket::LowDelayOption, 1);
     qplc::LossWatch::begin(int(socket->socketDescriptor()));
-}
-
-/// For the debug log. What is encrypted for the wire may hold keys: it stays secret here, too.
-QString shown(const QByteArray &frame, bool isSecured)
-{
-    return isSecured ? QStringLiteral("%1 bytes").arg(frame.size()) : QString::fromLatin1(frame.toHex(' '));
 }
 
 }  // namespace
@@ -258,14 +270,7 @@ bool QPlcAbstractSocket::sendMessage(const QPlcMessage &message)
 
 bool QPlcAbstractSocket::sendFrame(const QByteArray &frame, QPlcMessage::Kind kind)
 {
-    if (frame.isEmpty()) {
-        qCWarning(lcControl).noquote() << QPlcMessage::kindName(kind) << "for" << peerName()
-                                       << "is too long or too deep to be sent";
-        return false;
-    }
-    qCDebug(lcControl).noquote() << "to" << peerName() << QPlcMessage::kindName(kind) << shown(frame, isSecured());
-    d->unsent.append(frame);
-    return d->send(this);
+    return d->send(this, kind, frame);
 }
 
 qint64 QPlcAbstractSocket::bytesToSend() const
@@ -276,7 +281,7 @@ qint64 QPlcAbstractSocket::bytesToSend() const
 void QPlcAbstractSocket::close()
 {
     d->isClosing = true;
-    d->send(this);
+    d->sendUnsent(this);
 }
 
 void QPlcAbstractSocket::abort()
@@ -441,15 +446,8 @@ bool PacedReading::isOvertaken(const QPlcAbstractSocket &socket)
 bool PacedReading::send(QPlcAbstractSocket &socket, QPlcMessage::Kind kind, const QByteArray &json,
                         const QByteArray &end)
 {
-    const QPointer<QPlcAbstractSocket> self(&socket);  // who hears of an error may delete it
-    if (!socket.isConnected()
-        || !socket.sendFrame(encodeControlFrame(kind, json, socket.d->sendLimit, end.size()), kind))
-        return false;
-    if (!self || end.isEmpty())
-        return true;
-    qCDebug(lcControl).noquote() << "to" << socket.peerName() << end.size() << "bytes that belong to it";
-    socket.d->unsent.append(end);
-    return socket.d->send(&socket);
+    return socket.isConnected()
+        && socket.d->send(&socket, kind, encodeControlFrame(kind, json, socket.d->sendLimit, end.size()), end);
 }
 
 }  // namespace qplc
