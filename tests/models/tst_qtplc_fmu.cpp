@@ -378,14 +378,14 @@ void tst_qtplc_fmu::nodeIsPartOfAPlant()
     QVERIFY(master.listen());
     QProcess process;
     start(&process, master, file, 0);
-    QVERIFY(waitUntil([&] { return master.nodes().size() == 1; }, 20000));
+    QVERIFY(waitUntil([&] { return master.nodes().size() == 1; }));
     QVERIFY(master.setSignalValue("setpoint", 1.0));
     master.setCycleLimit(100);
     QVERIFY(master.startRealTime());
     QVERIFY(master.waitForState(QPlcMasterNode::Off));
     QVERIFY(master.signalValue("sum").toReal() > 1.9);
     process.terminate();
-    QVERIFY(waitUntil([&] { return process.state() == QProcess::NotRunning; }, 20000));
+    QVERIFY(waitUntil([&] { return process.state() == QProcess::NotRunning; }));
     QCOMPARE(process.exitStatus(), QProcess::NormalExit);
     QCOMPARE(process.exitCode(), 0);
     QVERIFY(QDir(m_folder.filePath("temporary")).isEmpty());
@@ -410,11 +410,11 @@ void tst_qtplc_fmu::crashLosesTheNodeAndNotThePlant()
     QVERIFY(master.listen());
     QProcess process;
     start(&process, master, "plant2", fault);
-    QVERIFY(waitUntil([&] { return master.nodes().size() == 1; }, 20000));
+    QVERIFY(waitUntil([&] { return master.nodes().size() == 1; }));
     QSignalSpy lost(&master, &QPlcMasterNode::nodeLost);
     const LogCapture log;
     QVERIFY(master.startRealTime());
-    QVERIFY(waitUntil([&] { return process.state() == QProcess::NotRunning; }, 20000));
+    QVERIFY(waitUntil([&] { return process.state() == QProcess::NotRunning; }));
     QCOMPARE(process.exitStatus(), isSignal ? QProcess::CrashExit : QProcess::NormalExit);
     const QString output = QString::fromUtf8(process.readAll());
     QVERIFY2(output.contains(text), qPrintable(output));
@@ -432,13 +432,12 @@ void tst_qtplc_fmu::slowStepIsLateAndThePlantGoesOn()
     QVERIFY(master.listen());
     QProcess process;
     start(&process, master, "plant3", 7);  // each step takes 150 ms
-    QVERIFY(waitUntil([&] { return master.nodes().size() == 1; }, 20000));
+    QVERIFY(waitUntil([&] { return master.nodes().size() == 1; }));
     const LogCapture log;
     QVERIFY(master.setSignalValue("setpoint", 1.0));
     master.setInterval(std::chrono::milliseconds(10));
     QVERIFY(master.startRealTime());
-    QVERIFY(
-        waitUntil([&] { return master.statistics().cycles > 100 && master.signalValue("sum").toReal() > 1.0; }, 20000));
+    QVERIFY(waitUntil([&] { return master.statistics().cycles > 100 && master.signalValue("sum").toReal() > 1.0; }));
     // In most cycles the FMU computes an older one.
     const double computed = (master.signalValue("sum").toReal() - 1.0) / 0.01;
     QVERIFY2(computed < double(master.statistics().cycles) / 3.0, qPrintable(QString::number(computed)));
@@ -446,7 +445,7 @@ void tst_qtplc_fmu::slowStepIsLateAndThePlantGoesOn()
     QVERIFY(!log.matching("late").isEmpty());
     master.stop();
     process.terminate();
-    QVERIFY(waitUntil([&] { return process.state() == QProcess::NotRunning; }, 20000));
+    QVERIFY(waitUntil([&] { return process.state() == QProcess::NotRunning; }));
 }
 
 void tst_qtplc_fmu::hangingStepEndsWithItsProcess()
@@ -455,10 +454,10 @@ void tst_qtplc_fmu::hangingStepEndsWithItsProcess()
     QVERIFY(master.listen());
     QProcess process;
     start(&process, master, "plant2", 8);
-    QVERIFY(waitUntil([&] { return master.nodes().size() == 1; }, 20000));
+    QVERIFY(waitUntil([&] { return master.nodes().size() == 1; }));
     const LogCapture log;
     QVERIFY(master.startRealTime());
-    QVERIFY(waitUntil([&] { return !log.matching("late").isEmpty(); }, 20000));
+    QVERIFY(waitUntil([&] { return !log.matching("late").isEmpty(); }));
     const quint64 cycles = master.statistics().cycles;
     QVERIFY(master.waitForCycles(cycles + 10));
     process.terminate();
@@ -477,15 +476,15 @@ void tst_qtplc_fmu::hangingInitializationEndsWithItsProcess()
     QVERIFY(master.listen());
     QProcess process;
     start(&process, master, file, 11, {"--stay"});
-    QVERIFY(waitUntil([&] { return master.nodes().size() == 1; }, 20000));
+    QVERIFY(waitUntil([&] { return master.nodes().size() == 1; }));
     QVERIFY(master.startRealTime());
     QString output;
     const auto tells = [&](const char *text) {
         output += QString::fromUtf8(process.readAll());
         return output.contains(text);
     };
-    QVERIFY2(waitUntil([&] { return tells("the plant hangs"); }, 20000), qPrintable(output));
-    QVERIFY(waitUntil([&] { return master.error() == QPlcMasterNode::InitializationError; }, 20000));
+    QVERIFY2(waitUntil([&] { return tells("the plant hangs"); }), qPrintable(output));
+    QVERIFY(waitUntil([&] { return master.error() == QPlcMasterNode::InitializationError; }));
     QVERIFY2(master.errorString().contains("no answer"), qPrintable(master.errorString()));
     process.terminate();
     QVERIFY(waitUntil([&] { return process.state() == QProcess::NotRunning; }, 60000));

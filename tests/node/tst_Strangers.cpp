@@ -183,7 +183,7 @@ void tst_Strangers::toolThatSendsTooManyRequestsIsDisconnected()
     QSignalSpy gone(&tool.control, &QPlcAbstractSocket::disconnected);
     for (int i = 0; i < 20000 && tool.control.isConnected(); ++i)
         tool.send(QPlcMessage::GetLeases);
-    QTRY_VERIFY_WITH_TIMEOUT(!gone.isEmpty(), 20000);
+    QTRY_VERIFY(!gone.isEmpty());
     QTRY_VERIFY(!m_log->matching("too many messages").isEmpty());  // it may not have read it before the end
     QVERIFY(lets("Counter"));
 }
@@ -205,7 +205,7 @@ void tst_Strangers::nodeThatSendsTooManyRequestsIsDisconnected()
     QSignalSpy lost(m_master.data(), &QPlcMasterNode::nodeLost);
     for (int i = 0; i < 20000 && node.control.isConnected(); ++i)
         node.send(QPlcMessage::Kind(kind));
-    QTRY_VERIFY_WITH_TIMEOUT(!gone.isEmpty(), 20000);
+    QTRY_VERIFY(!gone.isEmpty());
     QTRY_COMPARE(lost.size(), 1);
     QTRY_VERIFY(!m_log->matching("too many messages").isEmpty());
     QVERIFY(lets("Counter"));

@@ -187,7 +187,7 @@ void tst_PlotTrigger::everyEventIsSaved()
     PlotWindow window(triggered(R"(,"mode":"normal")" + save));
     QVERIFY(window.run(0.1));
     const auto files = [&] { return QDir(folder.path()).entryList(QDir::Files); };
-    QTRY_COMPARE_WITH_TIMEOUT(files().size(), 3, 20'000);
+    QTRY_COMPARE(files().size(), 3);
     // What is shown before the first event may begin before the plant did.
     QFile file(QDir(folder.path()).filePath(files().at(1)));
     QVERIFY(file.open(QIODevice::ReadOnly));

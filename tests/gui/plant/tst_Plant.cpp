@@ -380,7 +380,7 @@ void tst_Plant::hostsAreLookedUpInTheBackground()
     QSignalSpy failed(&resolver, &AddressResolver::failed);
     resolver.resolve(QStringLiteral("no-such-host.invalid:50000"));
     QVERIFY(failed.isEmpty());
-    QTRY_COMPARE_WITH_TIMEOUT(failed.size(), 1, 20000);
+    QTRY_COMPARE(failed.size(), 1);
     QVERIFY(failed.at(0).at(0).toString().contains(QStringLiteral("no-such-host.invalid")));
     resolver.resolve(QStringLiteral("127.0.0.1:notAPort"));
     QCOMPARE(failed.size(), 2);

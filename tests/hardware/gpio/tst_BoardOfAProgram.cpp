@@ -44,7 +44,7 @@ struct Plant
         program.start(QStringLiteral(QTPLC_HARDWARE_PROGRAM),
                       {file.fileName(), QStringLiteral("--watchdog"), QStringLiteral("2"), QStringLiteral("--master"),
                        QStringLiteral("udp://127.0.0.1:%1").arg(master->serverPort())});
-        return waitUntil([this] { return !master->nodes().isEmpty(); }, 20000) && master->startRealTime()
+        return waitUntil([this] { return !master->nodes().isEmpty(); }) && master->startRealTime()
             && master->waitForState(QPlcMasterNode::RealTime) && master->setSignalValue("brakeRelease", 1);
     }
     void pull(bool isHigh) { memory.at(2) = isHigh ? FakeGpioChip::Pulled : 0; }
